@@ -11,7 +11,7 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.executors import JOBS
@@ -19,14 +19,6 @@ from bearing_explorer.results.jobs import Change
 from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
 
-
-class _Question(Protocol):
-    @property
-    def measured(self) -> Measured:
-        """The signal it is about."""
-
-
-Asked = TypeVar("Asked", bound=_Question)
 Found = TypeVar("Found")
 
 log = logging.getLogger(__name__)
@@ -83,23 +75,17 @@ class Question:
 
 
 @dataclass(frozen=True)
-class ExtentQuestion:
-    """A diagnosed recording whose spall is to be measured.
+class ExtentQuestion(Question):
+    """A diagnosed recording whose spall is to be measured; here all of the bearing counts.
 
     `race`: "outer" or "inner" where it is known to be damaged, "" for what the diagnosis names;
     `load`: radial load on the bearing [N], where it is known.
     """
 
-    about: Question
-    bearing: Bearing
+    whole: Bearing | None = None
     race: str = ""
     load: float | None = None
     diagnosis: Diagnosis | None = field(default=None, compare=False)
-
-    @property
-    def measured(self) -> Measured:
-        """The signal."""
-        return self.about.measured
 
 
 def answered(question: Question) -> Diagnosis | str:
@@ -116,7 +102,7 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
         lambda: measure_extent(
             question.measured.recording,
             question.bearing,
-            question.about.shaft_speed,
+            question.shaft_speed,
             race=question.race or None,
             load=question.load,
             diagnosis=question.diagnosis,
@@ -134,7 +120,7 @@ def _or_why_not(compute: Callable[[], Found]) -> Found | str:
         return FAILED
 
 
-class Answers(Generic[Asked, Found]):
+class Answers(Generic[Found]):
     """The answers of one session. `want` and `stop` belong on its event loop.
 
     Parameters
@@ -151,27 +137,27 @@ class Answers(Generic[Asked, Found]):
         self,
         assign: Callable[[Change], Awaitable[None]],
         draw: Callable[[], None],
-        compute: Callable[[Asked], Found | str],
+        compute: Callable[[Any], Found | str],
     ) -> None:
         self._assign = assign
         self._draw = draw
         self._compute = compute
-        self._known: dict[Asked, Found | str] = {}
-        self.wanted: Asked | None = None
+        self._known: dict[Question, Found | str] = {}
+        self.wanted: Question | None = None
         self._task: asyncio.Task[None] | None = None
 
-    def of(self, question: Asked) -> Found | str | None:
+    def of(self, question: Question) -> Found | str | None:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
 
-    def keep(self, question: Asked, answer: Found | str) -> None:
+    def keep(self, question: Question, answer: Found | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""
         kept = {q: a for q, a in self._known.items() if q.measured is question.measured}
         while len(kept) >= MOST_KNOWN:
             kept.pop(next(iter(kept)))
         self._known = kept | {question: answer}
 
-    def want(self, question: Asked) -> None:
+    def want(self, question: Question) -> None:
         """Have it answered, in place of what was wanted before; without a loop nothing is."""
         self.wanted = question
         if question in self._known or not (self._task is None or self._task.done()):

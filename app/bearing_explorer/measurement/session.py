@@ -17,13 +17,7 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.measurement.background import noise_level, true_part
-from bearing_explorer.measurement.diagnoses import (
-    Answers,
-    ExtentQuestion,
-    Question,
-    answered,
-    extent_of,
-)
+from bearing_explorer.measurement.diagnoses import Answers, Question, answered, extent_of
 from bearing_explorer.measurement.form import (
     LONGEST_TEXT,
     SIZES,
@@ -158,9 +152,9 @@ class Measurement:
         self._assign = assign
         self._draw = draw
         #: which part is damaged, looked for in the background
-        self.diagnoses: Answers[Question, Diagnosis] = Answers(assign, draw, answered)
+        self.diagnoses: Answers[Diagnosis] = Answers(assign, draw, answered)
         #: how long the spall is, when that is known
-        self.extents: Answers[ExtentQuestion, MeasuredExtent] = Answers(assign, draw, extent_of)
+        self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""

@@ -10,7 +10,7 @@ import numpy as np
 import panel as pn
 from bokeh.plotting import figure
 
-from bearing_explorer.measurement.diagnoses import BUSY, ExtentQuestion, extent_of
+from bearing_explorer.measurement.diagnoses import BUSY, ExtentQuestion, Question, extent_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
@@ -19,7 +19,7 @@ from bearing_explorer.views.measured_view import MEASURED, MeasuredView, write_o
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearing_explorer.widgets.status import StatusLine
-from bearingcore import Bearing, MeasuredExtent
+from bearingcore import Bearing, Diagnosis, MeasuredExtent
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -105,8 +105,15 @@ class SpallExtent(MeasuredView):
         about = None if measurement is None else measurement.question(bearing)
         if measurement is None or about is None or measurement.diagnoses.of(about) is None:
             return None
-        found = measurement.diagnosis(bearing)
-        return ExtentQuestion(about, bearing, self.race, measurement.state.load, found)
+        return self._question(about, measurement.state.load, measurement.diagnosis(bearing))
+
+    def _question(
+        self, about: Question, load: float | None = None, found: Diagnosis | None = None
+    ) -> ExtentQuestion:
+        whole = about.bearing
+        return ExtentQuestion(
+            about.measured, whole, about.speed, about.geometry, whole, self.race, load, found
+        )
 
     def answer(self, bearing: Bearing) -> MeasuredExtent | str | None:
         """The extent, a sentence why there is none, or None: not yet."""
@@ -142,7 +149,7 @@ class SpallExtent(MeasuredView):
             return
         about = self.measurement.question(results.scene.bearing)
         if about is not None:
-            answer = extent_of(ExtentQuestion(about, results.scene.bearing, self.race))
+            answer = extent_of(self._question(about))
             self._given = answer if isinstance(answer, MeasuredExtent) else None
 
     # The picture

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
-from bearing_explorer.plots.levels import DEPTH_OF_VIEW, FREQUENCY, LEVEL_FLOOR, SHOWN, decibels
+from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.serve.packed_source import PackedSource
@@ -28,7 +28,6 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
-from bearing_explorer.views.modes import BAND_WORDS, band_rows, spread
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.status import StatusLine
@@ -44,8 +43,6 @@ SAMPLES = 600
 """Of a mean ball pass that is drawn."""
 BEFORE = 0.14
 """Of a ball pass that is drawn before the entry."""
-NAME_WIDTH = 0.36
-"""Of a band's name, as a share of the width of its figure."""
 
 OUTER, INNER = "outer race", "inner race"
 FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
@@ -88,19 +85,12 @@ class DefectSize(JobView[Sized], MeasuredView):
         self.candidates = CandidateList(self.look_at, self._take_extent)
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
-        self._levels = {dof: StickyRange(-80.0, -20.0, least_span=30.0) for dof in SHOWN}
         seconds = packed.range("sizing_time", 0.0, 0.03)
-        frequency = packed.range("sizing_frequency", 0.0, 2500.0)
         events = packed.source("sizing_events", "time", "exit", "row", "shift")
         self._rows = {}
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         for dof in SHOWN:
-            self._rows[dof] = pn.Row(
-                self._pass_plot(packed, dof, seconds, events),
-                self._spectrum_plot(packed, dof, frequency),
-                stylesheets=[style.WRAPPED],
-                **wide,
-            )
+            self._rows[dof] = pn.Row(self._pass_plot(packed, dof, seconds, events), **wide)
         self._answer_part = pn.Column(
             self.status,
             self.candidates,
@@ -122,34 +112,11 @@ class DefectSize(JobView[Sized], MeasuredView):
         )
         plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
         write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset="shift")
-        self._curves(packed, plot, dof, "pass", "time", "size")
-        return plot
-
-    def _spectrum_plot(self, packed: PackedSource, dof: str, frequency: Range1d) -> figure:
-        plot = style.make_figure(
-            FREQUENCY,
-            style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
-            frequency,
-            packed.range(f"sizing_level_{dof}", -80.0, -20.0),
-            height=HEIGHT,
-            title=f"Spectrum along {dof}, at the multiples of the ball-pass frequency",
-        )
-        color = style.color_along(dof)
-        bands = packed.source(
-            f"sizing_bands_{dof}", "low", "high", "direction", "number", "label_at"
-        )
-        plot.vstrip("low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None)
-        write_over(plot, bands, BAND_WORDS, "label_at", 0.93, color, text_align="center")
-        self._curves(packed, plot, dof, "spectrum", "frequency", "level")
-        return plot
-
-    def _curves(
-        self, packed: PackedSource, plot: figure, dof: str, what: str, along: str, value: str
-    ) -> None:
         color = style.color_along(dof)
         for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
-            source = packed.source(f"sizing_{what}_{who}_{dof}", along, value)
-            plot.line(along, value, source=source, line_color=line, line_width=width)
+            source = packed.source(f"sizing_pass_{who}_{dof}", "time", "size")
+            plot.line("time", "size", source=source, line_color=line, line_width=width)
+        return plot
 
     # The job
 
@@ -223,53 +190,25 @@ class DefectSize(JobView[Sized], MeasuredView):
             "measured": in_order(measured.waveform(SAMPLES, sizing.band.lowest), first),
             "candidate": in_order(candidate.waveform(SAMPLES, sizing.band.lowest), first),
         }
-        levels = {
-            "measured": decibels(measured.density),
-            "candidate": decibels(candidate.passes.density),
-        }
-        frequency = measured.harmonic_frequency
-        seen = (frequency >= sizing.band.lowest) & (frequency <= sizing.band.highest)
-        top = sizing.band.highest
         sources = self._nothing() | edges(sizing, candidate, entry, period)
-        ranges: Ranges = {
-            "sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period),
-            "sizing_frequency": (0.0, top),
-        }
+        ranges: Ranges = {"sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period)}
         for column, dof in enumerate(sizing.recording.directions):
             for who in ("measured", "candidate"):
                 sources[f"sizing_pass_{who}_{dof}"] = {
                     "time": times,
                     "size": curves[who][:, column],
                 }
-                sources[f"sizing_spectrum_{who}_{dof}"] = {
-                    "frequency": frequency[seen],
-                    "level": levels[who][seen, column],
-                }
-            sources[f"sizing_bands_{dof}"] = bands_of(candidate, dof, top)
             ranges[f"sizing_pass_size_{dof}"] = with_head(
                 self._passes[dof], [curve[:, column] for curve in curves.values()], 0.3
-            )
-            level = levels["measured"][seen, column]
-            loudest = max(
-                float(np.nanmax(part[seen, column], initial=LEVEL_FLOOR))
-                for part in levels.values()
-            )
-            lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
-            head = 0.2 * (loudest - lowest)
-            ranges[f"sizing_level_{dof}"] = self._levels[dof].fit(
-                np.array([lowest, loudest + head])
             )
         return sources, ranges
 
     def _nothing(self) -> Sources:
         none = np.zeros(0)
-        bands = dict.fromkeys(("low", "high", "direction", "number", "label_at"), none)
         sources: Sources = {"sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none)}
         for dof in SHOWN:
             for who in ("measured", "candidate"):
                 sources[f"sizing_pass_{who}_{dof}"] = {"time": none, "size": none}
-                sources[f"sizing_spectrum_{who}_{dof}"] = {"frequency": none, "level": none}
-            sources[f"sizing_bands_{dof}"] = bands
         return sources
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -312,14 +251,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         if found is None or found.fault == OUTER:
             return words
         if found.fault == INNER:
-            return (
-                f"{words} The inner race is damaged: its defect turns with the shaft, so its size "
-                "cannot be estimated this way. Step 3 measures it."
-            )
-        return (
-            f"{words} Step 2 does not say that the outer race is damaged. If that is known from "
-            "elsewhere, choose it here."
-        )
+            return f"{words} That of an inner race cannot be estimated this way: see step 3."
+        return f"{words} Choose the outer race here if it is known to be damaged."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         sized = self.sized
@@ -360,8 +293,6 @@ def compute(
         return "There is no answer yet."
     except ValueError as error:
         raise ValueError(sentence_of(error)) from error
-    for candidate in sizing.candidates:
-        _ = candidate.bands  # here, and not while drawing
     job.show(Sized(measured, scene, sizing))
     if not sizing.candidates:
         return "There is no size to look for."
@@ -441,10 +372,3 @@ def edges(sizing: Sizing, candidate: Candidate, entry: float, period: float) -> 
             "shift": np.where(times > (0.8 - BEFORE) * period, -66.0, 4.0),
         }
     }
-
-
-def bands_of(candidate: Candidate, dof: str, top: float) -> dict[str, NDArray[np.float64]]:
-    """A candidate's natural-frequency bands along a direction, with places for their names."""
-    bands = band_rows({label: ends for label, ends in candidate.bands.items() if label[:-1] == dof})
-    middle = 0.5 * (bands["low"] + bands["high"])
-    return {**bands, "label_at": spread(middle, NAME_WIDTH * top, 0.0, top)}

@@ -276,12 +276,10 @@ def test_what_was_measured_stays_put_while_candidates_are_looked_at(sized):
     assert len(asked) == 2
     second, _ = view.data(RESULTS)
     for dof in ("x", "y"):
-        for part in ("pass", "spectrum"):
-            same, other = (f"sizing_{part}_{who}_{dof}" for who in ("measured", "candidate"))
-            for column in first[same]:
-                np.testing.assert_array_equal(first[same][column], second[same][column])
-            value = "size" if part == "pass" else "level"
-            assert not np.array_equal(first[other][value], second[other][value])
+        same, other = (f"sizing_pass_{who}_{dof}" for who in ("measured", "candidate"))
+        for column in first[same]:
+            np.testing.assert_array_equal(first[same][column], second[same][column])
+        assert not np.array_equal(first[other]["size"], second[other]["size"])
     view.say(RESULTS, view.sentence(RESULTS))
     assert view.candidates._looked == 1
 
@@ -386,9 +384,9 @@ def test_the_outer_race_may_be_known_to_be_damaged():
     ("fault", "said"),
     [
         ("outer race", "has not been looked for yet."),
-        ("inner race", "its size cannot be estimated this way"),
-        ("none seen", "Step 2 does not say that the outer race is damaged"),
-        ("cannot tell", "If that is known from elsewhere, choose it here."),
+        ("inner race", "cannot be estimated this way: see step 3"),
+        ("none seen", "Choose the outer race here if it is known"),
+        ("cannot tell", "Choose the outer race here if it is known"),
     ],
 )
 def test_before_a_size_is_looked_for_it_is_said_whether_there_can_be_one(fault, said):
@@ -433,7 +431,7 @@ def test_a_single_direction_hides_the_other_s_figures():
     view._take(found)
     sources, ranges = view.data(RESULTS)
     assert not sources["sizing_pass_measured_x"]["time"].size
-    assert "sizing_level_x" not in ranges
+    assert "sizing_pass_size_x" not in ranges
     view.say(RESULTS, view.sentence(RESULTS))
     assert [view._rows[dof].visible for dof in ("x", "y")] == [False, True]
     assert view.csv().startswith("extent_deg,ball_spacings,probability,edge,")

@@ -127,7 +127,7 @@ def test_no_size_is_looked_for_where_another_part_is_accused_or_none():
     assert not sized.conclusive
     assert sized.diagnosis is not None
     assert sized.status == SizingStatus.OTHER_PART
-    assert sized.sentence == sized.diagnosis.status
+    assert sized.sentence == sized.diagnosis.sentence
     with pytest.raises(ValueError, match=re.escape(sized.sentence[:20])):
         _ = sized.best
     assert len(sized.table()["extent"]) == 0

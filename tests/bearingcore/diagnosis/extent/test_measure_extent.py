@@ -104,7 +104,21 @@ def test_a_pit_has_no_extent_to_measure():
         found = measured(signal(entry=0.0, seed=seed))
         assert not found.measured
         assert math.isnan(found.extent)
-        assert found.status in (ExtentStatus.ONE_KNOCK, ExtentStatus.UNCLEAR)
+        assert found.status in (
+            ExtentStatus.ONE_KNOCK,
+            ExtentStatus.UNCLEAR,
+            ExtentStatus.SHORTER,
+        )
+
+
+def test_what_does_not_resolve_is_given_a_bound_that_holds():
+    pit = measured(signal(entry=0.0))
+    assert pit.status == ExtentStatus.SHORTER
+    assert pit.answer == f"shorter than about {math.degrees(pit.high):.0f}°, outer race"
+    assert pit.low == 0.0
+    for apart_deg in (0.7, 1.5):
+        close = measured(signal(apart_deg=apart_deg))
+        assert not close.high < math.radians(apart_deg)
 
 
 def test_noise_has_nothing_to_measure():

@@ -17,7 +17,7 @@ USER explorer
 WORKDIR /home/explorer
 # Compiled here, so that the first user does not wait. A host whose processor is another kind than
 # the builder's compiles once more, and says so as it starts.
-RUN python -c "import bearingcore; bearingcore.warm(); from bearing_explorer.results import compiling; compiling.compile_rest()"
+RUN python -c "import bearingcore; bearingcore.warm()"
 EXPOSE 5006
 HEALTHCHECK --interval=30s --timeout=5s --start-period=60s \
     CMD ["python", "-c", "import urllib.request; urllib.request.urlopen('http://localhost:5006/liveness', timeout=4)"]

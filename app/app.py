@@ -1,6 +1,5 @@
 """The page for ``panel serve app/app.py``."""
 
-from bearing_explorer.page import page, warm_once
+from bearing_explorer.page import page
 
-warm_once()
 page().servable()

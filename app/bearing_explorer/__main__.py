@@ -24,6 +24,10 @@ NOT_KEPT = (
 )
 
 
+READ_FROM_DISK = 5.0
+"""[s] after which machine code on disk has turned out to be of no use."""
+
+
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(
@@ -113,17 +117,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
-    _say("Compiling and warming the kernels (slow the first time, then kept on disk) ...")
     import bearingcore
 
-    def load() -> None:
-        lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
-
-    if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
-        bearingcore.warm(report=_say)
-        load()
+    lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
+    if not compiling.all_on_disk():
+        _say("Compiling the kernels, once; pages show the default scene meanwhile ...")
+    if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
+        bearingcore.warm(report=_say)
 
     # With several processes this one only waits for them, inside `serve`.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
@@ -135,7 +137,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             origins=chosen.allow_websocket_origin or (),
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
-            startup_message=compiling.startup_message,
             frame_ancestors=chosen.frame_ancestor or (),
             limits=Limits(
                 sessions=chosen.max_sessions,
@@ -160,25 +161,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
 
-    def ready() -> None:
-        if compiling.failed() is not None:
-            loop.stop()
-            return
-        freeze_startup_objects()
-        _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
-
+    compiling.begin(
+        _say if chosen.num_procs == 1 else str,
+        lambda: loop.add_callback(freeze_startup_objects),
+    )
+    # a later start reads machine code from disk, and need not begin with pages of no use
+    compiling.wait(READ_FROM_DISK if compiling.all_on_disk() else 0.0)
     freeze_startup_objects()
     server.start()
-    # with several processes it finds all compiled, and reads it from disk
-    compiling.begin(_say if chosen.num_procs == 1 else str, load, lambda: loop.add_callback(ready))
+    _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:
         loop.start()
     finally:
         server.stop()
-    if (failure := compiling.failed()) is not None:
-        raise failure
     _say("Stopped.")
     sys.stderr.flush()
     os._exit(0)  # at once: Python would wait for what threads still compute, for minutes

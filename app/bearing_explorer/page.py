@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import logging
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,6 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-import bearingcore
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.results import compiling
 from bearing_explorer.serve.fast import PLAIN
@@ -54,8 +52,6 @@ from bearing_explorer.views.theme import dark_properties, themes
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.views.vibration_time import VibrationInTime
 
-log = logging.getLogger(__name__)
-
 SECTIONS = (
     Section(
         "overview",
@@ -94,12 +90,6 @@ SECTIONS = (
 
 What is not on the tab that is open is neither computed nor sent.
 """
-
-
-@cache
-def warm_once() -> None:
-    """Compile the kernels, once a process, before anybody's first drag waits for them."""
-    bearingcore.warm(report=log.info)
 
 
 def address() -> str:

@@ -109,9 +109,13 @@ def picture_of(
     shown = frozenset[str]().union(*(view.needs for view in on_screen or views))
     results.prefetch(shown)
     drawings = [drawing_of(results, view) for view in views]
-    checked = results.limits if limits else None
     work = time.thread_time() - worked
-    status = status_of(results, work, shown)
+    checked = None
+    try:
+        checked = results.limits if limits else None
+        status = status_of(results, work, shown)
+    except compiling.StillCompiling as wait:
+        status = {"mood": "busy", "words": f"Not ready: {wait}", "details": []}
     return Picture(results, drawings, status, checked, time.perf_counter() - started, work)
 
 

@@ -9,6 +9,7 @@ import math
 import time
 from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, TypeVar
 
 import panel as pn
@@ -163,7 +164,7 @@ class Explorer:
         """The page is up: draw."""
         send_at_once(self._doc)
         self.draw()
-        if not compiling.ready():
+        if compiling.left():
             self._keep(self._draw_when_compiled())
 
     def stop(self) -> None:
@@ -189,11 +190,16 @@ class Explorer:
         return self._shown, inputs.scene, inputs.settings, inputs.pinned
 
     async def _draw_when_compiled(self) -> None:
-        """Some views have to wait until their kernels are compiled, once a computer."""
-        while not compiling.ready():
-            await asyncio.sleep(0.5)
-        self._refined = ()
-        self.draw()
+        """Draw anew whenever a part of the kernels is ready, and say how far it is."""
+        left: tuple[str, ...] | None = None
+        while left != ():
+            if left == (left := compiling.left()):
+                await asyncio.sleep(0.3)
+                continue
+            show = partial(self.status.put, progress=compiling.progress())
+            await one_message(self._doc, show)
+            self._refined = ()
+            self.draw()
 
     def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
         """Compute something off the event loop, then take it."""

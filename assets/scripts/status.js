@@ -28,5 +28,16 @@ export function render({ model }) {
     if (model.folded && list.hidden) later = setTimeout(write_details, REST)
     else write_details()
   })
-  return line
+  // Until the first kernels are compiled sliders would move nothing: they say so by not moving.
+  const bar = element("progress"), said = element("span")
+  const progress = element("div", { class: "progress", role: "status" }, bar, said)
+  follow(model, ["progress"], () => {
+    const { done = 0, of = 0, words = "", still = false } = model.progress
+    progress.hidden = !of
+    Object.assign(bar, { value: done, max: of || 1 })
+    said.textContent = words
+    bar.setAttribute("aria-label", words)
+    if (model.folded) document.querySelector(".controls-place")?.toggleAttribute("inert", still)
+  })
+  return element("div", {}, progress, line)
 }

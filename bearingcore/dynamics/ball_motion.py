@@ -15,6 +15,7 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.ball_positions import static_balls
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+from bearingcore.statics.passes import drops_at
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -166,13 +167,30 @@ def loads_of_races(
 
     turning: cage angle [rad] of the first row, and from row to row.
     """
-    loads = kernels.race_loads(
-        np.ascontiguousarray(history[:, 0]),
-        np.ascontiguousarray(history[:, 3]),
-        np.ascontiguousarray(place),
-        packing.direction_numbers(dofs),
-        turning,
-        ball_system(scene, dofs),
-    )
+    system = ball_system(scene, dofs)
+    contacts, races = system.contacts, system.races
+    start, turn = turning
+    cage: Array = start + turn * np.arange(len(history), dtype=np.float64)
+    angle = packing.ball_angles(scene.bearing, cage)
+    c, s = np.cos(angle), np.sin(angle)
+    axial = place[:, 1] if place.shape[1] > 1 else 0.0
+    loads = np.zeros((2, *angle.shape))
+    for race, name in enumerate(("inner", "outer")):
+        x = np.zeros((5, len(history), 1))
+        x[packing.direction_numbers(dofs), :, 0] = history[:, 3 * race].T
+        # Equations (8) to (12), of the contact between a ball and this race
+        r = (x[0] + contacts.arm * x[4]) * c + (x[1] - contacts.arm * x[3]) * s - place[:, 0]
+        z = x[2] + contacts.reach * (x[3] * s - x[4] * c) - axial
+        if name == "inner":
+            r, z = r - contacts.clearance, z + contacts.offset
+        else:
+            r, z = -r, -z
+        drop = drops_at(scene, cage, name)
+        m = r * contacts.line_r + z * contacts.line_z - drop
+        w = z * contacts.line_r - r * contacts.line_z
+        A = races.distance[race]
+        rise = m * (2.0 * A + m) + w * w
+        reached = np.where(A + m > 0.0, rise / (np.hypot(A + m, w) + A), np.abs(w) - A)
+        loads[race] = races.factor[race] * np.maximum(reached, 0.0) ** contacts.exponent
     loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
-    return np.asarray(loads)
+    return loads

@@ -365,10 +365,10 @@ class _Shooting:
         self, y: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """P(y) and its derivative."""
-        end, tangent = y.copy(), np.eye(y.size)
-        kernels.march_with_tangent(end, tangent, self._step, 0.0, self._system, self.history)
+        both = np.concatenate([y, np.eye(y.size).ravel()])
+        kernels.march(both, self._step, 0.0, self._system, self.history)
         self._count()
-        return end, tangent
+        return both[: y.size], both[y.size :].reshape(y.size, y.size)
 
     def _count(self) -> None:
         self.calls += 4 * self.steps

@@ -4,17 +4,16 @@ Nothing here knows of the rest of bearingcore, and no compiled function takes mo
 arguments. `compiling` says how functions are compiled and kept on disk.
 """
 
-from bearingcore.kernels.balls.motion import ball_motion_rates, march_balls, race_loads
+from bearingcore.kernels.balls.motion import march_balls
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
 from bearingcore.kernels.balls.structs import BallSystem, Races
-from bearingcore.kernels.compiling import kept_on_disk, on_disk
+from bearingcore.kernels.compiling import all_on_disk, kept_on_disk
 from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.modes import DOUBTFUL, modes_like
 from bearingcore.kernels.motion.march import (
     between_steps,
     elastic_loads,
     march,
-    march_with_tangent,
     motion_rates,
     turn_smooth,
 )
@@ -38,7 +37,8 @@ from bearingcore.kernels.statics import (
     RESIDUAL_AIM,
     RESIDUAL_LIMIT,
     TOO_MANY,
-    contact_angles,
+    new_answers,
+    new_memory,
     static_maps,
     static_states,
 )
@@ -47,8 +47,6 @@ from bearingcore.kernels.structs import (
     SMOOTH,
     VELOCITIES,
     Contacts,
-    MapAnswers,
-    MapMemory,
     MapPaths,
     Path,
     Rotor,
@@ -79,8 +77,6 @@ __all__ = [
     "VELOCITIES",
     "BallSystem",
     "Contacts",
-    "MapAnswers",
-    "MapMemory",
     "MapPaths",
     "Path",
     "Races",
@@ -88,20 +84,18 @@ __all__ = [
     "StaticBalls",
     "StaticLoad",
     "System",
-    "ball_motion_rates",
+    "all_on_disk",
     "ball_path",
     "ball_positions",
     "between_steps",
-    "contact_angles",
     "elastic_loads",
     "kept_on_disk",
     "march",
     "march_balls",
-    "march_with_tangent",
     "modes_like",
     "motion_rates",
-    "on_disk",
-    "race_loads",
+    "new_answers",
+    "new_memory",
     "roll_over",
     "static_maps",
     "static_states",

@@ -23,50 +23,79 @@ import uuid
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numba
 from numba import njit
 from numba.core.caching import FunctionCache
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 from numba.core.serialize import dumps
 
 log = logging.getLogger(__name__)
 
-_OPTIONS = {"nogil": True, "fastmath": {"contract"}}
+_OPTIONS = {
+    "nogil": True,
+    "fastmath": {"contract"},
+    "error_model": "numpy",  # x/0 is inf or NaN; an exception would be code at each division
+    "no_cfunc_wrapper": True,
+    # said everywhere, or it is as in the function that happens to be the first to call it
+    "forceinline": False,
+    # Arrays are made by callers and not counted: counting their owners up and down at each call
+    # took most of the time of functions that take structs (marching: 11 times as long).
+    "_nrt": False,
+}
+
+
+class PartLibrary(JITCodeLibrary):  # type: ignore[misc]
+    """Code of a function that only kernels call: optimised and translated with each kernel.
+
+    numba does both for every function on its own, and then once more in each of its callers.
+    """
+
+    def _optimize_final_module(self) -> None: ...
+
+    def _finalize_final_module(self) -> None:
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """0: there is no machine code to call."""
+        return 0
+
+    @property
+    def codegen(self) -> Any:
+        """Takes no environment: what has one can be called from Python."""
+        return SimpleNamespace(set_env=lambda name, environment: None)
+
+
+class PartCompiler(Compiler):  # type: ignore[misc]
+    """numba's compiler, into a `PartLibrary`."""
+
+    def define_pipelines(self) -> Any:
+        """The usual passes."""
+        state = self.state
+        if state.library is None:
+            state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+        return super().define_pipelines()
+
+
+# A wrapper holds its function once more, and unpacking structs is more code than most functions.
+_CALLED_BY_KERNELS = {**_OPTIONS, "no_cpython_wrapper": True, "pipeline_class": PartCompiler}
 
 
 def compiled(function: Callable[..., Any]) -> Any:
-    """A function to be compiled at its first call, and kept on disk."""
-    return _made(function, _nrt=True)
+    """A function for Python to call, to be compiled at its first call and kept on disk.
 
-
-def njit_no_refcount(function: Callable[..., Any]) -> Any:
-    """A compiled function that uses its callers' arrays without counting itself among their owners.
-
-    Counting them up and down again, array by array and at each call, took most of the time of
-    functions that take structs (marching: 11 times as long). Such a function must neither make
-    arrays nor return any.
+    It makes no arrays and returns none, as nothing compiled does.
     """
-    return _made(function, _nrt=False)
-
-
-def inlined(function: Callable[..., Any]) -> Any:
-    """A `njit_no_refcount` function that becomes part of its callers.
-
-    A call with many arrays costs more than a small kernel's work. LLVM puts it there: numba's own
-    inlining types and translates the body again at each call. Every caller is a little slower to
-    compile for it, and a kernel is compiled together with all that it calls, so large functions are
-    called at one place.
-    """
-    return _made(function, _nrt=False, forceinline=True)
-
-
-def _made(function: Callable[..., Any], **options: bool) -> Any:
-    kernel = njit(**_OPTIONS, **options)(function)
+    kernel = njit(**_OPTIONS)(function)
     if not hasattr(kernel, "_cache"):  # compiling is switched off
         return kernel
     try:
         kernel._cache = KernelCache(function)
+        _kernels.append(kernel)
     except RuntimeError:
         # numba found no folder that it may write to: neither next to the sources nor in the home
         # of the user. Each start compiles then, see `kept_on_disk`.
@@ -74,6 +103,23 @@ def _made(function: Callable[..., Any], **options: bool) -> Any:
     return kernel
 
 
+def called(function: Callable[..., Any]) -> Any:
+    """A function for kernels to call."""
+    return njit(**_CALLED_BY_KERNELS)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """A `called` function that becomes part of its callers.
+
+    A call with many arrays costs more than a small kernel's work. LLVM puts it there: numba's own
+    inlining types and translates the body again at each call. Every caller is a little slower to
+    compile for it, and a kernel is compiled together with all that it calls, so large functions are
+    called at one place.
+    """
+    return njit(**{**_CALLED_BY_KERNELS, "forceinline": True})(function)
+
+
+_kernels: list[Any] = []
 _not_kept: list[str] = []
 
 
@@ -82,10 +128,9 @@ def kept_on_disk() -> bool:
     return not _not_kept
 
 
-def on_disk(kernel: Any) -> bool:
-    """Whether machine code of a kernel, made of the present sources, is on disk."""
-    kept = getattr(kernel, "_cache", None)
-    return kept._cache_file.has_any() if isinstance(kept, KernelCache) else True
+def all_on_disk() -> bool:
+    """Whether machine code of all kernels, made of the present sources, is on disk."""
+    return bool(_kernels) and all(one._cache._cache_file.has_any() for one in _kernels)
 
 
 @cache

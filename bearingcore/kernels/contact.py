@@ -62,19 +62,36 @@ def compression(m, w, A0):
 
 
 @inlined
-def touch(x, cj, sj, drop, j, contacts):
-    """Compression δ [m] of contact j, its direction (er, ez) and 1/A at the displacement x.
+def ring_at_ball(x, cj, sj, j, contacts):
+    """Radial and axial displacement [m] of a ring's groove centre at contact j (Eqs. 11, 12).
 
-    x is a tuple of five; cj, sj and drop are the ball's place. er = cos α_j, ez = sin α_j (Eq. 14).
+    x is a tuple of five; also velocities, as `seen_from_the_cage` gives them.
     """
     arm = contacts.arm[j]
+    r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj
+    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj)
+    return r, z
+
+
+@inlined
+def race_touch(r, z, drop, A, j, contacts):
+    """δ [m], direction (er, ez) = (cos α_j, sin α_j) (Eq. 14) and 1/A of a contact.
+
+    (r, z) is the displacement that closes it; the drop is taken along the line of contact.
+    """
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
-    # Equations (11) and (12), d taken along the line of contact
-    r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj - contacts.clearance[j]
-    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj) + contacts.offset[j]
-    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, contacts.distance[j])
+    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, A)
     return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
+
+
+@inlined
+def touch(x, cj, sj, drop, j, contacts):
+    """`race_touch` of contact j at the displacement x, a tuple of five; cj, sj, drop: its ball."""
+    r, z = ring_at_ball(x, cj, sj, j, contacts)
+    r -= contacts.clearance[j]
+    z += contacts.offset[j]
+    return race_touch(r, z, drop, contacts.distance[j], j, contacts)
 
 
 @inlined
@@ -118,10 +135,8 @@ def approach(u, cj, sj, d_rate, j, contacts):
 
     u is what `seen_from_the_cage` gives; d_rate is the rate of the ball's drop.
     """
-    arm = contacts.arm[j]
-    r_rate = (u[0] + arm * u[4]) * cj + (u[1] - arm * u[3]) * sj - contacts.line_r[j] * d_rate
-    z_rate = u[2] + contacts.reach[j] * (u[3] * sj - u[4] * cj) - contacts.line_z[j] * d_rate
-    return r_rate, z_rate
+    r, z = ring_at_ball(u, cj, sj, j, contacts)
+    return r - contacts.line_r[j] * d_rate, z - contacts.line_z[j] * d_rate
 
 
 @inlined

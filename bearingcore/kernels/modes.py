@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import compiled, njit_no_refcount
+from bearingcore.kernels.compiling import called, compiled
 
 # Matrices that are turned together: enough to fill the processor's vectors, few enough that all
 # stay in its nearest cache.
@@ -26,7 +26,6 @@ DOUBTFUL = -1
 TINY = 1e-300
 
 
-@compiled
 def modes_like(terms, mixing, offset, squared, order, likeness):
     """Squared angular frequencies [rad²/s²] at n cage angles, and which is like which template.
 
@@ -44,15 +43,26 @@ def modes_like(terms, mixing, offset, squared, order, likeness):
     (inner − outer)' K_b (inner − outer) + outer' K_o outer. NaN in, NaN out.
     """
     m, nd = mixing.shape
+    work = (
+        np.empty((m, m, TOGETHER)),
+        np.empty((m, m, TOGETHER)),
+        np.empty((nd, nd, TOGETHER)),
+        np.empty((nd, TOGETHER)),
+        np.empty((3, TOGETHER)),
+        np.empty(TOGETHER, dtype=np.int64),
+    )
+    find_modes(terms, mixing, offset, squared, order, likeness, work)
+
+
+@compiled
+def find_modes(terms, mixing, offset, squared, order, likeness, work):
+    """Body of `modes_like`, with work space."""
+    m, nd = mixing.shape
     n = terms.shape[1]
-    A = np.empty((m, m, TOGETHER))
-    V = np.empty((m, m, TOGETHER))
-    B = np.empty((nd, nd, TOGETHER))
-    half = np.empty((nd, TOGETHER))
-    cosine = np.empty(TOGETHER)
-    sine = np.empty(TOGETHER)
-    nearest = np.empty(TOGETHER, dtype=np.int64)
-    most = np.empty(TOGETHER)
+    A, V, B, half, numbers, nearest = work
+    cosine = numbers[0]
+    sine = numbers[1]
+    most = numbers[2]
     for begin in range(0, n, TOGETHER):
         live = min(TOGETHER, n - begin)
         term = 0
@@ -65,9 +75,10 @@ def modes_like(terms, mixing, offset, squared, order, likeness):
                     B[j, i, k] = value
                 term += 1
         in_modes(B, mixing, offset, half, A)
-        V[:] = 0.0
         for i in range(m):
-            V[i, i, :] = 1.0
+            for j in range(m):
+                for k in range(TOGETHER):
+                    V[i, j, k] = 1.0 if i == j else 0.0
         diagonalise(A, V, cosine, sine)
         for i in range(m):
             # Modal assurance criterion: V[j, i]² is how like mode j is to the template's i.
@@ -95,7 +106,7 @@ def modes_like(terms, mixing, offset, squared, order, likeness):
                         likeness[begin + k, i, j] = V[j, i, k] ** 2
 
 
-@njit_no_refcount
+@called
 def in_modes(B, mixing, offset, half, A):
     """A = mixing B mixing' + offset, upper triangle (Eq. 25 in the template's modes)."""
     m, nd = mixing.shape
@@ -116,7 +127,7 @@ def in_modes(B, mixing, offset, half, A):
                     A[i, j, k] += factor * half[b, k]
 
 
-@njit_no_refcount
+@called
 def diagonalise(A, V, cosine, sine):
     """Jacobi's rotations of upper triangles A (m, m, .) and of rows V, until A is diagonal."""
     m = len(A)
@@ -136,7 +147,7 @@ def diagonalise(A, V, cosine, sine):
             break
 
 
-@njit_no_refcount
+@called
 def turn(A, V, p, q, cosine, sine):
     """The rotation that makes A[p, q] zero; the smaller of the two angles (Rutishauser)."""
     m = len(A)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
+from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.structs import Passage
 
 PATH_COLUMNS = (
@@ -36,7 +36,7 @@ BLOCK = 256
 """Half steps whose ball positions are laid out at once: small enough to stay in the cache."""
 
 
-@njit_no_refcount
+@called
 def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
     """Drop of a ball's centre [m] at the angle x [rad] from the defect's middle, and its slope.
 
@@ -71,7 +71,7 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
     return drop, -steep if x > 0.0 else steep
 
 
-@njit_no_refcount
+@called
 def path_drop(angle, cage_angle, row, path):
     """Drop [m] of a ball of a row at `angle`, and its derivative with its cage's turning [m/rad].
 
@@ -115,16 +115,20 @@ def path_drop(angle, cage_angle, row, path):
     return total, total_slope
 
 
-@compiled
 def ball_path(ball_angles, cage_angles, row, path):
     """Drop [m] of a ball of a row at every angle, its cage at the angle of the same index; (n,)."""
     drops = np.empty(ball_angles.size)
-    for i in range(ball_angles.size):
-        drops[i], _ = path_drop(ball_angles[i], cage_angles[i], row, path)
+    fill_drops(ball_angles, cage_angles, row, path, drops)
     return drops
 
 
 @compiled
+def fill_drops(ball_angles, cage_angles, row, path, drops):
+    """Body of `ball_path`."""
+    for i in range(ball_angles.size):
+        drops[i], _ = path_drop(ball_angles[i], cage_angles[i], row, path)
+
+
 def roll_over(surface, circle):
     """Depth (n,) to which a ball sinks over a surface: min over j of surface[j] + circle[|i − j|].
 
@@ -132,15 +136,26 @@ def roll_over(surface, circle):
     and is convex, and so the point touched moves on as the ball does. Halving the nodes again and
     again finds it for all of them in n log n steps.
     """
-    n = surface.size
+    path = np.empty(surface.size)
+    fill_depths(surface, circle, np.empty((128, 4), dtype=np.int64), path)
+    return path
+
+
+@compiled
+def fill_depths(surface, circle, waiting, path):
+    """Body of `roll_over`; waiting holds nodes from, to, and touched points from, to."""
     reach = circle.size - 1
-    path = np.empty(n)
-    waiting = np.empty((128, 4), dtype=np.int64)  # nodes from, to; touched points from, to
-    waiting[0] = (0, n - 1, 0, n - 1)
+    waiting[0, 0] = 0
+    waiting[0, 1] = surface.size - 1
+    waiting[0, 2] = 0
+    waiting[0, 3] = surface.size - 1
     size = 1
     while size > 0:
         size -= 1
-        first, last, low, high = waiting[size]
+        first = waiting[size, 0]
+        last = waiting[size, 1]
+        low = waiting[size, 2]
+        high = waiting[size, 3]
         i = (first + last) // 2
         least = math.inf
         touched = low
@@ -151,23 +166,20 @@ def roll_over(surface, circle):
                 touched = j
         path[i] = least
         if first < i:
-            waiting[size] = (first, i - 1, low, touched)
+            push_nodes(waiting, size, first, i - 1, low, touched)
             size += 1
         if i < last:
-            waiting[size] = (i + 1, last, touched, high)
+            push_nodes(waiting, size, i + 1, last, touched, high)
             size += 1
-    return path
 
 
-@compiled
-def ball_circle(angle):
-    """Cosine and sine (n,) of the angles (n,) [rad] from the first ball to each."""
-    c = np.empty(angle.size)
-    s = np.empty(angle.size)
-    for j in range(angle.size):
-        c[j] = math.cos(angle[j])
-        s[j] = math.sin(angle[j])
-    return c, s
+@inlined
+def push_nodes(waiting, size, first, last, low, high):
+    """Put nodes with their range of touched points into a row of `waiting`."""
+    waiting[size, 0] = first
+    waiting[size, 1] = last
+    waiting[size, 2] = low
+    waiting[size, 3] = high
 
 
 @inlined
@@ -226,22 +238,19 @@ def drops_of_balls(cage, contacts, path, d, slope):
                 ball += 1.0
 
 
-@njit_no_refcount
+@called
 def lay_out_drops(cage, contacts, path, d, slope):
     """`drops_of_balls`, called."""
     drops_of_balls(cage, contacts, path, d, slope)
 
 
-@compiled
-def new_passage(instants, n):
-    """An empty `Passage` of n contacts."""
-    shape = (instants, n)
-    return Passage(
-        np.empty(shape), np.empty(shape), np.zeros(shape), np.zeros(shape), np.zeros((instants, 5))
-    )
+def new_passage(instants, angle):
+    """An empty `Passage` of contacts at angles (n,) [rad] from the first ball."""
+    c, s, d, d_rate = np.zeros((4, instants, angle.size))
+    return Passage(c, s, d, d_rate, np.zeros((instants, 5)), np.cos(angle), np.sin(angle))
 
 
-@njit_no_refcount
+@called
 def lay_out_unbalance(start, turn, count, rotor, passage):
     """Force of the unbalance at `count` cage angles start + i·turn [rad], into a passage."""
     if rotor.unbalance == 0.0:
@@ -252,20 +261,12 @@ def lay_out_unbalance(start, turn, count, rotor, passage):
         passage.push[i, 1] = rotor.unbalance * math.sin(shaft)
 
 
-@compiled
+@called
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
     """Where the balls are at `count` cage angles start + i·turn [rad], into a passage.
 
     Cages are turned by recurrence and each ball is at a fixed angle to its own.
     """
-    circle_c, circle_s = ball_circle(contacts.angle)
-    fill_passage((start, turn, count, cage_speed), circle_c, circle_s, contacts, path, passage)
-
-
-@inlined
-def fill_passage(turning, circle_c, circle_s, contacts, path, passage):
-    """Body of `lay_out_balls`: turning is (start, turn, count, cage_speed)."""
-    start, turn, count, cage_speed = turning
     rows = contacts.rows
     for row in range(rows.shape[0]):
         first = rows[row, 0]
@@ -278,10 +279,16 @@ def fill_passage(turning, circle_c, circle_s, contacts, path, passage):
         for i in range(count):
             c = passage.c[i]
             s = passage.s[i]
-            turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last)
+            turn_balls(cage_c, cage_s, passage.circle_c, passage.circle_s, c, s, first, last)
             cage_c, cage_s = cage_c * turn_c - cage_s * turn_s, cage_s * turn_c + cage_c * turn_s
     if path.defects.shape[0] == 0:
         return
+    lay_out_drops_and_rates(start, turn, count, cage_speed, contacts, path, passage)
+
+
+@inlined
+def lay_out_drops_and_rates(start, turn, count, cage_speed, contacts, path, passage):
+    """Drops with their rates at `count` cage angles, into a passage."""
     for i in range(count):
         rate = passage.d_rate[i]
         drops_of_balls(start + i * turn, contacts, path, passage.d[i], rate)

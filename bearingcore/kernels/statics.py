@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
+from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.contact import (
     carried,
     components,
@@ -15,8 +15,16 @@ from bearingcore.kernels.contact import (
     tilting,
     touch,
 )
-from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
-from bearingcore.kernels.structs import Contacts, Descent, Path, Place
+from bearingcore.kernels.path import lay_out_drops, place_balls
+from bearingcore.kernels.structs import (
+    Contacts,
+    Descent,
+    MapAnswers,
+    MapMemory,
+    MapPaths,
+    Path,
+    Place,
+)
 
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
 """Statuses of a cage angle; their sentences are in `equilibrium`."""
@@ -148,7 +156,7 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
     return energy - work, energy + abs(work), faintest
 
 
-@njit_no_refcount
+@called
 def newton_direction(H, g, active, shift, L, p):
     """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
 
@@ -189,15 +197,16 @@ def newton_direction(H, g, active, shift, L, p):
     return least
 
 
-@compiled
-def least_pivot(H, active):
+@called
+def least_pivot(H, active, A):
     """Least pivot of H over the active directions, relative to the greatest, the greatest first.
+
+    A (5, 5) is work space.
 
     In any other order a pivot that should be zero keeps the rounding of those before it, divided by
     the least of them.
     """
     n = active.size
-    A = np.empty((n, n))
     for i in range(n):
         for j in range(n):
             A[i, j] = H[max(active[i], active[j]), min(active[i], active[j])]
@@ -242,7 +251,7 @@ def with_factors(contacts, factor):
     )
 
 
-@njit_no_refcount
+@called
 def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     """Whether the balls that carry more than `noise` [N] hold the ring on their own.
 
@@ -258,10 +267,10 @@ def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     firm = with_factors(contacts, factor)
     H = work.H[other]
     energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
-    return least_pivot(H, load.active)
+    return least_pivot(H, load.active, work.L)
 
 
-@compiled
+@called
 def pressed_load(q, place, contacts):
     """Sum [N] of what all contacts carry."""
     x = components(q)
@@ -291,7 +300,7 @@ def load_size(load):
     return math.sqrt(size)
 
 
-@njit_no_refcount
+@called
 def descend(q, place, contacts, load, work, most):
     """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
@@ -359,7 +368,7 @@ def descend(q, place, contacts, load, work, most):
                     if not least > NO_PIVOT:
                         now = 1 - now
                 if least < DOUBTFUL_PIVOT:
-                    least = least_pivot(H[now], active)
+                    least = least_pivot(H[now], active, L)
                 status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
                 return now, status, residual, iteration, evaluations
             if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
@@ -435,7 +444,7 @@ def descend(q, place, contacts, load, work, most):
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
-@njit_no_refcount
+@called
 def minimise_energy(q, place, contacts, load, work):
     """Move q to the minimum of V over the active directions.
 
@@ -531,79 +540,42 @@ def first_guess(contacts, load, state):
         state[i] = reach * load.force[i] / max(size, 1e-300)
 
 
-@compiled
-def new_descent(n_contacts):
-    """Empty work space of Newton's descent."""
+def new_descent(angle):
+    """Empty work space of Newton's descent of contacts at angles (n,) [rad]."""
+    n_contacts = angle.size
+    c, s, d, slope, soft, firm = np.zeros((6, n_contacts))
+    p, trial, start, state, guess = np.zeros((5, 5))
     return Descent(
         np.zeros((2, 5)),
         np.zeros((2, 5, 5)),
         np.zeros((5, 5)),
-        np.zeros(5),
-        np.zeros(5),
-        np.zeros(5),
-        np.zeros(n_contacts),
-        np.zeros(n_contacts),
+        p,
+        trial,
+        start,
+        soft,
+        firm,
+        state,
+        guess,
+        Place(c, s, d),
+        slope,
+        np.cos(angle),
+        np.sin(angle),
     )
 
 
-@compiled
-def static_states(cage_angles, contacts, path, load):
-    """Static equilibrium at each cage angle, each started from those before it.
-
-    Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded contacts, status,
-    residual, iterations and evaluations (n,), tilts and moments scaled as at the head of `structs`.
-    """
-    n = cage_angles.size
-    n_contacts = contacts.angle.size
-    active = load.active
-    q = np.zeros((n, 5))
-    loads = np.zeros((n, n_contacts))
-    stiffness = np.empty((n, 5, 5))
-    loaded = np.zeros(n, dtype=np.int64)
-    status = np.empty(n, dtype=np.int8)
-    residuals = np.empty(n)
-    iterations = np.empty(n, dtype=np.int64)
-    evaluations = np.empty(n, dtype=np.int64)
-    place = Place(np.empty(n_contacts), np.empty(n_contacts), np.zeros(n_contacts))
-    slope = np.empty(n_contacts)
-    circle_c, circle_s = ball_circle(contacts.angle)
-    work = new_descent(n_contacts)
-    state = np.zeros(5)
-    first_guess(contacts, load, state)
-    guess = state.copy()
-    for k in range(n):
-        cage = cage_angles[k]
-        place_balls(cage, contacts, circle_c, circle_s, place.c, place.s)
-        lay_out_drops(cage, contacts, path, place.d, slope)
-        if k > 0 and status[k - 1] >= NOT_CARRIED:
-            for i in active:
-                state[i] = guess[i]
-        elif k >= 3 and max(status[k - 2], status[k - 3]) < NOT_CARRIED:
-            extrapolate(cage_angles, k, q, active, state)
-        now, status[k], residuals[k], iterations[k], evaluations[k] = minimise_energy(
-            state, place, contacts, load, work
-        )
-        for i in range(5):
-            q[k, i] = state[i]
-            work.trial[i] = state[i]
-            for j in range(i + 1):
-                stiffness[k, i, j] = work.H[now, i, j]
-                stiffness[k, j, i] = work.H[now, i, j]
-        x = components(state)
-        for j in range(n_contacts):
-            loads[k, j], _, _ = carried(x, place, j, contacts)
-            if loads[k, j] > 0.0:
-                loaded[k] += 1
-    return q, loads, stiffness, loaded, status, residuals, iterations, evaluations
+def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
+    """Static states of the rows (first, last) of a map: see `solve_maps`."""
+    work = new_descent(contacts.angle)
+    return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
 
 @compiled
-def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers):
-    """Static states of rows first to last of a map: the defects differ, cage angles do not.
+def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
+    """Static states of rows (first, last) of a map: the defects differ, cage angles do not.
 
-    Points that are not OPEN are left alone. `memory` carries states and drops over from row to row,
-    NaN before the first. Returns how many points were solved, and how often the energy was
-    evaluated.
+    Points that are not OPEN are left alone; each is started from those before it in its row.
+    `memory` carries states and drops over from row to row, NaN before the first, and holds those of
+    the last row then. Returns how many points were solved, and how often the energy was evaluated.
 
     Where all balls have sunk as deep as in the row before, the answer is that of the row before:
     most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
@@ -613,23 +585,17 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
     active = load.active
     q = memory.q
     drops = memory.drops
-    units = answers.units
+    loads = memory.loads
     stiffness = answers.stiffness
     loaded = answers.loaded
     greatest = answers.greatest
     status = answers.status
     residual = answers.residual
-    c = np.empty((n, n_contacts))
-    s = np.empty((n, n_contacts))
-    d = np.empty(n_contacts)
-    slope = np.empty(n_contacts)
-    circle_c, circle_s = ball_circle(contacts.angle)
-    for k in range(n):
-        cage = cage_angles[k]
-        place_balls(cage, contacts, circle_c, circle_s, c[k], s[k])
-    work = new_descent(n_contacts)
-    state = np.zeros(5)
-    guess = np.zeros(5)
+    place = work.place
+    d = place.d
+    state = work.state
+    guess = work.guess
+    first, last = rows
     first_guess(contacts, load, guess)
     solved = 0
     evaluations = 0
@@ -639,7 +605,7 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
             if status[e, k] != OPEN:
                 drops[k, 0] = math.nan
                 continue
-            lay_out_drops(cage_angles[k], contacts, path, d, slope)
+            lay_out_drops(cage_angles[k], contacts, path, d, work.slope)
             same = True
             for j in range(n_contacts):
                 same = same and drops[k, j] == d[j]
@@ -659,12 +625,14 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
                 state[i] = q[k - 1, i] if known > 0 else guess[i]
             if known == 3:
                 extrapolate(cage_angles, k, q, active, state)
-            place = Place(c[k], s[k], d)
-            now, status[e, k], residual[e, k], _, calls = minimise_energy(
+            circle_c = work.circle_c
+            place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
+            now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
                 state, place, contacts, load, work
             )
             solved += 1
             evaluations += calls
+            memory.evaluations[k] = calls
             for i in range(5):
                 q[k, i] = state[i]
             gone = status[e, k] >= NOT_CARRIED
@@ -673,36 +641,76 @@ def static_maps(cage_angles, contacts, paths, load, first, last, memory, answers
             most = 0.0
             x = components(state)
             for j in range(n_contacts):
-                Q, _, _ = carried(x, place, j, contacts)
-                if Q > 0.0:
+                loads[k, j], _, _ = carried(x, place, j, contacts)
+                if loads[k, j] > 0.0:
                     count += 1
-                    most = max(most, Q)
+                    most = max(most, loads[k, j])
             nowhere = gone or loose
             loaded[e, k] = 0 if nowhere else count
             greatest[e, k] = math.nan if gone else 0.0 if loose else most
             term = 0
             for a in range(5):
                 for b in range(a, 5):
-                    value = work.H[now, b, a] * units[a] * units[b]
-                    stiffness[term, e, k] = math.nan if nowhere else value
+                    stiffness[term, e, k] = math.nan if nowhere else work.H[now, b, a]
                     term += 1
     return solved, evaluations
 
 
-@compiled
-def contact_angles(cage_angles, q, contacts, path):
-    """Loaded contact angle α_j (n, contacts) [rad] (Eq. 14) at states q; NaN at gaps."""
+_TERMS = np.zeros((5, 5), dtype=np.int64)
+_TERMS[np.triu_indices(5)] = _TERMS.T[np.triu_indices(5)] = np.arange(15)
+
+
+def static_states(cage_angles, contacts, path, load):
+    """Static equilibrium at each cage angle (n,) [rad], each started from those before it.
+
+    A map of one row. Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded
+    contacts, status, residual, iterations and evaluations (n,), tilts and moments scaled as at the
+    head of `structs`; NaN for the stiffness where there is no equilibrium.
+    """
+    n = cage_angles.size
+    count = np.array([path.defects.shape[0]])
+    memory = new_memory(n, contacts)
+    answers = new_answers(1, n)
+    static_maps(
+        cage_angles,
+        contacts,
+        MapPaths(path.defects[None], count, path.tables),
+        load,
+        (0, 1),
+        memory,
+        answers,
+    )
+    return (
+        memory.q,
+        memory.loads,
+        np.moveaxis(answers.stiffness[_TERMS, 0], 2, 0),
+        answers.loaded[0],
+        answers.status[0],
+        answers.residual[0],
+        memory.iterations,
+        memory.evaluations,
+    )
+
+
+def new_memory(n, contacts):
+    """An empty `MapMemory` of n cage angles."""
     n_contacts = contacts.angle.size
-    angles = np.empty((cage_angles.size, n_contacts))
-    place = Place(np.empty(n_contacts), np.empty(n_contacts), np.zeros(n_contacts))
-    slope = np.empty(n_contacts)
-    circle_c, circle_s = ball_circle(contacts.angle)
-    for k in range(cage_angles.size):
-        cage = cage_angles[k]
-        place_balls(cage, contacts, circle_c, circle_s, place.c, place.s)
-        lay_out_drops(cage, contacts, path, place.d, slope)
-        x = components(q[k])
-        for j in range(n_contacts):
-            Q, er, ez = carried(x, place, j, contacts)
-            angles[k, j] = math.atan2(ez, er) if Q > 0.0 else math.nan
-    return angles
+    return MapMemory(
+        np.zeros((n, 5)),
+        np.full((n, n_contacts), math.nan),
+        np.zeros((n, n_contacts)),
+        np.zeros(n, dtype=np.int64),
+        np.zeros(n, dtype=np.int64),
+    )
+
+
+def new_answers(rows, n):
+    """Empty `MapAnswers` of so many rows and n cage angles: everything is OPEN."""
+    shape = (rows, n)
+    return MapAnswers(
+        np.full((15, *shape), math.nan),
+        np.zeros(shape, dtype=np.int64),
+        np.full(shape, math.nan),
+        np.full(shape, OPEN, dtype=np.int8),
+        np.full(shape, math.nan),
+    )

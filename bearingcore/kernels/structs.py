@@ -105,6 +105,8 @@ class Passage(NamedTuple):
         cosine, sine, drop and its rate.
     push : (instants, 5) [N]
         of the unbalance on the inner ring; zero in directions other than x and y.
+    circle_c, circle_s : (n,)
+        cosine and sine of the angle from the first ball.
     """
 
     c: Array
@@ -112,6 +114,8 @@ class Passage(NamedTuple):
     d: Array
     d_rate: Array
     push: Array
+    circle_c: Array
+    circle_s: Array
 
 
 class StaticLoad(NamedTuple):
@@ -134,6 +138,12 @@ class Descent(NamedTuple):
         where the descent with softened contacts begins.
     soft, firm : (contacts,) [N/m^exponent]
         factors of softened contacts, and of those that carry more than rounding.
+    state, guess : (5,) [m]
+        the displacement that moves, and one to begin with.
+    place, slope [m/rad]
+        where the balls are, and how their drops change with the cage's turning.
+    circle_c, circle_s : (contacts,)
+        cosine and sine of the angle from the first ball.
     """
 
     g: Array
@@ -144,6 +154,12 @@ class Descent(NamedTuple):
     start: Array
     soft: Array
     firm: Array
+    state: Array
+    guess: Array
+    place: Place
+    slope: Array
+    circle_c: Array
+    circle_s: Array
 
 
 class MapPaths(NamedTuple):
@@ -155,10 +171,22 @@ class MapPaths(NamedTuple):
 
 
 class MapMemory(NamedTuple):
-    """Data that a map carries over from row to row: states (n, 5) [m], drops (n, contacts) [m]."""
+    """The newest row of a map, from which the next goes on.
+
+    Attributes
+    ----------
+    q : (n, 5) [m]
+        states, tilts times r_d.
+    drops : (n, contacts) [m], loads : (n, contacts) [N]
+    iterations, evaluations : (n,)
+        Newton steps, and how often the energy was evaluated.
+    """
 
     q: Array
     drops: Array
+    loads: Array
+    iterations: Integers
+    evaluations: Integers
 
 
 class MapAnswers(NamedTuple):
@@ -166,15 +194,14 @@ class MapAnswers(NamedTuple):
 
     Attributes
     ----------
-    stiffness : (15, e, n) [N/m, N/rad, N·m/rad]
-        in the units that `units` (5,) gives back: 1 and r_d.
+    stiffness : (15, e, n) [N/m]
+        upper triangle, row by row; NaN where there is no equilibrium.
     loaded : (e, n)
     greatest : (e, n) [N]
         load of the contact that carries most.
     status, residual : (e, n)
     """
 
-    units: Array
     stiffness: Array
     loaded: Integers
     greatest: Array
@@ -245,6 +272,8 @@ class Forces(NamedTuple):
     contact : (contacts, 5)
         their δ [m], er, ez, 1/A [1/m] (0 where the centres have passed each other and a contact
         does not swivel), and 1 where they push, 0 where the damper takes all of it.
+    touched : (1,)
+        how many are compressed.
     """
 
     x: Array
@@ -253,6 +282,7 @@ class Forces(NamedTuple):
     S: Array
     touching: Integers
     contact: Array
+    touched: Integers
 
 
 class Slopes(NamedTuple):
@@ -283,19 +313,27 @@ class Slopes(NamedTuple):
 
 
 class Steps(NamedTuple):
-    """Work space of steps: ball positions, the equations of motion's, rates of the four stages
-    (4, 4 n), and the state tried (4 n,).
+    """Work space of steps: ball positions, the equations of motion's, the tangent's, rates of the
+    four stages (4, size), and the state tried (size,).
     """
 
     passage: Passage
     forces: Forces
-    k: Array
-    trial: Array
-
-
-class TangentSteps(NamedTuple):
-    """Work space of the tangent: its slopes, rates (4, 4 n, columns), and trial values."""
-
     slopes: Slopes
     k: Array
     trial: Array
+
+
+class Recorded(NamedTuple):
+    """Output of steps.
+
+    Attributes
+    ----------
+    history : (samples, 6, n)
+        displacement, velocity and acceleration of the inner ring, then of the outer one.
+    places : (samples, k, balls) [m]
+        of balls with mass: radial, and axial unless the motion is planar.
+    """
+
+    history: Array
+    places: Array

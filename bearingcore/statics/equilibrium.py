@@ -18,6 +18,7 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import is_unbounded
+from bearingcore.statics.passes import drops_at
 from bearingcore.statics.status import StaticStatus
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -106,14 +107,18 @@ class Equilibrium:
     @cached_property
     def contact_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
-        angles = kernels.contact_angles(
-            self.cage_angles,
-            self.state,
-            packing.contacts(self.scene.bearing),
-            packing.path(self.scene),
-        )
-        angles[self.status >= StaticStatus.NOT_CARRIED] = math.nan
-        return angles
+        contacts = packing.contacts(self.scene.bearing)
+        c, s = np.cos(self.ball_angle), np.sin(self.ball_angle)
+        x, y, z, rx, ry = self.state.T[..., None]
+        # Equations (8) to (12): the part along the unloaded line of contact only while positive
+        r = (x + contacts.arm * ry) * c + (y - contacts.arm * rx) * s - contacts.clearance
+        a = z + contacts.reach * (rx * s - ry * c) + contacts.offset
+        along = contacts.distance - drops_at(self.scene, self.cage_angles)
+        along += r * contacts.line_r + a * contacts.line_z
+        across = a * contacts.line_r - r * contacts.line_z
+        unloaded = np.arctan2(contacts.line_z, contacts.line_r)
+        angle = unloaded + np.arctan2(across, np.maximum(along, 0.0))
+        return np.where(self.ball_load > 0.0, angle, math.nan)
 
     def term(self, name: str) -> NDArray[np.float64]:
         """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""

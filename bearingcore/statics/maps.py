@@ -180,23 +180,17 @@ def stiffness_maps(
 
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
-    status = np.full(shape, StaticStatus.NOT_COMPUTED, dtype=np.int8)
+    answers = kernels.new_answers(*shape)
+    status = answers.status
     refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
     status[refused] = StaticStatus.REFUSED
-    stiffness = np.full((15, *shape), math.nan)
-    loaded = np.zeros(shape, dtype=np.int64)
-    greatest, residual = np.full(shape, math.nan), np.full(shape, math.nan)
     contacts = packing.contacts(bearing)
     load = packing.static_load(scene, free)
-    memory = kernels.MapMemory(
-        q=np.zeros((angles.size, 5)), drops=np.full((angles.size, contacts.angle.size), math.nan)
-    )
-    units = packing.length_units(scene)
-    answers = kernels.MapAnswers(units, stiffness, loaded, greatest, status, residual)
+    memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
         return kernels.static_maps(
-            angles, contacts, paths.packed, load, begin, end, memory, answers
+            angles, contacts, paths.packed, load, (begin, end), memory, answers
         )
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
@@ -211,16 +205,19 @@ def stiffness_maps(
     status[:, gone] = np.where(
         status[:, gone] == StaticStatus.NOT_CONVERGED, StaticStatus.NOT_CARRIED, status[:, gone]
     )
+    units = packing.length_units(scene)
+    stiffness = answers.stiffness
+    stiffness *= np.outer(units, units)[np.triu_indices(5)][:, None, None]
     return Maps(
         scene=scene,
         dofs=free,
         extents=sizes,
         cage_angles=angles,
         stiffness=stiffness,
-        loaded_balls=loaded,
-        greatest_load=greatest,
+        loaded_balls=answers.loaded,
+        greatest_load=answers.greatest,
         status=status,
-        residual=residual,
+        residual=answers.residual,
         solved=solved + more,
         evaluations=evaluations + calls,
         refusals=paths.refusals,

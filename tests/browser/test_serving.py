@@ -130,7 +130,7 @@ def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
         server = explorer_server()
         server.wait()
         assert server.stop(number_) == 0, server.log
-        for words in ("Compiling", "Ready after", str(server.port), "Stopped."):
+        for words in ("Loading the page", "Ready after", str(server.port), "Stopped."):
             assert words in server.log
         assert "Traceback" not in server.log
 

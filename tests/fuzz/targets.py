@@ -109,7 +109,7 @@ def _signal(n: int = 600) -> np.ndarray:
     return np.random.default_rng(1).normal(size=n)
 
 
-def _csv() -> list[str]:
+def csv_texts() -> list[str]:
     times, signal = np.arange(600) / 8192.0, _signal()
     plain = "\n".join(f"{value:.5f}" for value in signal)
     pairs = "\n".join(f"{t:.7f},{v:.5f}" for t, v in zip(times, signal, strict=True))
@@ -134,7 +134,7 @@ def _csv() -> list[str]:
     ]
 
 
-def _wav() -> list[bytes]:
+def wav_files() -> list[bytes]:
     made = []
     for width, channels in ((1, 1), (2, 1), (2, 2), (3, 1), (4, 2)):
         file = io.BytesIO()
@@ -147,7 +147,7 @@ def _wav() -> list[bytes]:
     return made
 
 
-def _mat() -> list[bytes]:
+def matlab_files() -> list[bytes]:
     made = []
     for version, compressed in (("4", False), ("5", False), ("5", True)):
         file = io.BytesIO()
@@ -199,7 +199,7 @@ def targets() -> list[Target]:
     """All of them."""
     scenes, sweeps, floors, bearings = _texts(), _sweeps(), _floors(), _bearings()
     bearing_bytes = [text.encode() for text in bearings]
-    tables, waves, matrices, addresses = _csv(), _wav(), _mat(), _addresses()
+    tables, waves, matrices, addresses = csv_texts(), wav_files(), matlab_files(), _addresses()
 
     def csv_file(random_: random.Random) -> bytes:
         return text_like(random_, tables).encode("utf-8", "surrogatepass")

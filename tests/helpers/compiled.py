@@ -5,12 +5,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 
 DONE = "BEARING_EXPLORER_TESTS_COMPILED"
 """Environment variable that says to this process's children that it is done."""
-
-COMPILE_REST = "from bearing_explorer.results.compiling import compile_rest; compile_rest()"
 
 
 def compile_once() -> None:
@@ -29,13 +26,10 @@ def main() -> None:
 
     if compiling.all_on_disk():
         return
+    print("Compiling the kernels, kept on disk for the next time ...", flush=True)
     import bearingcore
 
-    print("Compiling the kernels, kept on disk for the next time ...", flush=True)
-    with ThreadPoolExecutor() as both:
-        beside = both.submit(subprocess.run, [sys.executable, "-c", COMPILE_REST], check=True)
-        bearingcore.warm(report=lambda _: None)
-        beside.result()
+    bearingcore.warm(report=lambda _: None)
 
 
 if __name__ == "__main__":

@@ -56,8 +56,8 @@ def preset_like(scene: Scene) -> str:
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Measure and show it point by point. Runs in a job's thread."""
     names = NAMES if name == EVERYTHING else (name,)
-    if "balls" in names and not compiling.ready():
-        raise compiling.StillCompiling
+    if "balls" in names:
+        compiling.need(compiling.BALLS_WITH_MASS)
     started = time.perf_counter()
     found = measure(
         scene,

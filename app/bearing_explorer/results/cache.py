@@ -32,9 +32,12 @@ class Overtaken(Exception):  # noqa: N818
     """A computation was given up, as its result is no longer wanted."""
 
 
-_results: LRUCache[Hashable, tuple[Any, int]] = LRUCache(MOST_BYTES, getsizeof=lambda kept: kept[1])
+_results: LRUCache[tuple[Any, ...], tuple[Any, int]] = LRUCache(
+    MOST_BYTES, getsizeof=lambda kept: kept[1]
+)
 _under_way: dict[Hashable, Future[Any]] = {}
 _lock = threading.Lock()
+_functions: dict[str, Cached[Any]] = {}
 
 
 class Cached(Generic[Result]):
@@ -43,6 +46,8 @@ class Cached(Generic[Result]):
     def __init__(self, compute: Callable[..., Result]) -> None:
         self._compute = compute
         functools.update_wrapper(self, compute)
+        self.name = f"{compute.__module__}.{compute.__qualname__}"
+        _functions[self.name] = self
 
     def __call__(self, *key: Hashable, give_up: Callable[[], bool] | None = None) -> Result:
         """The result for these arguments.
@@ -81,13 +86,17 @@ class Cached(Generic[Result]):
                 del _under_way[full_key]
             future.set_exception(error)
             raise
-        size = nbytes((full_key[1:], found)) + _OVERHEAD
+        _keep(full_key, found)
         with _lock:
-            with suppress(ValueError):  # too large to be kept
-                _results[full_key] = found, size
             del _under_way[full_key]
         future.set_result(found)
         return found
+
+
+def _keep(full_key: tuple[Hashable, ...], found: Any) -> None:
+    size = nbytes((full_key[1:], found)) + _OVERHEAD
+    with _lock, suppress(ValueError):  # too large to be kept
+        _results[full_key] = found, size
 
 
 def cached(compute: Callable[..., Result]) -> Cached[Result]:
@@ -103,6 +112,19 @@ def cached_bytes() -> int:
     """Bytes of all results that are kept."""
     with _lock:
         return int(_results.currsize)
+
+
+def kept_results() -> dict[tuple[Hashable, ...], tuple[Any, int]]:
+    """All results that are kept, with their bytes, by the function's name and its arguments."""
+    with _lock:
+        return {(key[0].name, *key[1:]): value for key, value in _results.items()}
+
+
+def keep_results(results: Mapping[tuple[Any, ...], Any]) -> None:
+    """Keep results by the function's name and its arguments, as if they had been computed."""
+    for (name, *key), found in results.items():
+        if name in _functions:
+            _keep((_functions[name], *key), found)
 
 
 def clear() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.results.compiling import StillCompiling
 from bearing_explorer.results.excerpt import why_ended
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.equilibrium import TERM_UNITS
@@ -122,6 +123,8 @@ def chain(results: Results) -> Chain:
         peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
         if not spectra:
             silent = why_ended(results.motion) if turns else "nothing turns"
+    except StillCompiling:
+        raise
     except ValueError as error:
         silent = str(error)
     terms = [f"k_{dof}{dof}" for dof in found.dofs]

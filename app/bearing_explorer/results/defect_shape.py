@@ -9,6 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearing_explorer.results import compiling
+from bearing_explorer.results.cache import cached
 from bearingcore import Scene
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.passes import ball_drop
@@ -117,8 +119,10 @@ class Profile:
         )
 
 
+@cached
 def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
     """Profile around the defect `focus` of `scene` with the cage at `cage_angle` [rad]."""
+    compiling.need(compiling.STATICS)
     found = spans(scene, cage_angle)
     if not found:
         angle = np.linspace(1.5 * math.pi - LEAST_WIDTH, 1.5 * math.pi + LEAST_WIDTH, 3)

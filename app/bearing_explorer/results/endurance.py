@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bearing_explorer.results import compiling
 from bearing_explorer.results.cache import cached
 from bearing_explorer.state.sentences import sentence_of
 from bearingcore import (
@@ -86,6 +87,7 @@ class Endurance:
 @cached
 def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
+    compiling.need(compiling.STATICS)
     with_grooves = with_usual_grooves(scene)
     told = [ESTIMATED] if scene.bearing.estimated else []
     assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
@@ -170,6 +172,7 @@ def limits(
     `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, are those of a simulated
     motion; None: there is none.
     """
+    compiling.need(compiling.STATICS)
     state = equilibrium(scene, looked_at(scene))
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:

@@ -71,6 +71,13 @@ class SettledMotion(NamedTuple):
     since: float
 
 
+class Ending(NamedTuple):
+    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled."""
+
+    fault: str
+    since: float
+
+
 # What a motion costs
 
 
@@ -80,6 +87,7 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
 
     ValueError where the support is not known well enough.
     """
+    compiling.need(compiling.STATICS)
     highest = highest_natural_frequency(scene)
     if scene.shaft_speed == 0.0 or not math.isfinite(highest):
         return None
@@ -143,8 +151,7 @@ def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
 @cached
 def motion(scene: Scene, how: Marching) -> SettledMotion:
     """The motion from rest; its second half counts as settled. ValueError where there is none."""
-    if scene.balls == WITH_MASS and not compiling.ready():
-        raise compiling.StillCompiling  # here it would hold up every page
+    compiling.need(compiling.MOTION, scene)
     by_hand = how.step_rate
     rate = step_rate_of(scene, how.sample_rate) if by_hand is None else by_hand
     if by_hand is None and how.coarse:
@@ -160,8 +167,16 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
 
 
 @cached
+def ending(scene: Scene, how: Marching) -> Ending:
+    """The end of the motion."""
+    found, since = motion(scene, how)
+    return Ending("" if found.completed else found.reason, since)
+
+
+@cached
 def excerpt(scene: Scene, how: Marching) -> Excerpt:
     """Some ball passes of the settled motion."""
+    compiling.need(compiling.MOTION, scene)
     return excerpt_of(scene, *motion(scene, how))
 
 
@@ -213,6 +228,7 @@ def orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None
 
     Raises `Overtaken` where `give_up` ended the search.
     """
+    compiling.need(compiling.ORBITS)
     given_up = False
 
     def stop() -> bool:
@@ -229,6 +245,7 @@ def orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None
 @cached
 def quick_orbit(scene: Scene, how: Marching) -> Orbit:
     """The orbit, or what a search of FEW_PERIODS has come to."""
+    compiling.need(compiling.ORBITS)
     periods = itertools.count(1)
     return core.orbit(
         scene,

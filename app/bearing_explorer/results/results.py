@@ -37,7 +37,6 @@ from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, S
 from bearingcore.common.lazy import cached_property
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.scene.defect import RACES
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
 from bearingcore.statics.ball_positions import EquilibriumWithMass
 from bearingcore.statics.equilibrium import (
@@ -45,7 +44,6 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     has_long_period,
 )
-from bearingcore.statics.passes import drops_now
 
 Answer = TypeVar("Answer")
 Compute = TypeVar("Compute", bound=Callable[..., object])
@@ -310,7 +308,7 @@ class Results:
     @cached_property
     def drop(self) -> dict[str, np.ndarray]:
         """Drop [m] of each ball's centre into the outer and the inner race, by race."""
-        return {race: drops_now(self.scene, self.cage_angle, race) for race in RACES}
+        return statics.drops(self.scene, self.cage_angle)
 
     @cached_property
     def profile(self) -> Profile:
@@ -373,9 +371,14 @@ class Results:
         return motions.motion(self.scene, self._marching).motion
 
     @property
+    def fault(self) -> str:
+        """Why the motion ended early; empty where it did not."""
+        return motions.ending(self.scene, self._marching).fault
+
+    @property
     def settled_since(self) -> float:
         """Time [s] of the motion after which it counts as settled."""
-        return motions.motion(self.scene, self._marching).since
+        return motions.ending(self.scene, self._marching).since
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -454,7 +457,7 @@ class Results:
     @cached_property
     def contact_damping(self) -> float:
         """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
-        return core.contact_damping(self.scene)
+        return statics.contact_damping(self.scene)
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:

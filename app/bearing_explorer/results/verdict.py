@@ -56,8 +56,8 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
             return moving
         if shown & ORBITS:
             return of_orbit(results)
-    except StillCompiling:
-        return Verdict("busy", "Balls with mass are being compiled")
+    except StillCompiling as wait:
+        return Verdict("busy", f"Not ready: {wait}")
     except ValueError as error:  # the view gives the whole sentence
         return Verdict("bad", f"No motion: {words_of(error)}")
     return static
@@ -79,10 +79,9 @@ def of_statics(results: Results) -> Verdict:
 
 def of_motion(results: Results) -> Verdict:
     """Whether the simulated motion reached its end."""
-    motion = results.motion
-    if motion.completed:
+    if not results.fault:
         return Verdict("good", "Converged")
-    return Verdict("bad", f"The motion {motion.reason}")
+    return Verdict("bad", f"The motion {results.fault}")
 
 
 def of_orbit(results: Results) -> Verdict:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import html
-from collections.abc import Callable
 from typing import Any, ClassVar
 from urllib.parse import unquote
 
@@ -45,16 +44,10 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
     one_at_a_time: ClassVar[asyncio.Lock] = asyncio.Lock()
     """With a pause after each page, in which those who have one are drawn: of 20 who come at once
     all waited for the last page otherwise."""
-    startup_message: ClassVar[Callable[[], str]] = staticmethod(lambda: "")
-    """A sentence for as long as there is no page yet; then empty."""
 
     async def get(self, *arguments: Any, **named: Any) -> None:
         """A session, and the page that connects to it."""
-        if words := type(self).startup_message():
-            self.set_header("Retry-After", "1")
-            self.set_header("Refresh", "1")  # browsers ask again by themselves
-            write_html(self, 503, "The explorer is getting ready", words)
-        elif len(self.request.uri or "") > LONGEST_ADDRESS:
+        if len(self.request.uri or "") > LONGEST_ADDRESS:
             self.redirect(f"?v={TOO_LONG}")  # relative: a path such as //elsewhere would lead there
         elif {"bokeh-token", "bokeh-session-id"} & set(self.request.arguments):
             write_html(self, 400, "This address does not work", _NO_SESSION)

@@ -57,15 +57,10 @@ def make_server(
     num_procs: int = 1,
     frame_ancestors: Sequence[str] = (),
     limits: Limits = Limits(),
-    startup_message: Callable[[], str] = lambda: "",
 ) -> Any:
-    """The server, listening but not running yet. OSError where the port is taken.
-
-    As long as `startup_message` gives a sentence, it stands in place of the page.
-    """
+    """The server, listening but not running yet. OSError where the port is taken."""
     PageHandler.most_sessions = limits.sessions
     PageHandler.one_at_a_time = asyncio.Lock()
-    PageHandler.startup_message = staticmethod(startup_message)
     LiveSocket.largest = limits.message
     Headers.frame_ancestors = ("'self'", *frame_ancestors)
     per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]

@@ -71,8 +71,7 @@ class OtherModels(JobView[Alternatives]):
         scene = editor.scene
 
         def compute(job: Work) -> str:
-            if not compiling.ready():
-                raise compiling.StillCompiling
+            compiling.need(compiling.BALLS_WITH_MASS)
             began = time.perf_counter()
             found = alternatives(scene, job.cancelled)
             job.show(found)

@@ -23,6 +23,8 @@ class StatusLine(LiveComponent):
     #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
     #: and, where it is of a picture, "tab": str and "resting": bool
     line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
+    #: of compiling: {"done": int, "of": int, "words": str, "still": bool}; empty once all is ready
+    progress = param.Dict(default={})
     #: whether the details are behind a button, in a list that opens above the line
     folded = param.Boolean(default=False)
 

@@ -4,28 +4,13 @@ from __future__ import annotations
 
 from bearingcore.kernels.balls.structs import INNER, OUTER
 from bearingcore.kernels.compiling import inlined
-from bearingcore.kernels.contact import compression, contact_load, seen_from_the_cage, tilting
-
-
-@inlined
-def ring_at_ball(x, cj, sj, j, contacts):
-    """Radial and axial displacement [m] of a ring's groove centre at contact j (Eqs. 11, 12).
-
-    x is a tuple of five; also velocities, as `seen_from_the_cage` gives them.
-    """
-    arm = contacts.arm[j]
-    r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj
-    z = x[2] + contacts.reach[j] * (x[3] * sj - x[4] * cj)
-    return r, z
-
-
-@inlined
-def race_touch(r, z, drop, A, j, contacts):
-    """δ [m], direction (er, ez) and 1/A of one contact; (r, z) is what closes it."""
-    ca = contacts.line_r[j]
-    sa = contacts.line_z[j]
-    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, A)
-    return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
+from bearingcore.kernels.contact import (
+    contact_load,
+    race_touch,
+    ring_at_ball,
+    seen_from_the_cage,
+    tilting,
+)
 
 
 @inlined

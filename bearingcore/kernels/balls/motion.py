@@ -37,19 +37,18 @@ from bearingcore.kernels.balls.contacts import (
     ring_state,
 )
 from bearingcore.kernels.balls.release import smooth_start, true_forces, update_released
-from bearingcore.kernels.balls.structs import INNER, OUTER, BallForces, BallMarch
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
-from bearingcore.kernels.contact import contact_load
-from bearingcore.kernels.motion.march import advance, all_finite, stage_part
+from bearingcore.kernels.balls.structs import INNER, OUTER, BallForces, BallSteps
+from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.motion.rings import record, ring_accelerations
 from bearingcore.kernels.path import (
     BLOCK,
-    drops_of_balls,
     lay_out_balls,
+    lay_out_drops_and_rates,
     lay_out_unbalance,
     new_passage,
 )
-from bearingcore.kernels.structs import PLANAR, VELOCITIES
+from bearingcore.kernels.runge_kutta import stepper, try_state
+from bearingcore.kernels.structs import PLANAR, VELOCITIES, Recorded
 
 
 @inlined
@@ -118,24 +117,58 @@ def ball_rates(y, k, passage, inner, at, system, work):
         )
 
 
-@njit_no_refcount
-def lay_out_inner(start, turn, count, system, inner):
-    """Drops into defects of the inner race, with their rates, at `count` cage angles."""
-    if system.inner_path.defects.shape[0] == 0:
-        return
-    for i in range(count):
-        rate = inner.d_rate[i]
-        drops_of_balls(start + i * turn, system.contacts, system.inner_path, inner.d[i], rate)
-        for j in range(rate.size):
-            rate[j] *= system.rotor.cage_speed
+@called
+def lay_out(angle, turn, count, system, work):
+    """Balls, drops into both races and unbalance at `count` cage angles [rad], into work."""
+    speed = system.rotor.cage_speed
+    contacts = system.contacts
+    lay_out_balls(angle, turn, count, speed, contacts, system.outer_path, work.passage)
+    lay_out_unbalance(angle, turn, count, system.rotor, work.passage)
+    if system.inner_path.defects.shape[0] > 0:
+        lay_out_drops_and_rates(angle, turn, count, speed, contacts, system.inner_path, work.inner)
 
 
-@compiled
-def new_ball_march(size, n_balls, instants):
-    """Empty work space of steps."""
-    return BallMarch(
-        new_passage(instants, n_balls),
-        new_passage(instants, n_balls),
+@inlined
+def rates(y, part, before, k, at, system, work):
+    """Rate of the state y + part·before into k."""
+    try_state(y, part, before, work.trial)
+    ball_rates(work.trial, k, work.passage, work.inner, at, system, work.forces)
+
+
+@inlined
+def changed(y, at, system, work):
+    """Whether contacts have been released or taken up, and y with them, as a step begins."""
+    rotor = system.rotor
+    if rotor.tension or rotor.variables == VELOCITIES:
+        return False
+    return update_released(y, work.k[0], work.passage, work.inner, at, system, work.forces)
+
+
+@inlined
+def keep(sample, y, at, system, out, work):
+    """Record the state y, with the forces as published and the places of the balls."""
+    forces = work.forces
+    places = out.places
+    rotor = system.rotor
+    k = work.k[0]
+    true_forces(k, work.passage, work.inner, at, system, forces)
+    push = work.passage.push[at]
+    record(out.history, sample, y, k, rotor, forces.f[INNER], forces.f[OUTER], push)
+    first = 4 * rotor.active.size
+    n_balls = places.shape[2]
+    for b in range(places.shape[1] * n_balls):
+        places[sample, b // n_balls, b % n_balls] = y[first + b]
+
+
+runge_kutta = stepper(lay_out, rates, changed, keep)
+
+
+def new_ball_steps(size, instants, angle):
+    """Empty work space of steps of states of `size` numbers; angle (n,): see `new_passage`."""
+    n_balls = angle.size
+    return BallSteps(
+        new_passage(instants, angle),
+        new_passage(instants, angle),
         BallForces(
             np.zeros((2, 5)),
             np.zeros((2, 5)),
@@ -151,133 +184,21 @@ def new_ball_march(size, n_balls, instants):
     )
 
 
-@compiled
 def march_balls(y, h, start_angle, stride, system, history, places):
-    """Steps of h [s] from y, velocities in it, which is moved to the end; RK4 of order 4.
+    """Steps of h [s] from y, velocities in it, which is moved to the end.
 
     Every `stride` steps history (samples, 6, n) takes displacement, velocity and acceleration of
     the inner ring, then of the outer one, and places (samples, k, n_balls) those of the balls:
     radial, and axial unless the motion is planar. Returns the number of steps after which all was
     still finite, which is looked at once in half a BLOCK.
     """
-    rotor = system.rotor
-    contacts = system.contacts
-    n_balls = contacts.angle.size
-    size = y.size
-    march = new_ball_march(size, n_balls, BLOCK + 1)
-    passage = march.passage
-    inner = march.inner
-    work = march.forces
-    k = march.k
-    trial = march.trial
-    n_steps = stride * (history.shape[0] - 1)
-    first = 4 * rotor.active.size
-    half_turn = 0.5 * h * rotor.cage_speed
-    for step in range(n_steps + 1):
-        i = (2 * step) % BLOCK
-        if i == 0:
-            if not all_finite(y):
-                return max(step - BLOCK // 2, 0)
-            instants = min(BLOCK, 2 * (n_steps - step)) + 1
-            angle = start_angle + 2 * step * half_turn
-            lay_out_balls(
-                angle, half_turn, instants, rotor.cage_speed, contacts, system.outer_path, passage
-            )
-            lay_out_unbalance(angle, half_turn, instants, rotor, passage)
-            lay_out_inner(angle, half_turn, instants, system, inner)
-        if step == 0:
-            smooth_start(y, passage, inner, system, work)
-        looking = not rotor.tension and rotor.variables != VELOCITIES
-        stage = 0
-        while stage < 4:
-            at = i + (stage + 1) // 2
-            part = stage_part(stage, h)
-            before = max(stage - 1, 0)
-            for r in range(size):
-                trial[r] = y[r] + part * k[before, r]
-            ball_rates(trial, k[stage], passage, inner, at, system, work)
-            stage += 1
-            if stage > 1:
-                continue
-            if looking:
-                looking = False
-                if update_released(y, k[0], passage, inner, at, system, work):
-                    stage = 0  # another variable, another rate
-                    continue
-            if step % stride == 0:
-                true_forces(k[0], passage, inner, at, system, work)
-                sample = step // stride
-                record(
-                    history, sample, y, k[0], rotor, work.f[INNER], work.f[OUTER], passage.push[at]
-                )
-                for b in range(places.shape[1] * n_balls):
-                    places[sample, b // n_balls, b % n_balls] = y[first + b]
-            if step == n_steps:
-                break
-        if step == n_steps:
-            break
-        for r in range(size):
-            y[r] += advance(h, k[0, r], k[1, r], k[2, r], k[3, r])
-    return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
+    work = new_ball_steps(y.size, BLOCK + 1, system.contacts.angle)
+    return march_with_balls(y, h, start_angle, stride, system, Recorded(history, places), work)
 
 
 @compiled
-def ball_motion_rates(times, states, start_angle, system):
-    """dy/dt (m, size) at times (m,) [s] and states (m, size) of a system in VELOCITIES."""
-    n_balls = system.contacts.angle.size
-    march = new_ball_march(states.shape[1], n_balls, 1)
-    rates = np.empty(states.shape)
-    for i in range(times.size):
-        angle = start_angle + system.rotor.cage_speed * times[i]
-        lay_out_balls(
-            angle,
-            0.0,
-            1,
-            system.rotor.cage_speed,
-            system.contacts,
-            system.outer_path,
-            march.passage,
-        )
-        lay_out_unbalance(angle, 0.0, 1, system.rotor, march.passage)
-        lay_out_inner(angle, 0.0, 1, system, march.inner)
-        ball_rates(states[i], rates[i], march.passage, march.inner, 0, system, march.forces)
-    return rates
-
-
-@compiled
-def race_loads(inner_x, outer_x, places, active, turning, system):
-    """Elastic loads (2, m, n_balls) [N] of inner and outer contacts.
-
-    Displacements (m, len(active)) of the rings [m], tilts times r_d, and places (m, k, n_balls) of
-    the balls; turning is (start, turn): the cage is at start + i·turn at row i.
-    """
-    contacts = system.contacts
-    n_balls = contacts.angle.size
-    march = new_ball_march(1, n_balls, 1)
-    loads = np.zeros((2, places.shape[0], n_balls))
-    place = np.zeros(2 * n_balls)
-    start, turn = turning
-    for i in range(places.shape[0]):
-        angle = start + i * turn
-        lay_out_balls(angle, 0.0, 1, 1.0, contacts, system.outer_path, march.passage)
-        lay_out_inner(angle, 0.0, 1, system, march.inner)
-        for a in range(active.size):
-            march.forces.x[INNER, active[a]] = inner_x[i, a]
-            march.forces.x[OUTER, active[a]] = outer_x[i, a]
-        for b in range(places.shape[1] * n_balls):
-            place[b] = places[i, b // n_balls, b % n_balls]
-        loads_of_races(place, loads, i, system, march)
-    return loads
-
-
-@njit_no_refcount
-def loads_of_races(place, loads, i, system, march):
-    """Loads of one instant of `race_loads`."""
-    find_contacts(place, 0, march.passage, march.inner, 0, system, march.forces)
-    for race in range(2):
-        for j in range(loads.shape[2]):
-            delta = march.forces.contact[race, j, 0]
-            if delta > 0.0:
-                _, loads[race, i, j], _ = contact_load(
-                    delta, system.races.factor[race, j], system.contacts.exponent[j]
-                )
+def march_with_balls(y, h, start_angle, stride, system, out, work):
+    """Body of `march_balls`."""
+    lay_out(start_angle, 0.0, 1, system, work)
+    smooth_start(y, work.passage, work.inner, system, work.forces)
+    return runge_kutta(y, h, start_angle, stride, system, out, work)

@@ -23,12 +23,19 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bearingcore.kernels.balls.contacts import race_touch, ring_at_ball
 from bearingcore.kernels.balls.structs import INNER, OUTER, Races
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
-from bearingcore.kernels.contact import components, compression_under, contact_load, tilting
-from bearingcore.kernels.path import ball_circle, lay_out_drops, place_balls
+from bearingcore.kernels.compiling import called, compiled, inlined
+from bearingcore.kernels.contact import (
+    components,
+    compression_under,
+    contact_load,
+    race_touch,
+    ring_at_ball,
+    tilting,
+)
+from bearingcore.kernels.path import lay_out_drops, place_balls
 from bearingcore.kernels.statics import (
     CONVERGED,
     FREE_DIRECTION,
@@ -43,7 +50,7 @@ from bearingcore.kernels.statics import (
     new_descent,
     newton_direction,
 )
-from bearingcore.kernels.structs import Array, Contacts, Path
+from bearingcore.kernels.structs import Array, Contacts, Integers, Path
 
 MOST_BALL_STEPS, MOST_RING_STEPS = 200, 200
 BALL_AIM, BALL_LIMIT = 1e-15, 1e-10
@@ -135,7 +142,7 @@ def first_place(r, z, force, j, balls, places):
     return r + (Ai - di) * ca - reach, z + (Ai - di) * sa, True
 
 
-@njit_no_refcount
+@called
 def settle_ball(r, z, j, balls, places):
     """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
 
@@ -279,7 +286,7 @@ def settle_ball(r, z, j, balls, places):
     return energy, settled, w_rr, w_rz, w_zz
 
 
-@njit_no_refcount
+@called
 def ring_energy(q, force, balls, places, g, H):
     """V(q) [N·m] with all balls at their minima, its gradient g (5,) and Hessian H (5, 5).
 
@@ -328,7 +335,7 @@ def ring_energy(q, force, balls, places, g, H):
     return energy, size, settled
 
 
-@njit_no_refcount
+@called
 def settle_ring(q, load, balls, places, work):
     """Move q to the minimum of V. Returns (which, status, residual, iterations).
 
@@ -365,7 +372,7 @@ def settle_ring(q, load, balls, places, work):
         limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
         stays = residual <= limit and residual >= 0.5 * before
         if settled and (residual <= RESIDUAL_AIM or stays):
-            least = least_pivot(H, active)
+            least = least_pivot(H, active, work.L)
             return now, CONVERGED if least > NO_PIVOT else FREE_DIRECTION, residual, iteration
         if not newton_direction(H, g, active, 0.0, work.L, work.p) > 1e-12:
             newton_direction(H, g, active, shift * max(stiffest, 1.0), work.L, work.p)
@@ -407,7 +414,6 @@ def settle_ring(q, load, balls, places, work):
     return now, NOT_CONVERGED, residual, MOST_RING_STEPS
 
 
-@compiled
 def new_places(n_balls):
     """Empty `BallPlaces`."""
     by_race = (2, n_balls)
@@ -423,7 +429,6 @@ def new_places(n_balls):
     )
 
 
-@compiled
 def ball_positions(cage_angles, start, balls, load):
     """Static equilibrium with free balls at each cage angle, from the rings' places `start` (n, 5).
 
@@ -433,39 +438,66 @@ def ball_positions(cage_angles, start, balls, load):
     """
     n = cage_angles.size
     n_balls = balls.contacts.angle.size
-    q = start.copy()
-    loads = np.zeros((2, n, n_balls))
-    angles = np.full((2, n, n_balls), math.nan)
-    where = np.zeros((n, 2, n_balls))
-    stiffness = np.zeros((n, 5, 5))
-    status = np.zeros(n, dtype=np.int8)
-    residuals = np.empty(n)
-    iterations = np.zeros(n, dtype=np.int64)
-    places = new_places(n_balls)
-    slope = np.empty(n_balls)
-    circle_c, circle_s = ball_circle(balls.contacts.angle)
-    work = new_descent(n_balls)
-    for k in range(n):
+    found = PositionAnswers(
+        start.copy(),
+        np.zeros((2, n, n_balls)),
+        np.full((2, n, n_balls), math.nan),
+        np.zeros((n, 2, n_balls)),
+        np.zeros((n, 5, 5)),
+        np.zeros(n, dtype=np.int8),
+        np.empty(n),
+        np.zeros(n, dtype=np.int64),
+    )
+    work = new_descent(balls.contacts.angle), new_places(n_balls)
+    find_positions(cage_angles, start, balls, load, found, work)
+    return found
+
+
+class PositionAnswers(NamedTuple):
+    """Output of `ball_positions`."""
+
+    q: Array
+    loads: Array
+    angles: Array
+    where: Array
+    stiffness: Array
+    status: NDArray[np.int8]
+    residual: Array
+    iterations: Integers
+
+
+@compiled
+def find_positions(cage_angles, start, balls, load, found, work):
+    """Body of `ball_positions`, with work space."""
+    descent, places = work
+    q = found.q
+    status = found.status
+    n_balls = places.c.size
+    for k in range(cage_angles.size):
         cage = cage_angles[k]
-        place_balls(cage, balls.contacts, circle_c, circle_s, places.c, places.s)
-        lay_out_drops(cage, balls.contacts, balls.inner_path, places.drop[INNER], slope)
-        lay_out_drops(cage, balls.contacts, balls.outer_path, places.drop[OUTER], slope)
+        circle_c = descent.circle_c
+        place_balls(cage, balls.contacts, circle_c, descent.circle_s, places.c, places.s)
+        for race in range(2):
+            path = balls.inner_path if race == INNER else balls.outer_path
+            lay_out_drops(cage, balls.contacts, path, places.drop[race], descent.slope)
         if k > 0 and status[k - 1] == CONVERGED:
             # what the balls' loads moved the ring by, and the balls, at the angle before
             for a in range(5):
                 q[k, a] += q[k - 1, a] - start[k - 1, a]
         else:
-            places.known[:] = 0.0
-        now, status[k], residuals[k], iterations[k] = settle_ring(q[k], load, balls, places, work)
+            for j in range(n_balls):
+                places.known[j] = 0.0
+        now, status[k], found.residual[k], found.iterations[k] = settle_ring(
+            q[k], load, balls, places, descent
+        )
         for a in range(5):
             for b in range(a + 1):
-                stiffness[k, a, b] = work.H[now, a, b]
-                stiffness[k, b, a] = work.H[now, a, b]
+                found.stiffness[k, a, b] = descent.H[now, a, b]
+                found.stiffness[k, b, a] = descent.H[now, a, b]
         for j in range(n_balls):
-            where[k, 0, j] = places.place[0, j]
-            where[k, 1, j] = places.place[1, j]
             for race in range(2):
-                loads[race, k, j] = places.load[race, j]
-                if status[k] < NOT_CARRIED and loads[race, k, j] > 0.0:
-                    angles[race, k, j] = math.atan2(places.ez[race, j], places.er[race, j])
-    return q, loads, angles, where, stiffness, status, residuals, iterations
+                found.where[k, race, j] = places.place[race, j]
+                found.loads[race, k, j] = places.load[race, j]
+                if status[k] < NOT_CARRIED and places.load[race, j] > 0.0:
+                    angle = math.atan2(places.ez[race, j], places.er[race, j])
+                    found.angles[race, k, j] = angle

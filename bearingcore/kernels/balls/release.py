@@ -10,12 +10,12 @@ from bearingcore.kernels.balls.contacts import (
     ring_state,
 )
 from bearingcore.kernels.balls.structs import INNER
-from bearingcore.kernels.compiling import njit_no_refcount
+from bearingcore.kernels.compiling import called
 from bearingcore.kernels.contact import tilting
 from bearingcore.kernels.structs import PLANAR, VELOCITIES
 
 
-@njit_no_refcount
+@called
 def change_variable(y, race, j, sign, passage, at, system, work):
     """Take what a contact adds to w out of the state y (sign 1), or put it in (−1)."""
     rotor = system.rotor
@@ -45,7 +45,7 @@ def change_variable(y, race, j, sign, passage, at, system, work):
         y[speeds + n_balls + j] += side * damped * ez * races.inverse_mass[j]
 
 
-@njit_no_refcount
+@called
 def locate_contacts(y, passage, inner, at, system, work):
     """Contacts at the state y into work, the rings' displacements being there already."""
     first = 4 * system.rotor.active.size
@@ -55,7 +55,7 @@ def locate_contacts(y, passage, inner, at, system, work):
         find_contacts(y, first, passage, inner, at, system, work)
 
 
-@njit_no_refcount
+@called
 def true_forces(k, passage, inner, at, system, work):
     """Σ (Q + c δ̇) e of both rings into work.f, at the positions that `ball_rates` left in work."""
     first = 4 * system.rotor.active.size
@@ -65,7 +65,7 @@ def true_forces(k, passage, inner, at, system, work):
         push_contacts(k, first, passage, inner, at, system, work, False)
 
 
-@njit_no_refcount
+@called
 def update_released(y, k, passage, inner, at, system, work):
     """Release contacts whose damper would pull, and take up those that push again.
 
@@ -107,7 +107,7 @@ def update_released(y, k, passage, inner, at, system, work):
     return changed
 
 
-@njit_no_refcount
+@called
 def smooth_start(y, passage, inner, system, work):
     """Turn the velocities in y into w: everything that is compressed counts as pushing."""
     rotor = system.rotor

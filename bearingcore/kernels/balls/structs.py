@@ -72,7 +72,7 @@ class BallForces(NamedTuple):
     before: NDArray[np.bool_]
 
 
-class BallMarch(NamedTuple):
+class BallSteps(NamedTuple):
     """Work space of steps: positions of the balls, with the drops into the outer race and into the
     inner one; the equations of motion's; rates of the four stages (4, size); the state tried.
     """

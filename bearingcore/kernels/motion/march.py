@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
+from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.contact import (
     approach,
     carried,
@@ -36,20 +36,12 @@ from bearingcore.kernels.contact import (
 )
 from bearingcore.kernels.motion.planar import planar_equations_of_motion, planar_forces
 from bearingcore.kernels.motion.rings import record, ring_accelerations
-from bearingcore.kernels.motion.tangent import contact_slopes, new_slopes, saltation, tangent_rates
+from bearingcore.kernels.motion.tangent import march_tangent, new_slopes
 from bearingcore.kernels.path import BLOCK, lay_out_balls, lay_out_unbalance, new_passage
-from bearingcore.kernels.structs import (
-    PLANAR,
-    SMOOTH,
-    VELOCITIES,
-    Forces,
-    Place,
-    Steps,
-    TangentSteps,
-)
+from bearingcore.kernels.runge_kutta import stepper, try_state
+from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Forces, Place, Recorded, Steps
 
 
-@compiled
 def new_forces(n_contacts):
     """Empty work space of the equations of motion."""
     return Forces(
@@ -59,12 +51,13 @@ def new_forces(n_contacts):
         np.zeros(5),
         np.empty(n_contacts, dtype=np.int64),
         np.empty((n_contacts, 5)),
+        np.zeros(1, dtype=np.int64),
     )
 
 
 @inlined
 def find_touching(passage, at, contacts, work):
-    """List the contacts compressed at work.x, and Σ δ e into work.S; returns how many."""
+    """List the contacts compressed at work.x in work, and put Σ δ e into work.S."""
     x = components(work.x)
     touching = work.touching
     contact = work.contact
@@ -97,11 +90,11 @@ def find_touching(passage, at, contacts, work):
         S4 -= et * cj
     S = work.S
     S[0], S[1], S[2], S[3], S[4] = S0, S1, S2, S3, S4
-    return count
+    work.touched[0] = count
 
 
 @inlined
-def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
+def push_of_contacts(passage, at, rotor, contacts, work, smooth):
     """Force of all contacts on the outer ring [N], moments over r_d, into work.f.
 
     Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact, δ̇ the full time
@@ -120,7 +113,7 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
     f2 = 0.0
     f3 = 0.0
     f4 = 0.0
-    for i in range(count):
+    for i in range(work.touched[0]):
         j = work.touching[i]
         delta = contact[i, 0]
         er = contact[i, 1]
@@ -165,7 +158,7 @@ def push_of_contacts(passage, at, rotor, contacts, work, count, smooth):
 def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     """dy/dt into k (4 n,); y is x, w of the inner, x, w of the outer ring, n directions each.
 
-    Returns how many contacts are compressed. `work` is left as it is at y.
+    `work` is left as it is at y.
     """
     active = rotor.active
     n = active.size
@@ -175,219 +168,151 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     f = work.f
     S = work.S
     smooth = rotor.variables != VELOCITIES
-    if rotor.variables == PLANAR:
-        planar_equations_of_motion(y, 0.0, y, k, passage, at, rotor, contacts)
-        return 0
     for a in range(n):
         x[active[a]] = y[a] - y[2 * n + a]
-    count = find_touching(passage, at, contacts, work)
+    find_touching(passage, at, contacts, work)
     for a in range(n):
         jump = damping * S[active[a]] if smooth else 0.0
         k[a] = y[n + a] - rotor.inverse_inner[a] * jump
         k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * jump
         v[active[a]] = k[a] - k[2 * n + a]
-    push_of_contacts(passage, at, rotor, contacts, work, count, smooth)
+    push_of_contacts(passage, at, rotor, contacts, work, smooth)
     for a in range(n):
         k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, f, f, passage.push[at])
-    return count
+
+
+@called
+def lay_out(angle, turn, count, system, work):
+    """Balls and unbalance at `count` cage angles angle + i·turn [rad], into work."""
+    rotor = system.rotor
+    passage = work.passage
+    lay_out_balls(angle, turn, count, rotor.cage_speed, system.contacts, system.path, passage)
+    lay_out_unbalance(angle, turn, count, rotor, passage)
 
 
 @inlined
-def all_finite(y):
-    """Whether every number of y (n,) is finite."""
-    total = 0.0
-    for i in range(y.size):
-        total += y[i] - y[i]  # 0, or NaN for what is not finite
-    return total == 0.0
-
-
-@inlined
-def stage_part(stage, h):
-    """Time [s] from a step's beginning to the stage whose rate leads on from there."""
-    return 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
-
-
-@inlined
-def advance(h, first, second, third, fourth):
-    """Increment of a step of h [s], by the rates of its four stages: classical Runge-Kutta."""
-    return h / 6.0 * (first + 2.0 * (second + third) + fourth)
-
-
-@inlined
-def runge_kutta(y, Y, h, start_angle, system, history, work, tangent):
-    """Classical Runge-Kutta steps of order 4; Y and tangent may be None. See `march`."""
+def rates(y, part, before, k, at, system, work):
+    """Rate of y + part·before into k: of the motion (4 n,), and of its tangent behind it."""
     rotor = system.rotor
     contacts = system.contacts
     passage = work.passage
+    with_tangent = y.size > 4 * rotor.active.size
+    if with_tangent or rotor.variables != PLANAR:
+        try_state(y, part, before, work.trial)
+    if rotor.variables == PLANAR:
+        planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts)
+    else:
+        equations_of_motion(work.trial, k, passage, at, rotor, contacts, work.forces)
+    if with_tangent:
+        march_tangent(y, part, k, at, system, work)
+
+
+@inlined
+def changed(y, at, system, work):
+    """A state of massless balls is never changed between steps."""
+    return False
+
+
+@inlined
+def keep(sample, y, at, system, out, work):
+    """Record the state y with the forces as published."""
+    rotor = system.rotor
     forces = work.forces
-    k = work.k
-    trial = work.trial
-    n_steps = history.shape[0] - 1
-    size = y.size
-    planar = rotor.variables == PLANAR
-    half_turn = 0.5 * h * rotor.cage_speed
-    for step in range(n_steps + 1):
-        i = (2 * step) % BLOCK
-        if i == 0:
-            if not all_finite(y):
-                return max(step - BLOCK // 2, 0)
-            instants = min(BLOCK, 2 * (n_steps - step)) + 1
-            angle = start_angle + 2 * step * half_turn
-            lay_out_balls(
-                angle, half_turn, instants, rotor.cage_speed, contacts, system.path, passage
-            )
-            lay_out_unbalance(angle, half_turn, instants, rotor, passage)
-        for stage in range(4):
-            at = i + (stage + 1) // 2
-            part = stage_part(stage, h)
-            before = max(stage - 1, 0)
-            if Y is not None or not planar:
-                for r in range(size):
-                    trial[r] = y[r] + part * k[before, r]
-            if planar:
-                planar_equations_of_motion(
-                    y, part, k[before], k[stage], passage, at, rotor, contacts
-                )
-                count = 0
-            else:
-                count = equations_of_motion(trial, k[stage], passage, at, rotor, contacts, forces)
-            if Y is not None:
-                slopes = tangent.slopes
-                if stage == 0 and rotor.variables == VELOCITIES:
-                    saltation(Y, passage, at, rotor, contacts, forces, count, slopes)
-                for r in range(size):
-                    for column in range(Y.shape[1]):
-                        tangent.trial[r, column] = (
-                            Y[r, column] + part * tangent.k[before, r, column]
-                        )
-                contact_slopes(trial, passage, at, system, forces, count, slopes)
-                tangent_rates(tangent.trial, tangent.k[stage], rotor, slopes)
-            if stage == 0:
-                if planar:
-                    planar_forces(y, k[0], passage, at, rotor, contacts, forces.f)
-                elif rotor.variables == SMOOTH:
-                    push_of_contacts(passage, at, rotor, contacts, forces, count, False)
-                record(history, step, y, k[0], rotor, forces.f, forces.f, passage.push[at])
-                if step == n_steps:
-                    break
-        if step == n_steps:
-            break
-        for r in range(size):
-            y[r] += advance(h, k[0, r], k[1, r], k[2, r], k[3, r])
-        if Y is not None:
-            kY = tangent.k
-            for r in range(size):
-                for column in range(Y.shape[1]):
-                    Y[r, column] += advance(
-                        h, kY[0, r, column], kY[1, r, column], kY[2, r, column], kY[3, r, column]
-                    )
-    return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
+    if rotor.variables == PLANAR:
+        planar_forces(y, work.k[0], work.passage, at, rotor, system.contacts, forces.f)
+    elif rotor.variables == SMOOTH:
+        push_of_contacts(work.passage, at, rotor, system.contacts, forces, False)
+    push = work.passage.push[at]
+    record(out.history, sample, y, work.k[0], rotor, forces.f, forces.f, push)
 
 
-@compiled
-def new_steps(size, n_contacts):
-    """Empty work space of steps."""
+runge_kutta = stepper(lay_out, rates, changed, keep)
+
+
+def new_steps(size, instants, system):
+    """Empty work space of steps from states of `size` numbers."""
+    angle = system.contacts.angle
     return Steps(
-        new_passage(BLOCK + 1, n_contacts),
-        new_forces(n_contacts),
+        new_passage(instants, angle),
+        new_forces(angle.size),
+        new_slopes(4 * system.rotor.active.size, size, angle.size),
         np.zeros((4, size)),
         np.zeros(size),
     )
 
 
-@compiled
 def march(y, h, start_angle, system, history):
-    """Steps of h [s] from y (4 n,), which is moved to the end; the cage begins at start_angle.
+    """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
+
+    Behind the 4 n numbers of a state y may hold the tangent (4 n, columns), row by row: how the end
+    changes with the beginning. In smooth variables nothing jumps as balls touch: its steps are the
+    derivative of those of the motion, without corrections.
 
     history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
     of the outer ring, at every step. Returns the number of steps after which all was still finite,
     which is looked at once in half a BLOCK.
     """
-    work = new_steps(y.size, system.contacts.angle.size)
-    return runge_kutta(y, None, h, start_angle, system, history, work, None)
+    work = new_steps(y.size, min(2 * (history.shape[0] - 1), BLOCK) + 1, system)
+    return march_each(y[None], h, np.array([start_angle]), system, history[None], work)
 
 
 @compiled
-def march_with_tangent(y, Y, h, start_angle, system, history):
-    """`march`, together with the tangent Y (4 n, columns): how the end changes with the beginning.
-
-    In smooth variables nothing jumps as balls touch: the steps of the tangent are the derivative of
-    those of the motion, without corrections.
-    """
-    n_contacts = system.contacts.angle.size
-    work = new_steps(y.size, n_contacts)
-    tangent = TangentSteps(
-        new_slopes(Y.shape[0], Y.shape[1], n_contacts),
-        np.zeros((4, Y.shape[0], Y.shape[1])),
-        np.zeros((Y.shape[0], Y.shape[1])),
-    )
-    return runge_kutta(y, Y, h, start_angle, system, history, work, tangent)
+def march_each(states, h, start_angles, system, histories, work):
+    """`march` of each row of states, from each start angle; returns what the last one does."""
+    done = 0
+    for i in range(start_angles.size):
+        out = Recorded(histories[i], histories[i, :0])
+        done = runge_kutta(states[i], h, start_angles[i], 1, system, out, work)
+    return done
 
 
-@compiled
 def turn_smooth(y, sign, angle, system):
     """Turn velocities in the state y (4 n,) into w (sign 1), or back (sign −1), in place.
 
-    Where velocities are what the rotor marches they stay as they are.
+    Where velocities are what the rotor marches they stay as they are. With w = 0 the velocities
+    are what the smooth variables take off them.
     """
-    rotor = system.rotor
-    if rotor.variables == VELOCITIES:
+    if system.rotor.variables == VELOCITIES:
         return
-    active = rotor.active
-    n = active.size
-    n_contacts = system.contacts.angle.size
-    passage = new_passage(1, n_contacts)
-    lay_out_balls(angle, 0.0, 1, rotor.cage_speed, system.contacts, system.path, passage)
-    work = new_forces(n_contacts)
-    for a in range(n):
-        work.x[active[a]] = y[a] - y[2 * n + a]
-    find_touching(passage, 0, system.contacts, work)
-    for a in range(n):
-        jump = sign * rotor.contact_damping * work.S[active[a]]
-        y[n + a] += rotor.inverse_inner[a] * jump
-        y[3 * n + a] -= rotor.inverse_outer[a] * jump
+    n = system.rotor.active.size
+    still = y.reshape(4, n) * np.array([[1.0], [0.0], [1.0], [0.0]])
+    history = np.empty((1, 6, n))
+    march(still.ravel(), 0.0, angle, system, history)
+    y[n : 2 * n] -= sign * history[0, 1]
+    y[3 * n :] -= sign * history[0, 4]
 
 
-@njit_no_refcount
-def rates_at(angle, y, k, system, passage, work):
-    """`equations_of_motion` at a cage angle [rad], which takes laying out the balls."""
-    rotor = system.rotor
-    lay_out_balls(angle, 0.0, 1, rotor.cage_speed, system.contacts, system.path, passage)
-    lay_out_unbalance(angle, 0.0, 1, rotor, passage)
-    equations_of_motion(y, k, passage, 0, rotor, system.contacts, work)
-
-
-@compiled
 def motion_rates(times, states, start_angle, system):
-    """dy/dt (m, 4 n) of what the rotor marches, at times (m,) [s] and states (m, 4 n)."""
-    n_contacts = system.contacts.angle.size
-    passage = new_passage(1, n_contacts)
-    work = new_forces(n_contacts)
-    rates = np.empty(states.shape)
-    for i in range(times.size):
-        angle = start_angle + system.rotor.cage_speed * times[i]
-        rates_at(angle, states[i], rates[i], system, passage, work)
-    return rates
+    """dy/dt (m, 4 n) at times (m,) [s] and states (m, 4 n) of a system in VELOCITIES."""
+    angles = start_angle + system.rotor.cage_speed * times
+    histories = np.empty((times.size, 1, 6, system.rotor.active.size))
+    work = new_steps(states.shape[1], 1, system)
+    march_each(states.copy(), 0.0, angles, system, histories, work)
+    return histories[:, 0, [1, 2, 4, 5]].reshape(states.shape)
 
 
-@compiled
 def elastic_loads(x, active, start_angle, turn, contacts, path):
     """K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m], tilts times r_d.
 
     The cage is at start_angle + k·turn at row k.
     """
-    n_contacts = contacts.angle.size
-    passage = new_passage(BLOCK, n_contacts)
-    loads = np.zeros((x.shape[0], n_contacts))
-    q = np.zeros(5)
+    loads = np.zeros((x.shape[0], contacts.angle.size))
+    work = np.ascontiguousarray(x), np.zeros(5), new_passage(BLOCK, contacts.angle)
+    fill_loads(active, start_angle, turn, contacts, path, loads, work)
+    return loads
+
+
+@compiled
+def fill_loads(active, start_angle, turn, contacts, path, loads, work):
+    """Body of `elastic_loads`; work holds x, a place for a displacement, and a passage."""
+    x, q, passage = work
     for first in range(0, x.shape[0], BLOCK):
         instants = min(BLOCK, x.shape[0] - first)
         lay_out_balls(start_angle + first * turn, turn, instants, 1.0, contacts, path, passage)
         loads_of_block(x, active, first, contacts, passage, q, loads)
-    return loads
 
 
-@njit_no_refcount
+@called
 def loads_of_block(x, active, first, contacts, passage, q, loads):
     """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
     for i in range(min(BLOCK, x.shape[0] - first)):

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from bearingcore.kernels.compiling import compiled, inlined, njit_no_refcount
+from bearingcore.kernels.compiling import called, inlined
 from bearingcore.kernels.contact import approach, contact_load, seen_from_the_cage, tilting
 from bearingcore.kernels.motion.planar import planar_slopes
 from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Slopes
 
 
-@compiled
-def new_slopes(size, columns, n_contacts):
-    """Empty work space of a tangent (size, columns)."""
+def new_slopes(size, whole, n_contacts):
+    """Empty work space of the tangent behind states of `size` numbers, `whole` with it."""
+    columns = whole // size - 1
     return Slopes(
         np.zeros((5, 5)),
         np.zeros((5, 5)),
@@ -27,19 +27,38 @@ def new_slopes(size, columns, n_contacts):
     )
 
 
+@called
+def march_tangent(y, part, k, at, system, work):
+    """Rate of the tangent into k, behind that of the state work.trial; part is 0 as a step begins.
+
+    y, k and work.trial hold the tangent (4 n, columns) behind 4 n numbers of the state.
+    """
+    rotor = system.rotor
+    slopes = work.slopes
+    size = 4 * rotor.active.size
+    shape = (size, y.size // size - 1)
+    tried = work.trial[size:].reshape(shape)
+    if part == 0.0 and rotor.variables == VELOCITIES:
+        saltation(tried, work.passage, at, rotor, system.contacts, work.forces, slopes)
+        for r in range(size, y.size):
+            y[r] = work.trial[r]
+    contact_slopes(work.trial, work.passage, at, system, work.forces, slopes)
+    tangent_rates(tried, k[size:].reshape(shape), rotor, slopes)
+
+
 @inlined
-def contact_slopes(y, passage, at, system, work, count, slopes):
+def contact_slopes(y, passage, at, system, work, slopes):
     """Derivatives of Σ δ e and the force by x and v at the state y, into slopes.Sx, Px and Pv."""
     rotor = system.rotor
     contacts = system.contacts
     if rotor.variables == PLANAR:
         planar_slopes(y, passage, at, rotor, contacts, slopes)
     else:
-        swivelling_slopes(passage, at, rotor, contacts, work, count, slopes)
+        swivelling_slopes(passage, at, rotor, contacts, work, slopes)
 
 
-@njit_no_refcount
-def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
+@called
+def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
     """`contact_slopes` where contacts swivel.
 
     With e along a contact and t across it, in q, and their derivatives with the cage's turning:
@@ -63,7 +82,7 @@ def swivelling_slopes(passage, at, rotor, contacts, work, count, slopes):
     pace = 1.0
     w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
-    for i in range(count):
+    for i in range(work.touched[0]):
         if work.contact[i, 4] == 0.0:
             continue
         j = work.touching[i]
@@ -126,7 +145,7 @@ def directions_in_q(er, ez, cj, sj, et, e, e_turn):
     e_turn[4] = et * sj
 
 
-@njit_no_refcount
+@called
 def tangent_rates(Y, kY, rotor, slopes):
     """Rate of the tangent Y (4 n, columns) into kY: the equations of motion, differentiated."""
     active = rotor.active
@@ -167,8 +186,8 @@ def tangent_rates(Y, kY, rotor, slopes):
             )
 
 
-@njit_no_refcount
-def saltation(Y, passage, at, rotor, contacts, work, count, slopes):
+@called
+def saltation(Y, passage, at, rotor, contacts, work, slopes):
     """Apply to the tangent Y what contacts that touched during a step do to it.
 
     The damper's force jumps by c δ̇ at δ = 0. A neighbouring motion touches a little earlier or
@@ -184,7 +203,7 @@ def saltation(Y, passage, at, rotor, contacts, work, count, slopes):
     for j in range(pushed.size):
         pushed[j] = pushing[j]
         pushing[j] = False
-    for i in range(count):
+    for i in range(work.touched[0]):
         if work.contact[i, 4] == 0.0:
             continue
         j = work.touching[i]

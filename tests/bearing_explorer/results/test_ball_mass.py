@@ -6,6 +6,7 @@ import asyncio
 
 import pytest
 from bearing_explorer.results import compiling
+from bearing_explorer.results.compiling import Compilation
 from bearing_explorer.results.motions import quick_duration
 from bearing_explorer.results.results import Results
 from bearing_explorer.session import Explorer, Section
@@ -24,8 +25,10 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
     monkeypatch.setattr(
         "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
     )
-    ready = [False]
-    monkeypatch.setattr(compiling, "ready", lambda: ready[0])
+    compilation = Compilation()
+    compilation._left = (compiling.BALLS_WITH_MASS,)
+    for name in ("left", "need", "progress"):
+        monkeypatch.setattr(compiling, name, getattr(compilation, name))
 
     async def until(done) -> None:
         for _ in range(20_000):
@@ -45,7 +48,7 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
         assert not explorer._views["one"][0]._picture.visible
         assert explorer._views["one"][0]._caption.empty
         assert explorer.status.line["mood"] == "busy"
-        ready[0] = True
+        compilation._left = ()
         await until(lambda: "mass" in sentence() and "compiled" not in sentence())
         drawn = sentence()
         assert explorer._views["one"][0]._picture.visible, drawn
@@ -54,7 +57,7 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
         return waiting, drawn
 
     waiting, drawn = run(live())
-    assert waiting.startswith("Balls with mass are still being compiled")
+    assert waiting.startswith("Balls with mass: still being compiled")
     assert "drawn by itself" in waiting
     assert "up the mass of the balls gives most of the power" in drawn
 

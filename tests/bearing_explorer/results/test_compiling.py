@@ -1,93 +1,169 @@
-"""What takes long to compile is compiled elsewhere, once, and no page waits for it."""
+"""Pages are open while kernels are compiled: what comes along is drawn, the rest comes later."""
 
 from __future__ import annotations
 
 import asyncio
 import threading
+from collections.abc import Iterator
 
+import numpy as np
 import pytest
-from bearing_explorer.results import compiling
-from bearing_explorer.results.compiling import Compilation
+from bearing_explorer.default_results import TABS, draw_all
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.results import cache, compiling, default_results
+from bearing_explorer.results.compiling import Compilation, StillCompiling
 from bearing_explorer.session import Explorer
 
 from bearingcore import kernels
+from bearingcore.warm_up import PARTS
 from tests.helpers.compiled import compile_once
 from tests.helpers.loops import run
-from tests.helpers.sections import SECTIONS
+from tests.helpers.sections import SECTIONS as FEW
 from tests.helpers.served import wait_until
 
 
 @pytest.fixture
-def compilation(monkeypatch: pytest.MonkeyPatch) -> Compilation:
-    """A process that has not begun; nothing is on disk."""
+def compilation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Compilation]:
+    """A process that has not begun; nothing is on disk, and nothing is in the cache."""
     made = Compilation()
-    for name in ("begin", "ready", "startup_message"):
+    for name in ("begin", "wait", "left", "need", "progress"):
         monkeypatch.setattr(compiling, name, getattr(made, name))
-    monkeypatch.setattr(kernels, "on_disk", lambda kernel: False)
-    return made
+    monkeypatch.setattr(kernels, "all_on_disk", lambda: False)
+    cache.clear()
+    yield made
+    cache.clear()
 
 
-def test_a_sentence_stands_for_the_page_until_the_first_part_is_compiled(
+def test_parts_are_ready_one_after_the_other(
     compilation: Compilation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    go_on, first, rest = threading.Event(), threading.Event(), threading.Event()
+    go_on = {part: threading.Event() for part in PARTS}
     said: list[str] = []
-    monkeypatch.setattr(compiling, "warm", lambda report: report(str(go_on.wait(60.0))))
-    monkeypatch.setattr(compiling, "compile_rest", lambda: rest.wait(60.0))
-    assert compilation.startup_message() == "", "nothing is being compiled yet"
-    compilation.begin(said.append, lambda: said.append("loaded"), first.set)
-    compilation.begin(said.append)
-    assert "being compiled for this processor" in compilation.startup_message()
-    go_on.set()
-    assert first.wait(60.0)
-    assert compilation.startup_message() == ""
-    assert said == ["True", "loaded"]
-    assert not compilation.ready(), "the rest is being compiled"
-    rest.set()
-    wait_until(compilation.ready)
+
+    def warm(report: object, parts: tuple[str]) -> None:
+        assert go_on[parts[0]].wait(60.0)
+        said.append(parts[0])
+
+    monkeypatch.setattr(compiling, "warm", warm)
+    assert compilation.left() == ()
+    over = threading.Event()
+    compilation.begin(done=over.set)
+    compilation.begin()
+    for part in PARTS:
+        assert compilation.left()[0] == part
+        assert compilation.progress()["done"] == len(said)
+        assert compilation.progress()["still"] == (part == compiling.STATICS)
+        with pytest.raises(StillCompiling):
+            compilation.need(part)
+        go_on[part].set()
+        wait_until(lambda part=part: part not in compilation.left())
+        compilation.need(part)
+    assert over.wait(60.0)
+    assert said == list(PARTS)
+    assert compilation.progress() == {}
 
 
-def test_an_error_of_the_first_part_is_kept(
-    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
+def test_an_error_ends_it_and_kernels_are_compiled_where_they_are_needed(
+    compilation: Compilation, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def warm(_: object) -> None:
+    def warm(*_: object) -> None:
         raise OSError("no compiler")
 
-    over = threading.Event()
     monkeypatch.setattr(compiling, "warm", warm)
-    compilation.begin(print, done=over.set)
-    assert over.wait(60.0)
-    assert str(compilation.failed) == "no compiler"
-    assert compilation.startup_message() == ""
+    compilation.begin()
+    assert compilation.wait(60.0)
+    assert compilation.left() == ()
+    assert "no compiler" in caplog.text
 
 
-def test_the_page_draws_anew_once_all_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    looks, drawn = [0], [0]
+def test_the_page_draws_anew_with_each_part(
+    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compilation._left = tuple(PARTS)
+    drawn: list[int] = []
 
-    def ready() -> bool:
-        looks[0] += 1
-        return looks[0] > 2
-
-    monkeypatch.setattr(compiling, "ready", ready)
-
-    async def live() -> None:
-        explorer = Explorer(SECTIONS)
+    async def live() -> dict[str, object]:
+        explorer = Explorer(FEW)
         draw = explorer.draw
-        monkeypatch.setattr(explorer, "draw", lambda: (draw(), drawn.append(looks[0])))
+        monkeypatch.setattr(explorer, "draw", lambda: (draw(), drawn.append(len(drawn))))
         explorer.start()
-        async with asyncio.timeout(20.0):
-            while len(drawn) < 3 or not explorer._loop.idle:
+        async with asyncio.timeout(60.0):
+            while compilation._left or explorer.status.progress:
+                before = len(drawn)
+                while len(drawn) == before and compilation._left:
+                    await asyncio.sleep(0.01)
+                compilation._left = compilation._left[1:]
+                await asyncio.sleep(0.0)
+        explorer.stop()
+        return explorer.status.progress
+
+    assert run(live()) == {}, "the bar leaves"
+    assert len(drawn) >= len(PARTS)
+
+
+def test_pictures_of_the_default_scene_need_no_kernel(compilation: Compilation) -> None:
+    default_results.keep()
+    compilation._left = tuple(PARTS)
+    pictures = draw_all()
+    assert len(pictures) == 2 * len(TABS)
+    for picture in pictures:
+        assert picture.limits is not None
+        for drawing in picture.drawings:
+            assert drawing.data is not None, f"{drawing.view.name}: {drawing.sentence}"
+        assert picture.status["mood"] == "good", picture.status
+
+
+def test_pictures_of_other_scenes_say_that_they_are_not_ready(compilation: Compilation) -> None:
+    default_results.keep()
+    compilation._left = tuple(PARTS)
+
+    async def live() -> tuple[str, str]:
+        explorer = Explorer(SECTIONS)
+        explorer.requests.change_scene({"set": {"extent_deg": 33.0}})
+        async with asyncio.timeout(60.0):
+            while not explorer._loop.drawn:
                 await asyncio.sleep(0.01)
         explorer.stop()
+        view = explorer._views["overview"][0]
+        return explorer.status.line["words"], view._sentence.text
 
-    run(live())
-    assert drawn[-1] > 2, "drawn once more when it was done"
+    words, sentence = run(live())
+    assert "still being compiled" in words
+    assert "still being compiled" in sentence
 
 
-def test_where_compiling_is_switched_off_nothing_is_missing() -> None:
-    assert kernels.on_disk(lambda: None)
+def test_what_comes_along_is_what_is_computed() -> None:
+    """`python -m bearing_explorer.default_results` makes it anew."""
+    cache.clear()
+    draw_all()
+    shipped, computed = default_results.read(), default_results.collected()
+    assert set(shipped) == set(computed)
+    for key, found in computed.items():
+        for path, (one, other) in numbers_of(shipped[key], found):
+            size = np.nanmax(np.abs(other), initial=1e-300)
+            np.testing.assert_allclose(
+                one, other, rtol=0.0, atol=1e-6 * size, err_msg=f"{key[0]}{path}"
+            )
+    cache.clear()
 
 
-def test_the_slowest_kernels_are_found_on_disk_once_they_are_compiled() -> None:
+def numbers_of(
+    one: object, other: object, path: str = ""
+) -> Iterator[tuple[str, tuple[np.ndarray, np.ndarray]]]:
+    """Pairs of arrays at the same places of two results; the rest has to be equal."""
+    if isinstance(other, np.ndarray | float):
+        yield path, (np.asarray(one, dtype=float), np.asarray(other, dtype=float))
+    elif isinstance(other, dict):
+        for name, value in other.items():
+            yield from numbers_of(one[name], value, f"{path}.{name}")  # type: ignore[index]
+    elif isinstance(other, tuple | list):
+        for index, value in enumerate(other):
+            yield from numbers_of(one[index], value, f"{path}.{index}")  # type: ignore[index]
+    elif hasattr(other, "__dict__") and path.count(".") < 4:
+        for name in getattr(other, "__dataclass_fields__", ()):
+            yield from numbers_of(getattr(one, name), getattr(other, name), f"{path}.{name}")
+
+
+def test_all_kernels_are_on_disk_once_they_are_compiled() -> None:
     compile_once()
-    assert all(map(kernels.on_disk, compiling._slowest()))
+    assert kernels.all_on_disk()

@@ -61,22 +61,6 @@ def test_another_site_may_show_the_page_where_the_operator_says_so() -> None:
     )
 
 
-def test_until_there_is_a_page_words_stand_in_its_place() -> None:
-    words = ["It is being compiled & made."]
-
-    async def wait(url: str, server: Any) -> None:
-        answer = await get(url + "?v=1")
-        assert answer.code == 503
-        assert answer.headers["Refresh"] == "1", "browsers ask again by themselves, the same"
-        assert b"being compiled &amp; made" in answer.body
-        assert (await get(url + "liveness")).code == 200
-        assert not session_of(server)
-        words[0] = ""
-        assert (await get(url)).code == 200
-
-    served(wait, startup_message=lambda: words[0])
-
-
 def test_names_of_sessions_cannot_be_made_up() -> None:
     async def forge(url: str, server: Any) -> None:
         client = PageClient(url)

@@ -19,6 +19,7 @@ from bearingcore.dynamics.ball_motion import (
     heaviest_load,
 )
 from bearingcore.scene import packing
+from tests.helpers.ball_rates import ball_motion_rates
 from tests.helpers.contact_law import GRAVITY, TwoContacts
 
 RATE = 65536.0
@@ -79,7 +80,7 @@ def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
     start = ball_start(scene, scene.active_dofs, 2)
     assert start is not None
     system = ball_system(scene, scene.active_dofs, velocities=True)
-    rates = kernels.ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
+    rates = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
     rings = 4 * len(scene.active_dofs)
     force = np.linalg.norm(scene.load.vector[:3])
     assert np.abs(rates[:rings]).max() < 1e-9 * force
@@ -256,7 +257,7 @@ def by_scipy(method: str, law: str) -> np.ndarray:
     assert start is not None
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
-        return kernels.ball_motion_rates(np.array([t]), y[None], 0.0, system)[0]
+        return ball_motion_rates(np.array([t]), y[None], 0.0, system)[0]
 
     time = np.arange(round(0.006 * RATE)) / RATE
     scale = np.full(start.size, 1e-13)

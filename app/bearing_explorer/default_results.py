@@ -1,0 +1,44 @@
+"""``python -m bearing_explorer.default_results``: compute what comes with the package."""
+
+from __future__ import annotations
+
+import dataclasses
+import sys
+from pathlib import Path
+
+from bearing_explorer.page import SECTIONS
+from bearing_explorer.pictures import Picture, picture_of
+from bearing_explorer.results import cache
+from bearing_explorer.results.default_results import NAME, write
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.session import Explorer
+
+TABS = ("overview", "load", "stiffness", "modes", "vibration")
+"""Those that are drawn before kernels are compiled."""
+
+
+def draw_all() -> list[Picture]:
+    """Pictures of the default scene on these tabs, as a slider moves and at rest."""
+    inputs = Explorer(SECTIONS).inputs
+    pictures = []
+    for section in SECTIONS:
+        if section.name in TABS:
+            views = [view(PackedSource()) for view in section.views]
+            for rested in (False, True):
+                results = dataclasses.replace(inputs, rested=rested).results()
+                pictures.append(picture_of(results, views, limits=True))
+    return pictures
+
+
+def main() -> int:
+    """Write the file into the assets of this checkout."""
+    path = Path(__file__).resolve().parents[2] / "assets" / NAME
+    cache.clear()
+    draw_all()
+    write(path)
+    print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -420,16 +420,20 @@ def statics_experiment(
     )
 
 
+CASES = ("all balls just touching", "a ball at an edge", "clearance closed")
+"""Names of the problems at which solvers fail."""
+
+
 def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
     """Problems about `scene` at which solvers fail, by their names."""
     angles = default_cage_angles(scene, 13)
     loads = {name: 1e-3 * getattr(scene.load, name) for name in ("fx", "fy", "fz", "mx", "my")}
     edges = path_kinks(scene, float(angles[0]), float(angles[-1]))[:12]
-    cases = {"all balls just touching": (scene.replace(**loads), angles)}
+    cases = {CASES[0]: (scene.replace(**loads), angles)}
     if edges.size:
-        cases["a ball at an edge"] = (scene, np.unique([edges - 1e-9, edges, edges + 1e-9]))
+        cases[CASES[1]] = (scene, np.unique([edges - 1e-9, edges, edges + 1e-9]))
     if scene.bearing.radial_clearance > 0.0:
-        cases["clearance closed"] = (scene.replace(radial_clearance=0.0), angles)
+        cases[CASES[2]] = (scene.replace(radial_clearance=0.0), angles)
     return {name: static_problem(*case) for name, case in cases.items()}
 
 

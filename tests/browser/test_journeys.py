@@ -505,17 +505,6 @@ def test_accuracy_is_measured_and_the_measuring_cancelled(
     visitor.wait(lambda: visitor.figures() != before)
 
 
-def test_a_measured_step_is_taken_over_and_given_back(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "accuracy")
-    visitor.reads(re.compile("The program chooses the steps"))
-    steps = visitor.main.get_by_label("Steps of the scene's motion")
-    visitor.wait(lambda: steps.locator("option").count() > 3)
-    steps.select_option(index=3)
-    visitor.reads(re.compile(r"Chosen steps: \d+ Hz"))
-    visitor.press("Reset", visitor.main)
-    visitor.reads(re.compile("The program chooses the steps"))
-
-
 def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, FAN_RIG + "accuracy")
     visitor.press("Compare simpler models", visitor.main)
@@ -527,7 +516,10 @@ def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: S
     visitor.reads(re.compile("pays after|saves nothing"))
     visitor.choose("Model", "half as many steps")
     visitor.press("Take it", visitor.main)
-    visitor.reads(re.compile(r"Chosen steps: \d+ Hz"))
+    visitor.reads(re.compile(r"Chosen steps of the motion: \d+ Hz"))
+    visitor.choose("Model", "the program's own steps")
+    visitor.press("Take it", visitor.main)
+    visitor.wait(lambda: not any("Chosen steps" in words for words in visitor.sentences()))
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
-from bokeh.models import CustomJSTickFormatter, FixedTicker, HoverTool, Range1d, Span
+from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
@@ -19,54 +19,52 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.base import Sentence, SessionParts
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.work_precision import SIDE_BY_SIDE, WorkPrecision
-from bearing_explorer.widgets.form import Fields, FieldSpec, button, choices, row, select
+from bearing_explorer.views.work_precision import SIDE_BY_SIDE, WorkPrecision, paragraph
+from bearing_explorer.widgets.form import Fields, FieldSpec, select
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
 from bearingcore.experiments.balls import ERRORS as BALL_ERRORS
 from bearingcore.experiments.models import EXACT, FULL, MODEL_ERRORS, SETTLED
 from bearingcore.experiments.references import MOTION_ERRORS
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
-from bearingcore.experiments.statics import ANGLE_ERRORS, STATIC_ERRORS
+from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
 from bearingcore.scene.presets import preset_labels
 
 
 class Chart(NamedTuple):
-    """A chart: its experiment, its reference in that, its heading, and the errors it can show."""
+    """A chart: its experiment, its reference in that, and its heading."""
 
     experiment: str
     reference: str
     title: str
-    errors: Mapping[str, str]
 
 
-_SETTLED_ERRORS = {name: MODEL_ERRORS[name] for name in ("spectrum", "level")}
 CHARTS = {
     "Motion": (
-        Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", MOTION_ERRORS),
-        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls in fine "
-              "steps", BALL_ERRORS),
+        Chart("motion", "", "Steps and methods, against two families at 10⁻¹³"),
+        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
     ),
     "Models": (
-        Chart("models", FULL, "Fewer directions, against all five", MODEL_ERRORS),
-        Chart("models", EXACT, "Models of edges, against the exact edge", MODEL_ERRORS),
-        Chart("models", SETTLED, "Periodic orbit and march, against the settled motion",
-              _SETTLED_ERRORS),
+        Chart("models", FULL, "Fewer directions, against all five"),
+        Chart("models", EXACT, "Models of edges, against the exact edge"),
+        Chart("models", SETTLED, "Periodic orbit and march, against the settled motion"),
     ),
     "Statics": (
-        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", STATIC_ERRORS),
-        Chart("statics", "all balls just touching", "The same, all balls just touching",
-              STATIC_ERRORS),
-        Chart("statics", "a ball at an edge", "The same, a ball at an edge", STATIC_ERRORS),
-        Chart("statics", "clearance closed", "The same, clearance closed", STATIC_ERRORS),
-        Chart("angles", "", "Cage angles of curves, against 16 001 and those of edges",
-              ANGLE_ERRORS),
+        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers"),
+        *(Chart("statics", case, f"The same, {case}") for case in CASES),
+        Chart("angles", "", "Cage angles of curves, against 16 001 and those of edges"),
     ),
-}  # fmt: skip
+}
 """The charts by the heading above them: each has one reference."""
+ERRORS = {
+    "motion": MOTION_ERRORS,
+    "balls": BALL_ERRORS,
+    "models": MODEL_ERRORS,
+    "statics": STATIC_ERRORS,
+    "angles": ANGLE_ERRORS,
+}
+"""Errors that can be drawn, by experiment."""
 
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
 VERDICT_LOOKS = dict(
@@ -80,6 +78,10 @@ VERDICT_LOOKS = dict(
 LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#CC79A7",
                "fold": "#E69F00"}  # fmt: skip
 """Colour of an orbit by its loss of stability; none is stable."""
+
+_SIGNS = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
+_VERDICT_LEGEND = style.legend([(c, _SIGNS[m], name) for name, (c, m) in VERDICT_LOOKS.items()])
+_LOSS_LEGEND = style.legend([(c, "●", loss or "stable") for loss, c in LOSS_COLORS.items()])
 
 _GRID = ":host { flex-flow: row wrap; gap: 10px 26px; align-items: flex-start; }"
 _WHOLE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -106,13 +108,6 @@ class Accuracy(JobView[Found]):
     computes = False
     sentence_looks = ("unseen",)
 
-    take_steps: Callable[[float | None], None] | None = None
-    """Marches the scene's motions with a step rate [Hz], or None: with the program's own."""
-
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self.take_steps = parts.take_steps
-
     @property
     def is_empty(self) -> bool:
         return False
@@ -124,7 +119,10 @@ class Accuracy(JobView[Found]):
         self._charts: list[tuple[Chart, WorkPrecision]] = []
         sections: list[Any] = []
         for heading, charts in CHARTS.items():
-            made = [(one, WorkPrecision(one.title, one.errors, self._redraw)) for one in charts]
+            made = [
+                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw))
+                for one in charts
+            ]
             self._charts += made
             parts = [chart.panel for _, chart in made]
             sections += [_heading(heading), pn.Column(*parts, **_WHOLE, stylesheets=[_GRID])]
@@ -132,7 +130,7 @@ class Accuracy(JobView[Found]):
         return pn.Column(
             self.job,
             self._origin,
-            row(self._cost.widgets["cost"], *self._step_controls()),
+            self._cost.widgets["cost"],
             *sections,
             _heading("Stability"),
             self._stability.panel,
@@ -143,9 +141,8 @@ class Accuracy(JobView[Found]):
     # The job
 
     def fields(self) -> list[FieldSpec]:
-        return [
-            {"name": "experiment", "label": "What to measure", "options": [*TRIALS.items()]},
-        ]
+        options = [[name, words] for name, words in TRIALS.items()]
+        return [{"name": "experiment", "label": "What to measure", "options": options}]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         return {"experiment": next(iter(TRIALS))}, {}
@@ -155,40 +152,6 @@ class Accuracy(JobView[Found]):
         if name not in TRIALS:
             raise ValueError("There is no such experiment.")
         return lambda job: compute(job, scene, name)
-
-    # Steps taken over
-
-    def offered(self, results: Results) -> dict[str, float]:
-        """Step rates [Hz] that were measured and can be used, by their text."""
-        one = self._shown(results).get("motion")
-        points = [] if one is None else [p for p in one.of("RK4") if not p.failed]
-        return {f"{p.value:.0f}": p.value for p in sorted(points, key=lambda p: p.value)}
-
-    def _step_controls(self) -> tuple[Any, ...]:
-        self._steps = Fields(lambda _: self._use(self._steps.values["steps"]))
-        self._steps.add("steps", select("Steps of the scene's motion", [["", "automatic"]]))
-        self._reset = button("Reset", lambda: self._use(""), disabled=True)
-        self._step_words = Sentence(margin=0, sizing_mode="stretch_width")
-        return self._steps.widgets["steps"], self._reset, self._step_words
-
-    def _use(self, text: str) -> None:
-        rates = {} if self._results is None else self.offered(self._results)
-        if self.take_steps is not None:
-            self.take_steps(rates.get(text))
-
-    def _show_steps(self, results: Results) -> None:
-        step_rate = results.settings.step_rate
-        chosen = "" if step_rate is None else f"{step_rate:.0f}"
-        rates = list(dict.fromkeys([*self.offered(results), *([chosen] if chosen else [])]))
-        options = [["", "automatic"], *([text, f"RK4, {text} Hz"] for text in rates)]
-        self._steps.values["steps"] = chosen
-        self._steps.widgets["steps"].param.update(**choices(options), value=chosen)
-        self._reset.disabled = not chosen
-        self._step_words.text = (
-            f"Chosen steps: {step_rate:.0f} Hz."
-            if step_rate is not None
-            else "The program chooses the steps of the scene's motion."
-        )
 
     # The picture
 
@@ -200,10 +163,12 @@ class Accuracy(JobView[Found]):
 
     def sentence(self, results: Results) -> str:
         found, preset = self.found, preset_like(results.scene)
-        words = f"Shipped: {_label(preset)}." if preset else "Nothing is shipped for this scene."
+        words = (
+            f"Shipped: {preset_labels[preset]}." if preset else "Nothing is shipped for this scene."
+        )
         if preset and presets[preset] != results.scene:
             words = (
-                f"Shipped numbers are of {_label(preset)} as it comes, not of this scene: "
+                f"Shipped numbers are of {preset_labels[preset]} as it comes, not of this scene: "
                 "“Measure on this machine” takes this one."
             )
         if found is not None:
@@ -219,7 +184,7 @@ class Accuracy(JobView[Found]):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        self._origin.object = _words(html.escape(sentence))
+        self._origin.object = paragraph(sentence)
         if self._results is not None:
             self._show(self._results)
 
@@ -230,23 +195,18 @@ class Accuracy(JobView[Found]):
     def _show(self, results: Results) -> None:
         base = shipped(preset_like(results.scene))
         own = None if self.found is None else self.found.result
-        cost, steps = self._cost.values["cost"], (results.settings or Settings()).step_rate
+        cost, steps = self._cost.values["cost"], results.settings.step_rate
         for one, chart in self._charts:
             refused = next((m.refused[one.experiment] for m in (own, base)
                             if m is not None and one.experiment in m.refused), "")  # fmt: skip
             chart.draw(_part(own, one), _part(base, one), cost, steps, refused)
         self._stability.draw(own, base, results.scene.shaft_speed)
         self._foot.object = foot(own, base, self._shown(results))
-        self._show_steps(results)
 
 
 def _heading(words: str) -> pn.pane.HTML:
     head = f'<h3 style="margin:18px 0 2px;font-size:15px">{words}</h3>'
     return pn.pane.HTML(head, **_WHOLE)
-
-
-def _label(preset: str) -> str:
-    return preset_labels[preset]
 
 
 def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
@@ -291,26 +251,25 @@ class Stability:
 
     def _step_figure(self) -> figure:
         """Methods down, steps across."""
-        plot = _figure(
-            "Steps a period of the highest frequency", "", (0.8, 80.0),
-            (-0.6, len(FIXED_STEP) - 0.4), 200, x_axis_type="log",
-        )  # fmt: skip
-        plot.xaxis.ticker = FixedTicker(ticks=[1, 2, 5, 10, 20, 50], minor_ticks=[])
-        plot.yaxis.ticker = FixedTicker(ticks=list(range(len(FIXED_STEP))), minor_ticks=[])
+        plot = _figure("Steps a period of the highest frequency", "", x_axis_type="log")
+        plot.x_range.update(start=0.8, end=80.0)
+        plot.y_range.update(start=-0.6, end=len(FIXED_STEP) - 0.4)
+        style.fixed_ticks(plot.xaxis[0], [1, 2, 5, 10, 20, 50])
+        style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
         names = list(FIXED_STEP)
         plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
-        self._verdicts = {}
-        for verdict, (color, marker) in VERDICT_LOOKS.items():
-            self._verdicts[verdict] = plot.scatter(
+        self._verdicts = {
+            verdict: plot.scatter(
                 [], [], marker=marker, size=13, fill_color=color, line_color=color, line_width=2.0
             ).data_source
-        self._limits = plot.segment(
-            [], [], [], [], line_color=style.INK, line_width=2.5
-        ).data_source
+            for verdict, (color, marker) in VERDICT_LOOKS.items()
+        }
+        limits = plot.segment([], [], [], [], line_color=style.INK, line_width=2.5)
+        self._limits = limits.data_source
         return plot
 
     def _speed_figure(self) -> figure:
-        plot = _figure("Shaft speed (Hz)", "Largest multiplier |μ|", (1.0, 60.0), (0.0, 1.6), 200)
+        plot = _figure("Shaft speed (Hz)", "Largest multiplier |μ|")
         plot.add_layout(Span(location=1.0, dimension="width", line_color=style.INK))
         self._now = Span(dimension="height", line_color=style.INK, line_dash=[4, 4])
         plot.add_layout(self._now)
@@ -324,13 +283,7 @@ class Stability:
         return plot
 
     def _circle_figure(self) -> figure:
-        plot = _figure(
-            "Multipliers over all speeds, real part",
-            "Imaginary part",
-            (-1.8, 1.8),
-            (-1.8, 1.8),
-            300,
-        )
+        plot = _figure("Multipliers at all speeds, real part", "Imaginary part", height=300)
         plot.sizing_mode, plot.width = "fixed", 310
         plot.circle([0.0], [0.0], radius=1.0, fill_color="#E6F3EE", line_color="#00704F")
         self._multipliers = {
@@ -351,9 +304,9 @@ class Stability:
         self._speeds.visible = self._circle.visible = any(one.multipliers for one in orbits)
         if chart is not None:
             self._draw_steps(chart)
-        self._step_words.object = _words(steps_sentence(chart))
+        self._step_words.object = _VERDICT_LEGEND + paragraph(steps_sentence(chart))
         self._draw_orbits(orbits, speed)
-        self._orbit_words.object = _words(orbits_sentence(orbits))
+        self._orbit_words.object = _LOSS_LEGEND + paragraph(orbits_sentence(orbits))
 
     def _draw_steps(self, chart: StabilityChart) -> None:
         for verdict, source in self._verdicts.items():
@@ -388,11 +341,9 @@ class Stability:
                 side.update(start=-1.1 * top, end=1.1 * top)
 
 
-def _figure(
-    x: str, y: str, across: tuple[float, float], up: tuple[float, float], height: int, **more: Any
-) -> figure:
+def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
     sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
-    ranges = Range1d(*across, syncable=False), Range1d(*up, syncable=False)
+    ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
     return style.make_figure(*sides, *ranges, height=height, **more)
 
 
@@ -401,12 +352,8 @@ def _speeds(found: list[OrbitAtSpeed]) -> dict[str, list[float]]:
     return {"x": speeds, "y": [one.size for one in found]}
 
 
-def _words(words: str) -> str:
-    return f'<p style="margin:4px 0 10px;font-size:12.5px">{words}</p>'
-
-
 def steps_sentence(chart: StabilityChart | None) -> str:
-    """Step rates at which each method diverges, found and expected, as HTML."""
+    """Step rates at which each method diverges, found and expected."""
     if chart is None:
         return "Stability of the steps is not measured yet."
     words = []
@@ -416,24 +363,19 @@ def steps_sentence(chart: StabilityChart | None) -> str:
         met = f"below {style.number(found, 2)}" if math.isfinite(found) else "at every step tried"
         expected = f"below {style.number(limit, 2)}" if limit else "never"
         words.append(f"{name} {met} (linear theory: {expected})")
-    signs = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
-    legend = " ".join(
-        f'<span style="color:{style.css_color(color)}">{signs[marker]}</span> {verdict}'
-        for verdict, (color, marker) in VERDICT_LOOKS.items()
-    )
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
-        f"{legend}. Upright: linear limit. In steps a period of {frequency}, the motion diverges "
-        f"with {', '.join(words)}."
+        f"Upright: linear limit. In steps a period of {frequency}, the motion diverges with "
+        f"{', '.join(words)}."
     )
 
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
-    """Where the periodic motion loses its stability, and how, as HTML."""
+    """Where the periodic motion loses its stability, and how."""
     found = [one for one in orbits if one.multipliers]
     if not found:
         why = orbits[0].status if orbits else "not measured yet"
-        return f"No periodic motion over the shaft speed: {html.escape(why)}."
+        return f"No periodic motion over the shaft speed: {why}."
 
     def at(one: OrbitAtSpeed) -> str:
         return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
@@ -444,10 +386,6 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
     missing = len(orbits) - len(found)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    named = " ".join(
-        f'<span style="color:{style.css_color(color)}">●</span> {loss or "stable"}'
-        for loss, color in LOSS_COLORS.items()
-    )
     changes = changes or [f"and so to {at(found[-1])}"]
     words = ", ".join([first, *changes])
-    return f"{named}. {words}. The factor by which a ball pass changes a small disturbance.{rest}"
+    return f"{words}. The factor by which a ball pass changes a small disturbance.{rest}"

@@ -31,6 +31,9 @@ GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
+OWN_STEPS = "the program's own steps"
+
+
 class OtherModels(JobView[Alternatives]):
     """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
@@ -59,13 +62,25 @@ class OtherModels(JobView[Alternatives]):
 
     def _use(self, name: str) -> None:
         """Change the scene, or the steps of its motion, to those of the model with this name."""
-        rows = () if self.found is None else takeable(self.found.rows)
-        for one in rows:
+        if name == OWN_STEPS:
+            self._take_steps(None)
+        for one in () if self.found is None else takeable(self.found.rows):
             if one.name == name and "step_rate" in one.changes:
                 self._take_steps(one.changes["step_rate"])
             elif one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
                 self._ask({"choose": words})
+
+    def _offer(self, results: Results) -> None:
+        """Fill the list of what can be taken."""
+        rows = () if self.found is None else takeable(self.found.rows)
+        back = [OWN_STEPS] if results.settings.step_rate is not None else []
+        names = [*(one.name for one in rows), *back]
+        chosen = self._models.values["model"]
+        self._models.values["model"] = chosen = chosen if chosen in names else "".join(names[:1])
+        options = choices([[name, name] for name in names])
+        self._models.widgets["model"].param.update(**options, value=chosen)
+        self._taking.visible = bool(names)
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         scene = editor.scene
@@ -80,6 +95,11 @@ class OtherModels(JobView[Alternatives]):
         return compute
 
     def sentence(self, results: Results) -> str:
+        steps = results.settings.step_rate
+        words = "" if steps is None else f"Chosen steps of the motion: {steps:.0f} Hz. "
+        return words + self._comparison(results)
+
+    def _comparison(self, results: Results) -> str:
         if self.found is None:
             return (
                 f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
@@ -101,13 +121,8 @@ class OtherModels(JobView[Alternatives]):
         super().say(results, sentence)
         if self.found is not None:
             self._table.object = table_of_rows(self.found.rows)
-            names = [one.name for one in takeable(self.found.rows)]
-            chosen = self._models.values["model"]
-            chosen = chosen if chosen in names else names[0] if names else ""
-            self._models.values["model"] = chosen
-            options = choices([[name, name] for name in names])
-            self._models.widgets["model"].param.update(**options, value=chosen)
-            self._taking.visible = bool(names)
+        if self._results is not None:
+            self._offer(self._results)
 
     def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
         return found.table().named()

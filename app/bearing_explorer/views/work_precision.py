@@ -134,7 +134,7 @@ class WorkPrecision:
         main = found or shipped
         self.plot.visible = main is not None and bool(main.points)
         if main is None:
-            self._words.object = _paragraph(
+            self._words.object = paragraph(
                 f"Not for this scene: {refused}." if refused else "Not measured yet."
             )
             return
@@ -146,9 +146,13 @@ class WorkPrecision:
             "cost": [getattr(p, cost) for p in own],
             "error": [p.errors[self.error] for p in own],
         }
-        self._words.object = legend(methods_of(parts)) + _paragraph(
+        self._words.object = legend(methods_of(parts)) + paragraph(
             sentence(main, self.error, step_rate)
         )
+
+    def _known(self, point: Point) -> bool:
+        """True where there is something to draw: an error of this name, or a failure."""
+        return point.failed or not math.isnan(point.errors.get(self.error, math.nan))
 
     def _placed(self, point: Point, cost: str) -> bool:
         at = (getattr(point, cost), point.errors.get(self.error, math.nan))
@@ -156,7 +160,7 @@ class WorkPrecision:
 
     def _fill(self, parts: list[tuple[Experiment, float]], cost: str) -> None:
         main = parts[-1][0]
-        every = [point for one, _ in parts for point in one.points]
+        every = [p for one, _ in parts for p in one.points if self._known(p)]
         good = [point for point in every if self._placed(point, cost)]
         costs = [getattr(p, cost) for p in every]
         left, right = _around([c for c in costs if math.isfinite(c) and c > 0.0], 1.8)
@@ -186,7 +190,7 @@ class WorkPrecision:
                 line = [p for p in own if self._placed(p, cost)]
                 lines.append(([getattr(p, cost) for p in line],
                               [p.errors[self.error] for p in line], color, alpha))  # fmt: skip
-                for p in own:
+                for p in filter(self._known, own):
                     placed = self._placed(p, cost)
                     at = getattr(p, cost)
                     at = at if math.isfinite(at) and at > 0.0 else right / 1.3
@@ -218,8 +222,8 @@ class WorkPrecision:
 
 def is_used(point: Point, step_rate: float | None) -> bool:
     """True for what the page does: its own choice, or RK4 with the steps [Hz] that were chosen."""
-    if step_rate is None or "step_rate" not in point.settings or point.method != "RK4":
-        return point.in_use and (step_rate is None or point.method != "RK4")
+    if step_rate is None or point.method != "RK4":
+        return point.in_use
     return point.value == step_rate
 
 
@@ -282,7 +286,8 @@ def legend(methods: Sequence[str]) -> str:
     )
 
 
-def _paragraph(words: str) -> str:
+def paragraph(words: str) -> str:
+    """Words under a chart as HTML."""
     return f'<p style="margin:4px 0 10px;font-size:12.5px">{html.escape(words)}</p>'
 
 

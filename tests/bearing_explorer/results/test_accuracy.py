@@ -96,6 +96,12 @@ def test_chosen_steps_are_the_ones_in_use() -> None:
     assert drawn(EXPERIMENT, None, 65536.0)._used.data["error"] == [1e-4]
 
 
+def test_a_point_without_the_chosen_error_is_not_drawn() -> None:
+    other = Point("quasi-static", "", 1.0, {"level": 1.0}, 1.0, 1, 1)
+    chart = drawn(dataclasses.replace(EXPERIMENT, points=(EXPERIMENT.points[0], other)), None)
+    assert chart._points.data["method"] == ["RK4"]
+
+
 def test_words_name_the_reference_and_what_failed() -> None:
     words = sentence(EXPERIMENT, "spectrum")
     assert "LSODA and DOP853 agree, 2·10⁻⁷ dB apart" in words
@@ -138,18 +144,6 @@ def test_of_another_scene_it_says_whose_numbers_these_are() -> None:
     assert preset_like(other) == "fan-rig"
     assert "not of this scene" in view.sentence(Results(other))
     assert "not of this scene" not in view.sentence(Results(RIG))
-
-
-def test_measured_steps_are_chosen_from_the_list_and_given_back() -> None:
-    view = Accuracy(PackedSource())
-    taken: list[float | None] = []
-    view.take_steps = taken.append
-    view.say(Results(RIG), "")
-    view._steps.widgets["steps"].value = "65536"
-    view.say(Results(RIG, settings=Settings(step_rate=65536.0)), "")
-    assert "65536 Hz" in view._step_words.text
-    view._steps.widgets["steps"].value = ""
-    assert taken == [65536.0, None]
 
 
 def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
@@ -258,5 +252,9 @@ def test_a_model_that_would_do_is_taken_with_one_button() -> None:
     for row in rows:
         view._use(row.name)
     assert asked == [{"choose": {"dofs": "x y"}}]
-    assert taken == [8e3]
+    view.say(chosen := Results(RIG, settings=Settings(step_rate=8e3)), view.sentence(chosen))
+    assert view._sentence.text.startswith("Chosen steps of the motion: 8000 Hz")
+    assert "the program's own steps" in view._models.widgets["model"].options
+    view._use("the program's own steps")
+    assert taken == [8e3, None]
     assert "saves nothing" in price(Alternatives(RIG, rows[2:], 1000, 2.0))

@@ -31,10 +31,8 @@ from bearingcore.diagnosis.part.search import (
     Combs,
     Listened,
     listen,
-    multiples,
     near,
-    side_levels,
-    sideband_combs,
+    tolerance,
     within,
 )
 from bearingcore.diagnosis.part.spin import may_be, spin
@@ -225,16 +223,18 @@ class _Comparison:
 
         Infinity for multiples of its frequency [Hz] and for what another part may have.
         """
-        combs, spacings = self.combs, (self.combs.shaft, self.cage)
-        free = (
-            multiples(combs, frequency, (1, 2, 3))
-            | self._windows_of(*PARTS)
-            | self._slower(frequency)
+        # a ball's spin itself is half its line
+        firsts = (1.0, 0.5) if lines.part == BALL else (1.0,)
+        factors = (1.0, 2.0, 3.0, 0.5, 1.5) if lines.part == BALL else (1.0, 2.0, 3.0)
+        free = near(self.combs, (factor * frequency for factor in factors))
+        free |= self._windows_of(*PARTS) | self._slower(frequency)
+        sidebands = (
+            abs(first * frequency + order * spacing)
+            for first in firsts
+            for spacing in (self.combs.shaft, self.cage)
+            for order in (-3, -2, -1, 1, 2, 3)
         )
-        follows = sideband_combs(combs, frequency, spacings)
-        if lines.part == BALL:  # its spin itself is half its line
-            free |= multiples(combs, frequency, (0.5, 1.5))
-            follows |= sideband_combs(combs, 0.5 * frequency, spacings)
+        follows = near(self.combs, sidebands)
         return np.where(free, np.inf, np.where(follows, SIDEBAND_EXCESS, 0.0))
 
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
@@ -256,7 +256,7 @@ class _Comparison:
         combs = self.combs
         found = np.zeros(len(combs.frequency), dtype=bool)
         for part in SLOWER:
-            near_it = np.flatnonzero(multiples(combs, frequency, (1.0 / part,)))
+            near_it = np.flatnonzero(near(combs, (frequency / part,)))
             if not len(near_it):
                 continue
             column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
@@ -278,14 +278,12 @@ class _Comparison:
         their lines where a ball's may be.
         """
         ball = own.part == BALL
+        same = own.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
         above = [
-            own.level - one.level - (BALL_MARGIN if ball else 0.0)
-            for one in self.combs.found
-            if one.lines.part not in (own.part, BALL)
-            and not any(
-                near(self.combs, factor * own.frequency, np.array([one.frequency]))[0]
-                for factor in ((1,) if ball else (1, 2, 3))
-            )
+            own.level - level - (BALL_MARGIN if ball else 0.0)
+            for lines, (frequency, level) in self.combs.best.items()
+            if lines.part not in (own.part, BALL)
+            and not (np.abs(frequency - same) <= tolerance(self.combs, same)).any()
         ]
         return min(above, default=math.inf)
 
@@ -295,11 +293,10 @@ class _Comparison:
         An outer race stands still and needs none. Where a race's line may be a ball's, cage
         sidebands speak for the ball.
         """
-        at = np.array([own.frequency])
 
         def mean(spacing: float) -> float:
-            sides = side_levels(one, at, spacing)
-            return float(np.mean([side[: HARMONICS // 2].mean() for side in sides]))
+            sides = [_lines(one, one.cleared, own.frequency, away) for away in (-spacing, spacing)]
+            return float(np.mean([side[: HARMONICS // 2] for side in sides]))
 
         shaft, cage = mean(self.combs.shaft), mean(self.cage)
         above = math.inf
@@ -317,14 +314,11 @@ class _Comparison:
     def _evidence(
         self, lines: PartLines, one: Listened, frequency: float, others: float
     ) -> PartEvidence:
-        combs, at = self.combs, np.array([frequency])
+        combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
-        levels = lines_at(one.cleared, one.levels.step, at)[:, 0]
+        levels = _lines(one, one.cleared, frequency)
         depth = np.where(one.hidden, 0.0, one.levels.depth)
-        swings = [
-            lines_at(depth, one.levels.step, at, away=away)[:, 0]
-            for away in (0.0, -spacing, spacing)
-        ]
+        swings = [_lines(one, depth, frequency, away) for away in (0.0, -spacing, spacing)]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
         own = PartEvidence(
@@ -342,7 +336,9 @@ class _Comparison:
             swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
             deviations=0.0,
             probability=0.0,
-            sidebands=np.hstack(side_levels(one, at, spacing)),
+            sidebands=np.stack(
+                [_lines(one, one.cleared, frequency, away) for away in (-spacing, spacing)], axis=1
+            ),
             sideband_spacing=spacing,
             sideband_source="cage" if lines.part == BALL else "shaft",
             band=one.band,
@@ -362,9 +358,16 @@ class _Comparison:
         level = np.where(explained > 0.0, -np.inf, combs.level)
         place, column = np.unravel_index(int(level.argmax()), level.shape)
         frequency, one = float(combs.frequency[column]), combs.envelopes[int(place)]
-        depths = lines_at(one.levels.depth, one.levels.step, np.array([frequency]))[:, 0]
+        depths = _lines(one, one.levels.depth, frequency)
         found = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
         return found, found.level - combs.noise, _without_greatest(depths)
+
+
+def _lines(
+    one: Listened, values: NDArray[np.float64], frequency: float, away: float = 0.0
+) -> NDArray[np.float64]:
+    """Values [dB] or shares at some distance [Hz] from the harmonics of a frequency."""
+    return lines_at(values, one.levels.step, np.array([frequency]), away=away)[:, 0]
 
 
 def _speaking(own: PartEvidence) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -58,25 +58,6 @@ class Listened:
 
 
 @dataclass(frozen=True)
-class Found:
-    """The best comb of a part.
-
-    Attributes
-    ----------
-    lines
-        the part.
-    frequency
-        of its first line [Hz].
-    level
-        [dB], see `combs`.
-    """
-
-    lines: PartLines
-    frequency: float
-    level: float
-
-
-@dataclass(frozen=True)
 class Combs:
     """All combs at one resolution.
 
@@ -91,8 +72,8 @@ class Combs:
     frequency : (n,) [Hz]
         first lines of combs.
     level : (bands, n) [dB]
-    found
-        the best comb of each part.
+    best
+        frequency [Hz] and level [dB] of the highest comb of each part.
     """
 
     turns: float
@@ -100,7 +81,7 @@ class Combs:
     envelopes: tuple[Listened, ...]
     frequency: NDArray[np.float64] = field(repr=False)
     level: NDArray[np.float64] = field(repr=False)
-    found: tuple[Found, ...]
+    best: dict[PartLines, tuple[float, float]]
 
     @property
     def averages(self) -> float:
@@ -110,10 +91,10 @@ class Combs:
     @property
     def noise(self) -> float:
         """The level [dB] that noise reaches in one of a thousand signals, in any part's window."""
-        cells = sum(self.cells(found.lines, found.frequency) for found in self.found)
+        cells = sum(self.cells(frequency) for frequency, _ in self.best.values())
         return noise_level(RARE / cells, self.averages)
 
-    def cells(self, lines: PartLines, frequency: float, slip: float = 0.02) -> float:
+    def cells(self, frequency: float, slip: float = 0.02) -> float:
         """Independent combs among those within slip of a frequency [Hz], in all bands."""
         segment = self.turns / self.shaft
         places = 1.0 + 2.0 * slip * frequency * segment * 0.5 * HARMONICS
@@ -163,16 +144,13 @@ def listen(
     level = np.stack(
         [comb_level(lines_at(one.cleared, one.levels.step, frequency)) for one in listened]
     )
-    combs = Combs(turns, shaft, tuple(listened), frequency, level, ())
-    found = tuple(_best(combs, lines, slip, given or shaft) for lines in parts)
-    return Combs(turns, shaft, tuple(listened), frequency, level, found)
-
-
-def _best(combs: Combs, lines: PartLines, slip: float, given: float) -> Found:
-    inside = np.flatnonzero(within(combs, lines, slip, given, combs.frequency))
-    level = combs.level[:, inside]
-    place, column = np.unravel_index(int(level.argmax()), level.shape)
-    return Found(lines, float(combs.frequency[inside[column]]), float(level[place, column]))
+    combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
+    for lines in parts:
+        inside = np.flatnonzero(within(combs, lines, slip, given or shaft, frequency))
+        highest_of = level[:, inside].max(axis=0)
+        column = int(highest_of.argmax())
+        combs.best[lines] = float(frequency[inside[column]]), float(highest_of[column])
+    return combs
 
 
 def within(
@@ -189,38 +167,13 @@ def within(
     return np.asarray(np.abs(frequency - middle) <= reach)
 
 
-def side_levels(
-    one: Listened, frequency: NDArray[np.float64], spacing: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Levels [dB] at a distance [Hz] below and above each harmonic: twice (HARMONICS, n)."""
-    # where a sideband falls on a line of the shaft it is no evidence
-    below, above = (
-        lines_at(one.cleared, one.levels.step, frequency, away=away) for away in (-spacing, spacing)
-    )
-    return below, above
-
-
-def near(combs: Combs, frequency: float, other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Mask of frequencies [Hz] too near one to be distinguished: segments end, cages wander."""
+def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[np.float64]:
+    """Distance [Hz] below which frequencies are the same: segments end, cages wander."""
     resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
-    return np.asarray(np.abs(other - frequency) <= resolution + WANDER * frequency)
+    return np.asarray(resolution + WANDER * np.asarray(frequency))
 
 
-def multiples(combs: Combs, frequency: float, factors: Sequence[float]) -> NDArray[np.bool_]:
-    """Which combs (n,) are multiples of a frequency [Hz] by some factors."""
-    hit = np.zeros(len(combs.frequency), dtype=bool)
-    for factor in factors:
-        hit |= near(combs, factor * frequency, combs.frequency)
-    return hit
-
-
-def sideband_combs(
-    combs: Combs, frequency: float, spacings: Sequence[float], orders: int = 3
-) -> NDArray[np.bool_]:
-    """Which combs (n,) are made by sidebands of a frequency [Hz] at distances [Hz]."""
-    hit = np.zeros(len(combs.frequency), dtype=bool)
-    for spacing in spacings:
-        for order in range(1, orders + 1):
-            hit |= near(combs, frequency + order * spacing, combs.frequency)
-            hit |= near(combs, abs(frequency - order * spacing), combs.frequency)
-    return hit
+def near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
+    """Which combs (n,) cannot be distinguished from one at any of some frequencies [Hz]."""
+    own = np.array(list(frequencies))[:, None]
+    return np.asarray((np.abs(combs.frequency - own) <= tolerance(combs, own)).any(axis=0))

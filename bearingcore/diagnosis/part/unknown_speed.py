@@ -42,13 +42,17 @@ def in_range(
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
     resolutions = listened(signal, parts, middle, reach, known_speed=False)
     strongest, above = max(
-        ((found, found.level - combs.noise) for combs in resolutions for found in combs.found),
+        (
+            (frequency, level - combs.noise)
+            for combs in resolutions
+            for frequency, level in combs.best.values()
+        ),
         key=lambda pair: pair[1],
     )
     stands_out = above >= NOISE_MARGIN
     if stands_out:
         for lines in parts:
-            speed = strongest.frequency / lines.order
+            speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
                 hypotheses.append(_Hypothesis.at(signal, parts, speed, slip))
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
@@ -58,7 +62,7 @@ def in_range(
         if not stands_out:
             judged = compare(resolutions, parts, reach)
             return decide(signal, judged, None, f"{source}, not found")
-        return _undecided_speed(signal, hypotheses, strongest.frequency, source)
+        return _undecided_speed(signal, hypotheses, strongest, source)
     first = holding[0]
     rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None

@@ -203,11 +203,14 @@ class _Comparison:
         combs = self.combs
         near_it = within(combs, lines, self.slip, self.given, combs.frequency)
         if around is not None:  # a race's own lines are none of a ball's
-            near_it = np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
+            near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
             near_it &= ~self._windows_of(OUTER, INNER)
             near_it[np.abs(combs.frequency - around).argmin()] = True
         inside = np.flatnonzero(near_it)
         level = combs.level[:, inside]
+        if lines.part == BALL:
+            at, away = combs.frequency[inside], self.cage
+            level = np.stack([comb_level(_or_sidebands(one, at, away)) for one in combs.envelopes])
         explained: dict[float, NDArray[np.float64]] = {}
         found = []
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
@@ -290,7 +293,7 @@ class _Comparison:
     def _above_sidebands(self, own: PartEvidence, one: Listened) -> float:
         """By how much [dB] the sidebands of a part are such as its own turning makes.
 
-        An outer race stands still and needs none. Where a race's line may be a ball's, cage
+        An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
 
@@ -307,8 +310,12 @@ class _Comparison:
                 turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN,
                 turning - own.level + SIDEBAND_REACH + SIDEBAND_MARGIN,
             )
+        place = int(np.abs(self.combs.frequency - own.frequency).argmin())
+        race = max(own.level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
         if own.part != BALL and may_be(own.frequency, self.ball.order * self.combs.shaft):
-            above = min(above, max(own.level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage)
+            above = min(above, race)
+        if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
+            above = min(above, -race)
         return above
 
     def _evidence(
@@ -317,6 +324,8 @@ class _Comparison:
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
         levels = _lines(one, one.cleared, frequency)
+        if lines.part == BALL:
+            levels = _or_sidebands(one, np.array([frequency]), spacing)[:, 0]
         depth = np.where(one.hidden, 0.0, one.levels.depth)
         swings = [_lines(one, depth, frequency, away) for away in (0.0, -spacing, spacing)]
         nominal = lines.order * combs.shaft
@@ -368,6 +377,20 @@ def _lines(
 ) -> NDArray[np.float64]:
     """Values [dB] or shares at some distance [Hz] from the harmonics of a frequency."""
     return lines_at(values, one.levels.step, np.array([frequency]), away=away)[:, 0]
+
+
+def _or_sidebands(
+    one: Listened, frequency: NDArray[np.float64], spacing: float
+) -> NDArray[np.float64]:
+    """Lines of a ball (HARMONICS, n): each itself, or its two sidebands if both are louder.
+
+    A line may lie on one of the shaft, or be fainter than what the cage makes of it.
+    """
+    line, below, above = (
+        lines_at(one.cleared, one.levels.step, frequency, away=away)
+        for away in (0.0, -spacing, spacing)
+    )
+    return np.maximum(line, np.minimum(below, above))
 
 
 def _speaking(own: PartEvidence) -> float:

@@ -7,16 +7,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import fftconvolve
 
 from bearingcore import Recording, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
 from bearingcore.diagnosis.part.parts import PARTS, part_lines
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.bearingcore.diagnosis.signals_made import (
     HEALTHY,
     Machine,
     background,
     draw_signal,
+    knock_times,
     knocks,
+    resonances,
     tone,
 )
 from tests.benchmarks.measured import WRONG, verdict
@@ -89,6 +93,37 @@ def test_what_turns_through_the_load_has_sidebands_and_what_stands_still_has_non
         assert own.sidebands[:3].mean() > own.level - 12.0
     own = answer(damaged["outer race"]).of("outer race")
     assert own.sidebands[:3].mean() < own.level - 8.0
+
+
+def test_a_ball_that_slips_and_wanders_is_named_by_its_broad_lines():
+    """4 % slower than rolling, wandering by 1.2 %: no line is sharp enough to stand out alone."""
+    rng = np.random.default_rng(0)
+    machine = dataclasses.replace(MOTOR, duration=8.0)
+    times = knock_times(0.96 * machine.lines["ball"], machine.duration, rng, 0.012, 0.02)
+    train = np.zeros(int(machine.duration * machine.rate) + 1)
+    np.add.at(train, (times * machine.rate).astype(int), rng.uniform(0.3, 1.0, len(times)))
+    ringing = fftconvolve(train, resonances(machine.rate, rng))[: len(train) - 1]
+    found = answer(ringing / ringing.std() + rng.standard_normal(len(ringing)), machine)
+    assert found.fault == "ball"
+    assert found.of("ball").slip == pytest.approx(-0.04, abs=0.012)
+    assert found.of("ball").lead < 2.0 < 10.0 < found.of("ball").deviations
+
+
+def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_them():
+    found = answer(made("outer race", -17.0, 3))
+    own = found.of("outer race")
+    assert own.lead > 1.2
+    assert own.swing < 0.138
+    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.PERHAPS_A_BALL)
+    assert "ball may have made them" in found.sentence
+    stronger = answer(made("outer race", -14.0, 3))
+    assert stronger.perhaps_a_ball
+    assert "ball may have marked" in stronger.sentence
+
+
+def test_every_status_has_a_sentence():
+    for status in DiagnosisStatus:
+        assert status.sentence.endswith(".")
 
 
 def test_a_healthy_machine_is_told_so_in_words(healthy):

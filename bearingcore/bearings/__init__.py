@@ -8,6 +8,7 @@ from bearingcore.bearings.kind import Kind
 from bearingcore.bearings.roller import ROLLER
 from bearingcore.bearings.rows import ROWS
 from bearingcore.bearings.self_aligning import SELF_ALIGNING
+from bearingcore.bearings.tapered import TAPERED
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS, ROLLER)}
+KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS, ROLLER, TAPERED)}
 """All kinds of bearing, by name."""

@@ -25,11 +25,11 @@ from functools import lru_cache
 from itertools import accumulate
 from typing import Any, Self, cast
 
-from bearingcore.bearings import KINDS, drawing, inside, roller, self_aligning
+from bearingcore.bearings import KINDS, drawing, inside, roller, self_aligning, tapered
 from bearingcore.bearings.hertz import RaceContact
 from bearingcore.bearings.kind import Kind, kind_named
 from bearingcore.bearings.line_contact import RollerContact
-from bearingcore.bearings.rows import ARRANGEMENTS, LENGTHS, MOST_ROWS, Row, pair, spaced
+from bearingcore.bearings.rows import LENGTHS, MOST_ROWS, Row, pair, spaced
 from bearingcore.common import checks, scene_file
 from bearingcore.common.lazy import cached_property
 from bearingcore.errors import FieldError
@@ -180,6 +180,37 @@ class Bearing:
         return cls(
             **roller.fields(
                 n_rollers, roller_diameter, roller_length, pitch_diameter, radial_clearance
+            )
+        )
+
+    @classmethod
+    def tapered(
+        cls,
+        n_rollers: int,
+        roller_diameter: float,
+        roller_length: float,
+        pitch_diameter: float,
+        contact_angle: float,
+        radial_clearance: float = 0.0,
+    ) -> Self:
+        """One row of tapered rollers of steel; `paired` makes two of it.
+
+        See `bearingcore.bearings.tapered` for what it leaves out. Diameters [m] are those of the
+        middles of the rollers, the angle [rad] is that of the outer race.
+
+        Raises
+        ------
+        ValueError
+            naming the field, its value and what is allowed.
+        """
+        return cls(
+            **tapered.fields(
+                n_rollers,
+                roller_diameter,
+                roller_length,
+                pitch_diameter,
+                contact_angle,
+                radial_clearance,
             )
         )
 
@@ -440,8 +471,7 @@ class Bearing:
     @property
     def arrangement(self) -> str:
         """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
-        variant = self.kind.variant(self)
-        return variant if variant in ARRANGEMENTS else ""
+        return self.kind.arrangement(self)
 
     @property
     def total_balls(self) -> int:

@@ -95,6 +95,8 @@ class Kind:
         the words in which a dynamic load rating is refused; empty where one is computed.
     static_pressure
         [Pa] that ISO 76 allows in a contact at rest.
+    mass_unknown
+        elements whose mass cannot be reckoned with, and why; empty where it can.
     has_drawing
         True where a bearing is given either by a drawing or by the numbers of its contacts.
     picture
@@ -115,6 +117,7 @@ class Kind:
     shoulders: tuple[str, ...] = ("inner", "outer")
     tilt_unknown: str = ""
     rating_unknown: str = ""
+    mass_unknown: str = ""
     static_pressure: float = ISO_76_BALLS
     has_drawing: bool = True
 
@@ -141,6 +144,10 @@ class Kind:
     def variant(self, bearing: Bearing) -> str:
         """Which of `variants` a bearing is; empty where it is none of them."""
         return self.variants[0].name
+
+    def arrangement(self, bearing: Bearing) -> str:
+        """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        return ""
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         """The bearing of this kind that has the dimensions of another one.
@@ -201,6 +208,11 @@ class Kind:
             factor=bearing.load_deflection_factor,
             exponent=self.exponent,
         )
+
+    def check_mass(self) -> None:
+        """ValueError where the mass of the elements cannot be reckoned with."""
+        if self.mass_unknown:
+            raise checks.refuse("balls", "with mass", f'"massless" of {self.mass_unknown}')
 
     def check_directions(self, dofs: tuple[str, ...]) -> None:
         """ValueError for directions in which a bearing of this kind cannot move."""

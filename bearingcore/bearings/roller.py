@@ -56,7 +56,7 @@ class Roller(Kind):
 
     name = "roller"
     element = "roller"
-    variants = (
+    variants: tuple[Variant, ...] = (
         Variant(
             "rollers",
             "Cylindrical rollers",
@@ -77,8 +77,8 @@ class Roller(Kind):
     exponent = 10.0 / 9.0
     exponent_text = "¹⁰⁄⁹"
     line_contact = True
-    directions = ("x", "y")
-    needed_directions = ("x", "y")
+    directions: tuple[str, ...] = ("x", "y")
+    needed_directions: tuple[str, ...] = ("x", "y")
     carries = "cylindrical rollers carry radial loads only"
     left_out = "cylindrical rollers carry nothing along the others"
     shoulders = ()
@@ -90,7 +90,7 @@ class Roller(Kind):
     has_drawing = False
 
     def recognizes(self, bearing: Bearing) -> bool:
-        return bearing.roller_length is not None
+        return bearing.roller_length is not None and bearing.contact_angle == 0.0
 
     def check(self, bearing: Bearing) -> None:
         length = _length(bearing)

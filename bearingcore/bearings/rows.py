@@ -193,8 +193,10 @@ class Rows(Ball):
             raise checks.refuse("rows", len(bearing.rows), "at least 2 where the kind is 'rows'")
         self._check_balls(bearing)
 
-    def variant(self, bearing: Bearing) -> str:
+    def arrangement(self, bearing: Bearing) -> str:
         return arrangement_of(bearing.rows)
+
+    variant = arrangement
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         distance, preload = bearing.row_distance, bearing.preload

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.tapered import USUAL_ANGLE
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.scene import Scene
@@ -342,6 +343,28 @@ _PRESETS: Mapping[str, Preset] = {
         "clearance of 15 µm, load, speed, the defect, and the rotor and support of the fan "
         "rig. Computed: the stiffness of a steel roller between its races by Palmgren's "
         "formula. It carries radial loads only, and its rollers do not tilt here.",
+    ),
+    "30206-back-to-back": Preset(
+        "30206 pair of tapered rollers, back to back",
+        lambda: _scene(
+            Bearing.tapered(
+                n_rollers=17,
+                roller_diameter=7.66e-3,
+                roller_length=10.3e-3,
+                pitch_diameter=46e-3,
+                contact_angle=USUAL_ANGLE,
+            ).paired(30e-3, "back-to-back", 6e-6),
+            Load(fy=-4000.0, fz=1000.0),
+            1500.0,
+            *(4.0, 20e-6),
+        ),
+        "Two tapered roller bearings back to back. By ISO 355: bore 30 mm, outside diameter 62 mm, "
+        "a cup of 14°02′10″. Assumed, as makers do not print it: 17 rollers on 46 mm, the middle "
+        "of both diameters. Computed: rollers of 7.66 mm and 10.3 mm length, which have the "
+        "43.5 kN and 48 kN of a catalogue (Nachi) by ISO 281 and ISO 76; their stiffness by "
+        "Palmgren's formula for steel. Assumed too: rows 30 mm apart, an axial preload of 6 µm, "
+        "loads, speed, the defect, in the first row, and the rotor and support of the fan rig. The "
+        "taper of the rollers, their swivelling and the friction of the rib are left out.",
     ),
 }
 

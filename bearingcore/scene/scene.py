@@ -115,6 +115,8 @@ class Scene:
                 raise checks.refuse(name, value, f"0: {kind.carries}")
         if self.dofs is not None:
             kind.check_directions(self.dofs)
+        if self.balls == WITH_MASS:
+            kind.check_mass()
 
     @property
     def defects(self) -> tuple[Defect, ...]:

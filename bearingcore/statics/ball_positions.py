@@ -153,6 +153,7 @@ def ball_positions(
         for cage angles that are not finite, unknown names in `dofs`, or contacts so soft or
         stiff that a computer has no numbers for them.
     """
+    scene.bearing.kind.check_mass()
     massless = equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
     active = massless.dofs
     with _within_range(scene):

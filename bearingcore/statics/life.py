@@ -64,7 +64,7 @@ HEAVIEST_SHARE = 0.5
 """Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
 
 ROLLER_MATERIAL_FACTOR = 1.1
-"""The same for cylindrical roller bearings whose rings are machined."""
+"""The same for cylindrical roller bearings whose rings are machined, and for tapered rollers."""
 
 
 class ContactLife(NamedTuple):
@@ -378,13 +378,13 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     """Basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
 
     Of balls C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm,
-    for i rows of Z balls, b_m = 1.3. Of cylindrical rollers of length l
-    C_r = b_m f_c l^(7/9) Z^(3/4) D^(29/27), b_m = 1.1; l is the length that touches, without the
-    roller's chamfers. f_c are the standard's tables as formulas, 0.2 % from each of their numbers:
-    that of balls holds for grooves of 0.52 (inner) and 0.53 (outer) ball diameters and is not
-    raised for closer ones; wider ones lower it, and a bearing whose grooves are not known counts as
-    one with those. Catalogues give more where a maker vouches for better steel. Of rows that are
-    unlike it is i^(−0.3) Σ C_k: see the head of the module.
+    for i rows of Z balls, b_m = 1.3. Of rollers of length l C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4)
+    D^(29/27), b_m = 1.1; l is the length that touches, without the roller's chamfers. f_c are the
+    standard's tables as formulas, 0.2 % from each of their numbers: that of balls holds for grooves
+    of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
+    lower it, and a bearing whose grooves are not known counts as one with those. Catalogues give
+    more where a maker vouches for better steel. Of rows that are unlike it is i^(−0.3) Σ C_k: see
+    the head of the module.
 
     ValueError for self-aligning bearings, whose factors the standard tabulates apart: their rating
     comes from the catalogue.
@@ -415,16 +415,18 @@ def dynamic_load_rating(bearing: Bearing) -> float:
 
 
 def _roller_rating(bearing: Bearing, length: float) -> float:
-    """C_r [N] of cylindrical rollers of a length [m]; see `dynamic_load_rating`.
+    """C_r [N] of rollers of a length [m]; see `dynamic_load_rating`.
 
     f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
     allows for what a real load along the roller takes.
     """
-    gamma = bearing.ball_diameter / bearing.pitch_diameter
+    cosine = math.cos(bearing.contact_angle)
+    gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
     B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
     shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
     factor = 0.377 * 551.13373 * 0.83 * shape * (1.0 + B**4.5) ** (-2.0 / 9.0)
-    C = (1e3 * length) ** (7.0 / 9.0) * (1e3 * bearing.ball_diameter) ** (29.0 / 27.0)
+    lies = len(bearing.all_rows) * 1e3 * length * cosine
+    C = lies ** (7.0 / 9.0) * (1e3 * bearing.ball_diameter) ** (29.0 / 27.0)
     return float(ROLLER_MATERIAL_FACTOR * factor * C * bearing.n_balls**0.75)
 
 

@@ -53,6 +53,19 @@ ROLLERS = {
     "inner_raceway_radius": 24.75e-3,
     "roller_length": 11e-3,
 }
+TAPERED = {
+    "n_balls": 17,
+    "ball_diameter": 7.66e-3,
+    "pitch_diameter": 46e-3,
+    "contact_angle": math.radians(14.0),
+    "groove_center_radius": 23e-3,
+    "groove_center_distance": 10.0,
+    "radial_clearance": 0.0,
+    "load_deflection_factor": 1.38e9,
+    "outer_raceway_radius": 26.7e-3,
+    "inner_raceway_radius": 19.3e-3,
+    "roller_length": 10.3e-3,
+}
 
 DRAWN_BALL = 15.0 / 32.0 * 25.4e-3
 DRAWN = {
@@ -155,6 +168,11 @@ def scenes() -> list[dict[str, Any]]:
              8.0, 100.0, 268.0, dofs=XY),
         case("rollers, inner race", ROLLERS, [row(0.0)], (0.0, -5000.0, 0.0, 0.0, 0.0), 77.0, 20.0,
              12.0, 30.0, "inner", dofs=XY),
+        case("tapered rollers, back to back", TAPERED, pair(15e-3, -1, 3e-6), all_five, 7.0),
+        case("tapered rollers, face to face, defect in row 2", TAPERED, pair(15e-3, 1, 4e-6),
+             (300.0, -4000.0, 900.0, 25.0, -15.0), 12.5, 12.0, 20.0, defect_row=1),
+        case("a row of tapered rollers", TAPERED, [row(0.0)],
+             (500.0, -2000.0, 1500.0, 0.0, 0.0), 3.0, dofs=XYZ),
         case("unlike rows", DRAWN, pair(9e-3, -1, 4e-6, turn=0.1, **unlike), all_five, 21.0, 12.0,
              40.0, 280.0),
         case("unlike rows, inner race, later", DRAWN, pair(9e-3, 1, 6e-6, n_balls=9), all_five,

@@ -322,13 +322,19 @@ class Results:
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
 
+    @property
+    def _with_mass(self) -> Scene:
+        """The scene with mass of its balls, where that is known."""
+        known = not self.scene.bearing.kind.mass_unknown
+        return self.scene.replace(balls=WITH_MASS) if known else self.scene
+
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
         scenes = [self.scene] if shown & OF_MOTION else []
         if "dof_comparison" in shown:
             scenes.append(self.scene.replace(dofs=other_dofs(self.scene)))
         if "ball_mass" in shown:
-            scenes.append(self.scene.replace(balls=WITH_MASS))
+            scenes.append(self._with_mass)
         return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
@@ -344,7 +350,7 @@ class Results:
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """In which way motions shown are coarse."""
-        scene = self.scene if "ball_mass" not in shown else self.scene.replace(balls=WITH_MASS)
+        scene = self.scene if "ball_mass" not in shown else self._with_mass
         if scene.balls == MASSLESS:
             part = "a quarter of" if "dof_comparison" in shown else "half"
             return f"coarse while it moves: {part} the motion in half the steps"

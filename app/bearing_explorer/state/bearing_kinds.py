@@ -9,7 +9,7 @@ from bearing_explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
 from bearingcore.common.numbers import number
-from bearingcore.scene.scene import LOAD_ALONG
+from bearingcore.scene.scene import LOAD_ALONG, MASSLESS
 
 MOST_SHOWN_ROWS = 2
 
@@ -59,6 +59,7 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
         defect=defects[0] if len(defects) == 1 else defects,
         load=dataclasses.replace(scene.load, **dict.fromkeys(_loads_without(bearing), 0.0)),
         dofs=dofs or None,
+        balls=MASSLESS if bearing.kind.mass_unknown else scene.balls,
     )
 
 
@@ -96,5 +97,9 @@ def hidden_of(bearing: Bearing) -> list[str]:
         if (field.group in BEARING_GROUPS and field.full_name not in given)
         or field.full_name in without
     ]
-    choices = {"row": len(bearing.all_rows) > 1, "numbers": bearing.kind.has_drawing}
+    choices = {
+        "row": len(bearing.all_rows) > 1,
+        "numbers": bearing.kind.has_drawing,
+        "balls": not bearing.kind.mass_unknown,
+    }
     return hidden + [name for name, shown in choices.items() if not shown]

@@ -95,7 +95,8 @@ class BearingEditor(ControlView):
         kinds = dict.fromkeys(_balls_of(one) for one in own)
         words = f"{rows}{' and of '.join(kinds)}, "
         if bearing.roller_length is not None:
-            words += f"{style.number(1e3 * bearing.roller_length, 4)} mm long."
+            words += f"{style.number(1e3 * bearing.roller_length, 4)} mm long"
+            words += f", {angle}° contact angle." if bearing.contact_angle else "."
         else:
             words += f"{'no contact angle' if angle == '0' else f'{angle}° contact angle'}"
             kind = bearing.kind.variant(bearing).replace("-", " ")

@@ -161,8 +161,11 @@ class _Section:
         """The race of a row: `side` 1 for the outer ring, −1 for the inner one."""
         edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
         if self.is_roller:
-            ends = row.x + self.long + 1.0, row.x - self.long - 1.0
-            return ["V", edge, "H", ends[0], "V", level, "H", ends[1], "V", edge]
+            half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a race that leans as it does
+            rise = half * row.lean
+            edge += side * max(abs(rise) - SHOULDER * row.ball, 0.0)  # no race beyond its rib
+            return ["V", edge, "H", row.x + half, "V", level + rise,
+                    "L", row.x - half, level - rise, "V", edge]  # fmt: skip
         deep = level - side * SHOULDER * row.ball
         return ["V", edge, "H", row.x + wide, "Q", row.x, deep, row.x - wide, edge]
 
@@ -184,7 +187,9 @@ class _Section:
         if not self.is_roller:
             return _circle("ball", row.x, row.centre, row.ball)
         corner = row.x - self.long, row.centre - row.ball
-        return _box("ball", *corner, 2.0 * self.long, 2.0 * row.ball, 2.0)
+        box = _box("ball", *corner, 2.0 * self.long, 2.0 * row.ball, 2.0)
+        turn = math.degrees(math.atan(row.lean))
+        return _turned(box, turn, row.x, row.centre) if turn else box
 
     def height(
         self, field: str, x: float, start: float, level: float, text: str, below: str,
@@ -201,12 +206,16 @@ class _Section:
         )  # fmt: skip
 
 
+def _turned(content: str, degrees: float, x: float, y: float) -> str:
+    return _shape("g", content, transform=f"rotate({degrees:.2f} {x:.2f} {y:.2f})")
+
+
 def _section(bearing: Bearing) -> Iterable[str]:
     at, look = _Section(bearing), bearing.kind.picture
     yield _path("steel", "M", at.left, at.top, "H", at.right, *at.outer_race(), "Z")
     yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
     yield from map(at.element, at.rows)
-    if len(at.rows) > 1 and look.outer == "groove" and any(row.lean for row in at.rows):
+    if len(at.rows) > 1 and look.outer != "sphere" and any(row.lean for row in at.rows):
         for row in at.rows:  # lines of contact, on to the middle of the shaft
             over = 1.5 * row.ball
             foot = row.x - (AXIS - row.centre) * row.lean
@@ -295,10 +304,13 @@ def _line_contact(bearing: Bearing) -> Iterable[str]:
     (x, y), high, gap = CONTACT, 60.0, _gap(bearing)
     slender = (bearing.roller_length or 0.0) / bearing.ball_diameter
     long = min(110.0, max(25.0, high * slender))
-    low = y + high
-    yield _box("steel", x - 124.0, y - high - 30.0, 248.0, 30.0)
-    yield _box("steel", x - 124.0, low + gap, 248.0, 30.0)
-    yield _box("ball", x - long, y - high, 2.0 * long, 2.0 * high, 5.0)
+    low, angle = y + high, bearing.contact_angle
+    races = _box("steel", x - 124.0, y - high - 30.0, 248.0, 30.0)
+    races += _box("steel", x - 124.0, low + gap, 248.0, 30.0)
+    races += _box("ball", x - long, y - high, 2.0 * long, 2.0 * high, 5.0)
+    yield _turned(races, math.degrees(angle), x, y) if angle else races
+    if angle:
+        yield _angle(angle, high)
     if gap:
         yield _clearance(x + long + 20.0, low, gap)
     for number, note in enumerate(bearing.kind.picture.notes):

@@ -20,7 +20,7 @@ COUNTED = (
     " The number of balls is an estimate: with another one, damage of a race shows at another "
     "frequency and is missed. Count them, or read the frequencies off the maker's sheet."
 )
-"""What "no damage seen" leaves open where the number of balls follows from a designation."""
+"""Follows "no damage seen" where the number of balls follows from a designation."""
 
 _FREQUENCY = {
     "outer race": "the outer-race frequency (BPFO)",

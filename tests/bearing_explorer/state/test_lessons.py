@@ -693,7 +693,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ('"A title"', "A title", 2, "the head is not TOML"),
         ('title = "A title"', "", 1, "missing required field `title`"),
         ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
-        ('"fan-rig"', '"fan"', 4, "“fan” is not a preset; there are"),
+        ('"fan-rig"', '"fan"', 4, "“fan” is not a preset; was fan-rig meant"),
         ('["fy_n"]', '"fy_n"', 5, "Expected `array`, got `str`"),
         ('["fy_n"]', '["fy"]', 5, "“fy” is not a control of the page"),
         ('["bearing"]', '["maps"]', 6, "“maps” is not a figure of this tab; there are bearing"),

@@ -1,0 +1,179 @@
+"""Tapered rollers: line contacts at a contact angle that stays as it is, in one row or a pair.
+
+Quantity                                    | Symbol | Name
+------------------------------------------- | ------ | --------------
+diameter of a roller in its middle          | D      | ball_diameter
+length of a roller that lies on the races   | l      | roller_length
+diameter of the circle of those middles     | D_p    | pitch_diameter
+angle of the line of contact                | α      | contact_angle
+
+A roller is pressed by what both races approach each other along its line of contact,
+δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K by Palmgren as of a cylindrical roller. The
+line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
+α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
+
+Left out: the taper of a roller. The inner race is less steep than the outer one by twice half of
+the roller's, some 4°, and the rib takes what the races leave, some per cent of the load, and rubs.
+Nor does a roller swivel or tilt between its races: it is as stiff as its middle.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from bearingcore.bearings.drawing import Derived
+from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
+from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.bearings.roller import Roller
+from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
+from bearingcore.common import checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings.bearing import Bearing
+
+STRAIGHT = 10.0
+"""[m] between centres of races that are straight: over it no displacement turns the contact."""
+
+USUAL_ANGLE = math.radians(14.0361)
+"""14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
+
+_PREFIX = "tapered-"
+
+
+def fields(
+    n_rollers: int,
+    roller_diameter: float,
+    roller_length: float,
+    pitch_diameter: float,
+    contact_angle: float,
+    radial_clearance: float,
+) -> dict[str, Any]:
+    """All fields of a `Bearing` of one row of tapered rollers; see `Bearing.tapered`."""
+    length = checks.number("roller_length", roller_length, above=0.0, unit="m")
+    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+    pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+    return {
+        "kind": TAPERED,
+        "n_balls": n_rollers,
+        "ball_diameter": diameter,
+        "pitch_diameter": pitch,
+        "contact_angle": contact_angle,
+        "radial_clearance": radial_clearance,
+        "roller_length": length,
+        **_derived(diameter, length, pitch, contact_angle)._asdict(),
+    }
+
+
+def _derived(diameter: float, length: float, pitch: float, angle: float) -> Derived:
+    across = diameter * math.cos(angle)
+    return Derived(
+        groove_center_radius=0.5 * pitch,
+        groove_center_distance=STRAIGHT,
+        load_deflection_factor=palmgren_factor(length),
+        outer_raceway_radius=0.5 * (pitch + across),
+        inner_raceway_radius=0.5 * (pitch - across),
+    )
+
+
+class Tapered(Roller):
+    """Tapered rollers of steel, given by their middles and the angle of the outer race."""
+
+    name = "tapered"
+    variants = (
+        Variant(
+            "tapered",
+            "Tapered rollers",
+            "Line contact at an angle: an axial load has to hold the rings together.",
+        ),
+        Variant(
+            "tapered-back-to-back",
+            "Tapered pair, back to back (O)",
+            "Two rows whose lines of contact meet the shaft far apart: stiff against tilt.",
+        ),
+        Variant(
+            "tapered-face-to-face",
+            "Tapered pair, face to face (X)",
+            "Two rows whose lines of contact meet the shaft close together: soft against tilt.",
+        ),
+    )
+    picture = Picture(
+        element="roller",
+        outer="cylinder",
+        inner="cylinder",
+        dimensions=("roller_length", "contact_angle"),
+        notes=(
+            "a roller on its races, its taper not drawn",
+            "the rib takes nothing here, and does not rub",
+        ),
+    )
+    directions = needed_directions = DIRECTIONS
+    carries = left_out = ""
+    tilt_unknown = (
+        "Tilt and swivelling of the rollers: not known, as a roller is pressed in its middle in "
+        "this model. A ring that tilts presses their ends on the races. The friction of the rib, "
+        "and the few per cent of the load that it takes, are left out."
+    )
+    mass_unknown = "tapered rollers: a rib holds them, which is left out"
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        return bearing.roller_length is not None and bearing.contact_angle != 0.0
+
+    def check(self, bearing: Bearing) -> None:
+        checks.number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
+        checks.number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
+        if bearing.is_drawn:
+            raise checks.refuse(
+                "inner_groove_radius", bearing.inner_groove_radius, "None of tapered rollers"
+            )
+        if any(row.own for row in bearing.rows):
+            raise checks.refuse("rows", len(bearing.rows), "rows of tapered rollers that are alike")
+
+    def arrangement(self, bearing: Bearing) -> str:
+        return arrangement_of(bearing.rows)
+
+    def variant(self, bearing: Bearing) -> str:
+        if len(bearing.all_rows) == 1:
+            return "tapered"
+        name = _PREFIX + self.arrangement(bearing)
+        return name if name in [one.name for one in self.variants] else ""
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload
+        made = bearing.tapered(
+            bearing.n_balls,
+            diameter,
+            bearing.roller_length or diameter,
+            bearing.pitch_diameter,
+            bearing.contact_angle or USUAL_ANGLE,
+            bearing.radial_clearance,
+        )
+        if variant == "tapered":
+            return made
+        apart = USUAL_DISTANCE * diameter if distance is None else distance
+        return made.paired(apart, variant.removeprefix(_PREFIX), preload or 0.0)
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        paired = ("row_distance", "preload") if self.arrangement(bearing) else ()
+        return (*super().inputs(bearing), "contact_angle", *paired)
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        meet = ("pressure_centers_apart",) if self.arrangement(bearing) else ()
+        return (*meet, *super().facts(bearing))
+
+    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
+        return super().replaced(bearing, {"kind": self} | changes)
+
+    def derived(self, bearing: Bearing) -> Derived:
+        length: float = bearing.roller_length  # type: ignore[assignment]  # `check` refuses None
+        return _derived(
+            bearing.ball_diameter, length, bearing.pitch_diameter, bearing.contact_angle
+        )
+
+    def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
+        length: float = bearing.roller_length  # type: ignore[assignment]  # `check` refuses None
+        across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
+        return roller_contact(race, bearing.ball_diameter, across, length)
+
+
+TAPERED = Tapered()

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Protocol, TypeVar
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
+from bearing_explorer.results import compiling
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.bearing_list import read_table
 from bearing_explorer.state.bookmarks import Bookmarks, open_request_of, read_request
@@ -119,6 +120,9 @@ class Requests:
         mark = message.get("mark")
         if isinstance(mark, int) and 0 <= mark < 2**24:
             self.mark = mark
+        if compiling.STATICS in compiling.left():
+            self._page.draw()  # sliders do not move yet, and the mark is answered
+            return
         try:
             if message.get("reset") is True:
                 self.editor.take_preset(self.editor.preset)

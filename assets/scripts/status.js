@@ -37,7 +37,8 @@ export function render({ model }) {
     Object.assign(bar, { value: done, max: of || 1 })
     said.textContent = words
     bar.setAttribute("aria-label", words)
-    if (model.folded) document.querySelector(".controls-place")?.toggleAttribute("inert", still)
+    if (model.folded) for (const part of document.querySelectorAll(".controls-place, #welcome"))
+      part.toggleAttribute("inert", still)
   })
   return element("div", {}, progress, line)
 }

@@ -119,7 +119,11 @@ def test_pictures_of_other_scenes_say_that_they_are_not_ready(compilation: Compi
 
     async def live() -> tuple[str, str]:
         explorer = Explorer(SECTIONS)
+        before = explorer.scene
         explorer.requests.change_scene({"set": {"extent_deg": 33.0}})
+        assert explorer.scene == before, "sliders do not move yet"
+        explorer.editor.set({"extent_deg": 33.0})  # as a link does
+        explorer.draw()
         async with asyncio.timeout(60.0):
             while not explorer._loop.drawn:
                 await asyncio.sleep(0.01)

@@ -313,7 +313,7 @@ _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 
 
 def parts_of(text: str) -> tuple[str, str]:
-    """What is seen of a caption, and what opens on a click.
+    """The part of a caption that is seen, and the part that opens on a click.
 
     The first sentence and the key are seen: sentences such as “Grey: the healthy bearing.”
     """

@@ -49,7 +49,9 @@ REACH = {"0.3-2.1 kHz": 0.1, "2.1-5 kHz": 0.5, "5-10 kHz": 0.5}
 _SHARE_OF_REFERENCE = 0.5
 
 FINEST = 32
-"""Steps a sample of the reference."""
+"""Steps a sample of the reference, at least."""
+AROUND = (2 / 3, 1.0, 4 / 3, 8 / 3)
+"""Steps at which methods are measured, over the program's own."""
 FINER = 8
 """As many times more for the second family, whose order is lower."""
 
@@ -134,7 +136,7 @@ def balls_experiment(
     *,
     duration: float = 1.4,
     sample_rate: float = 65536.0,
-    steps: tuple[int, ...] = (1, 2, 3, 4, 8, 16),
+    steps: tuple[int, ...] | None = None,
     watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of ways to march balls with mass, and of leaving the mass out.
@@ -148,7 +150,8 @@ def balls_experiment(
     duration, sample_rate
         [s], [Hz]
     steps
-        a sample: the settings at which each method is measured.
+        a sample: the settings at which each method is measured; None takes some about the
+        program's own.
     watch
         progress, points as they come, and cancelling.
 
@@ -160,11 +163,15 @@ def balls_experiment(
     scene = scene.replace(balls=WITH_MASS)
     if scene.active_dofs != ("x", "y") or place_parts(scene, scene.active_dofs) != 1:
         raise checks.refuse("dofs", " ".join(scene.active_dofs), "x y, at contact angle 0")
+    usual = default_step_rate(scene, sample_rate, highest_natural_frequency(scene))
+    own = max(round(usual / sample_rate), 1)
+    steps = steps or tuple(sorted({max(round(own * part), 1) for part in AROUND}))
+    least = max(FINEST, 4 * own)
     began = time.perf_counter()
     report = watch.within(0.0, _SHARE_OF_REFERENCE)
 
     def levels(method: str, at: Scene = scene) -> dict[str, Array]:
-        finest = FINEST if method == "RK4" else FINER * FINEST
+        finest = least if method == "RK4" else FINER * least
         march = BALL_METHODS[method](at, finest, duration, sample_rate)
         return third_octaves(march.history[:, 5], sample_rate)
 
@@ -183,7 +190,6 @@ def balls_experiment(
         time.perf_counter() - began,
         f"spread with balls heavier by a part in ten thousand: {spreads}",
     )
-    usual = default_step_rate(scene, sample_rate, highest_natural_frequency(scene))
 
     def measure(task: tuple[str, int]) -> Point:
         name, stride = task

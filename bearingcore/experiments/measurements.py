@@ -39,9 +39,7 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
         scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
     ),
     "models": lambda scene, watch, _: models_experiment(scene, duration=0.2, watch=watch),
-    "balls": lambda scene, watch, _: balls_experiment(
-        scene, duration=0.25, steps=(2, 3, 4, 8), watch=watch
-    ),
+    "balls": lambda scene, watch, _: balls_experiment(scene, duration=0.25, watch=watch),
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
     "angles": lambda scene, watch, _: angles_experiment(scene, watch=watch),
 }

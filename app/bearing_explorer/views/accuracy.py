@@ -172,7 +172,9 @@ class Accuracy(JobView[Found]):
                 "“Measure on this machine” takes this one."
             )
         if found is not None:
-            words = f"Measured on this machine: {found.result.count} points. Pale: shipped. {words}"
+            words = f"Measured on this machine: {found.result.count} points. {words}"
+            if self._same:
+                words += " Pale: shipped."
             if found.scene != results.scene:
                 words += " The scene has changed since it was measured."
         return words
@@ -188,6 +190,12 @@ class Accuracy(JobView[Found]):
         if self._results is not None:
             self._show(self._results)
 
+    @property
+    def _same(self) -> bool:
+        """Whether the scene that was measured here is a preset as it comes."""
+        scene = None if self.found is None else self.found.scene
+        return scene is not None and presets.get(preset_like(scene)) == scene
+
     def _redraw(self) -> None:
         if self._results is not None:
             self._show(self._results)
@@ -199,7 +207,10 @@ class Accuracy(JobView[Found]):
         for one, chart in self._charts:
             refused = next((m.refused[one.experiment] for m in (own, base)
                             if m is not None and one.experiment in m.refused), "")  # fmt: skip
-            chart.draw(_part(own, one), _part(base, one), cost, steps, refused)
+            part, pale = _part(own, one), _part(base, one)
+            if part is not None and not self._same:
+                pale = None  # of another scene
+            chart.draw(part, pale, cost, steps, refused)
         self._stability.draw(own, base, results.scene.shaft_speed)
         self._foot.object = foot(own, base, self._shown(results))
 

@@ -142,10 +142,7 @@ class WorkPrecision:
         parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
         self._fill(parts, cost)
         own = [p for p in main.points if self._placed(p, cost) and is_used(p, step_rate)]
-        self._used.data = {
-            "cost": [getattr(p, cost) for p in own],
-            "error": [p.errors[self.error] for p in own],
-        }
+        self._used.data = self._at(own, cost)
         self._words.object = legend(methods_of(parts)) + paragraph(
             sentence(main, self.error, step_rate)
         )
@@ -153,6 +150,11 @@ class WorkPrecision:
     def _known(self, point: Point) -> bool:
         """True where there is something to draw: an error of this name, or a failure."""
         return point.failed or not math.isnan(point.errors.get(self.error, math.nan))
+
+    def _at(self, points: list[Point], cost: str) -> dict[str, list[float]]:
+        """Places of points in the figure."""
+        errors = [point.errors[self.error] for point in points]
+        return {"cost": [getattr(point, cost) for point in points], "error": errors}
 
     def _placed(self, point: Point, cost: str) -> bool:
         at = (getattr(point, cost), point.errors.get(self.error, math.nan))
@@ -177,19 +179,15 @@ class WorkPrecision:
         self.plot.yaxis.axis_label = f"Error of {self.error}{unit}"
         self._allowed.location = allowed
         frontier = [p for p in main.frontier(self.error, cost) if self._placed(p, cost)]
-        self._best.data = {
-            "cost": [getattr(p, cost) for p in frontier],
-            "error": [p.errors[self.error] for p in frontier],
-        }
+        self._best.data = self._at(frontier, cost)
         rows, lines = [], []
         for one, alpha in parts:
             single = all(len(one.of(method)) == 1 for method in one.methods)
             for slot, method in enumerate(methods_of(parts)):
                 color, marker = look(slot)
                 own = one.of(method)
-                line = [p for p in own if self._placed(p, cost)]
-                lines.append(([getattr(p, cost) for p in line],
-                              [p.errors[self.error] for p in line], color, alpha))  # fmt: skip
+                line = self._at([p for p in own if self._placed(p, cost)], cost)
+                lines.append((line["cost"], line["error"], color, alpha))
                 for p in filter(self._known, own):
                     placed = self._placed(p, cost)
                     at = getattr(p, cost)
@@ -213,9 +211,8 @@ class WorkPrecision:
             order = METHODS[method].order if method in METHODS else 0
             placed = [p for p in one.of(method) if self._placed(p, cost)]
             if order and len(placed) > 2:
-                first, last = placed[0], placed[-1]
-                a, b = getattr(first, cost), getattr(last, cost)
-                error = first.errors[self.error]
+                a, *_, b = (getattr(point, cost) for point in placed)
+                error = placed[0].errors[self.error]
                 lines.append(([a, b], [error, error * (b / a) ** -order]))
         return lines
 
@@ -259,7 +256,7 @@ def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
         parts.append(f"Order of convergence: {words}; 4 in theory while no force jumps")
     failed = {point.method: point for point in one.points if point.failed}
-    parts += [f"{m}, {p.setting}, {p.status}" for m, p in failed.items()]
+    parts += [", ".join(filter(None, (m, p.setting, p.status))) for m, p in failed.items()]
     endless = [p for p in one.points if p.errors.get(error) == math.inf]
     parts += [f"{p.method}: {BEYOND}" for p in endless]
     (reference,) = one.references.values()

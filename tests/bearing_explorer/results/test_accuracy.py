@@ -208,6 +208,13 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
     view = Accuracy(PackedSource())
     view.found = Found(RIG, found)
     assert "Pale: shipped" in view.sentence(Results(RIG))
+    view.say(Results(RIG), "")
+    angles = next(chart for one, chart in view._charts if one.experiment == "angles")
+    assert PALE in angles._points.data["alpha"]
+    other = RIG.replace(extent=0.3)
+    view.found = Found(other, found)
+    view.say(Results(other), "")
+    assert PALE not in angles._points.data["alpha"], "those are of another scene"
     assert set(view.table(Results(RIG))["experiment"]) == {"angles"}
 
 

@@ -46,8 +46,9 @@ def of_sweep(found: DataArray) -> hv.AdjointLayout:
         for another number of fields.
     """
     import holoviews as hv
+    import holoviews.plotting.bokeh  # what `opts` may say; hv.extension asks other computers
 
-    hv.extension("bokeh", logo=False)
+    hv.Store.set_current_backend("bokeh")
     field = Field.of_sweep(found)
     values, unit = field.scaled
     sides = [hv.Dimension(side.words, unit=side.unit or None) for side, _ in (field.x, field.y)]

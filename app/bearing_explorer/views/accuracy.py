@@ -21,7 +21,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import SIDE_BY_SIDE, WorkPrecision, paragraph
-from bearing_explorer.widgets.form import Fields, FieldSpec, select
+from bearing_explorer.widgets.form import Fields, FieldSpec, row, select
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
 from bearingcore.experiments.balls import ERRORS as BALL_ERRORS
@@ -130,7 +130,7 @@ class Accuracy(JobView[Found]):
         return pn.Column(
             self.job,
             self._origin,
-            self._cost.widgets["cost"],
+            row(self._cost.widgets["cost"]),
             *sections,
             _heading("Stability"),
             self._stability.panel,

@@ -26,6 +26,8 @@ MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆"
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
 BEYOND = "the error is infinite"
+SHORTEST = 100.0
+"""Least quotient of the ends of an axis."""
 PALE = 0.3
 """Opacity of shipped points beside those of this machine."""
 
@@ -289,8 +291,10 @@ def paragraph(words: str) -> str:
 
 
 def _around(values: list[float], room: float) -> tuple[float, float]:
-    known = values or [1.0]
-    return min(known) / room, max(known) * room
+    """Ends of an axis: `room` about the values, and at least two numbers on it."""
+    low, high = (min(values), max(values)) if values else (1.0, 1.0)
+    room = max(room, math.sqrt(SHORTEST * low / high))
+    return low / room, high * room
 
 
 def _source(*columns: str) -> ColumnDataSource:

@@ -68,5 +68,7 @@ def compute(job: Work, scene: Scene, name: str) -> str:
         shown=lambda part: job.show(Found(scene, part)),
     )
     if not found.count:
-        return " ".join(found.refused.values()) or "Nothing was measured yet."
+        if found.refused:
+            raise ValueError(f"Not for this scene: {'; '.join(found.refused.values())}.")
+        return "Nothing was measured yet."
     return f"{found.count} points after {time.perf_counter() - started:.1f} s."

@@ -221,7 +221,8 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
 def test_a_scene_that_cannot_move_says_why() -> None:
     job = Work()
     job.started = time.monotonic()
-    assert "above 0 rad/s" in compute(job, RIG.replace(shaft_speed=0.0), "motion")
+    with pytest.raises(ValueError, match="above 0 rad/s"):
+        compute(job, RIG.replace(shaft_speed=0.0), "motion")
 
 
 def test_a_cancelled_job_keeps_nothing_where_nothing_was_measured() -> None:

@@ -135,7 +135,7 @@ def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
 
 
 def price(found: Alternatives) -> str:
-    """What choosing costs against what it saves."""
+    """The cost of choosing against the time saved."""
     good = [
         one
         for one in found.rows

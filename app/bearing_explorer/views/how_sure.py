@@ -55,7 +55,7 @@ def scoreboard() -> dict[str, Any]:
 
 def answers() -> list[dict[str, Any]]:
     """The records on which something was answered."""
-    return [row for row in scoreboard()["records"] if row["verdict"] != "cannot tell"]
+    return [row for row in scoreboard()["records"] if row["verdict"] in ("right", "wrong")]
 
 
 def reliability() -> dict[str, np.ndarray]:
@@ -91,7 +91,7 @@ def extents() -> dict[str, np.ndarray]:
 
 
 class HowSure(View):
-    """What answers of the diagnosis were worth on records of real machines."""
+    """Answers of the diagnosis on records of real machines: how often they were right."""
 
     name = "how-sure"
     title = "How sure: answers on measured records of real machines"
@@ -120,7 +120,7 @@ class HowSure(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         bins, sizes, ends = reliability(), extents(), np.array([0.0, 100.0])
-        stated, true = bins["stated_percent"], _beside(sizes["true_extent_deg"])
+        stated, true = bins["stated_percent"], _side_by_side(sizes["true_extent_deg"])
         return {
             "how_sure_ideal": {"x": ends, "y": ends},
             "how_sure_spread": _upright(stated, bins["low_percent"], bins["high_percent"]),
@@ -152,13 +152,13 @@ class HowSure(View):
         return reliability()
 
 
-def _beside(places: np.ndarray) -> np.ndarray:
-    """Places that are equal, a little beside each other."""
-    beside = places.copy()
+def _side_by_side(places: np.ndarray) -> np.ndarray:
+    """Equal places set apart a little."""
+    apart = places.copy()
     for place in np.unique(places):
         same = places == place
-        beside[same] += APART * (np.arange(same.sum()) - 0.5 * (same.sum() - 1))
-    return beside
+        apart[same] += APART * (np.arange(same.sum()) - 0.5 * (same.sum() - 1))
+    return apart
 
 
 def _upright(place: np.ndarray, low: np.ndarray, high: np.ndarray) -> dict[str, np.ndarray]:

@@ -43,7 +43,7 @@ class Spin:
     outer, inner, ball
         deviations of the combs at other frequencies by which each part's comb is above them.
     parent
-        the same of combs beside it or at its sidebands, where no ball has lines: of such as are
+        the same of combs next to it or at its sidebands, where no ball has lines: of such as are
         stronger, a ball's may be the foot or a sideband.
     shaft_sidebands, cage_sidebands
         the same of the sidebands of the ball's lines.
@@ -88,7 +88,9 @@ def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
     window = may_be(at, order[BALL] * shaft) & np.isfinite(own)
     column = int(np.where(window, own, -np.inf).argmax())
     places = at[column] + cage * shaft * np.arange(-2, 3)[:, None]
-    beside = (np.abs(at - places) <= shaft / combs.turns).any(axis=0) & ~window & np.isfinite(own)
+    neighbours = (
+        (np.abs(at - places) <= shaft / combs.turns).any(axis=0) & ~window & np.isfinite(own)
+    )
 
     def race(part: str) -> float:
         inside = np.abs(at / (order[part] * shaft) - 1.0) <= RACE_SLIP
@@ -102,23 +104,23 @@ def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
         outer=race(OUTER),
         inner=race(INNER),
         ball=float(own[column]) if window.any() else -math.inf,
-        parent=float(np.max(own[beside], initial=-np.inf)),
+        parent=float(np.max(own[neighbours], initial=-np.inf)),
         shaft_sidebands=sides(shaft),
         cage_sidebands=sides(cage * shaft),
     )
 
 
-def _deviations(combs: Combs, beside: Sequence[float]) -> NDArray[np.float64]:
+def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]:
     """The mean level at some distances [Hz] from harmonics of each frequency, in all bands (n,).
 
     In deviations of all frequencies from their median; NaN where lines of the shaft hide it.
     """
-    total = np.zeros((SPIN_HARMONICS * len(beside), len(combs.frequency)))
+    total = np.zeros((SPIN_HARMONICS * len(sidebands), len(combs.frequency)))
     for one in combs.envelopes:
         level = np.where(one.hidden, np.nan, one.cleared)
         total += np.vstack([
             lines_at(level, one.levels.step, combs.frequency, SPIN_HARMONICS, away)
-            for away in beside
+            for away in sidebands
         ])  # fmt: skip
     seen = np.isfinite(total)
     count = seen.sum(axis=0)

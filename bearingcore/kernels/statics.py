@@ -22,6 +22,7 @@ from bearingcore.kernels.structs import (
     MapAnswers,
     MapMemory,
     MapPaths,
+    MapWork,
     Path,
     Place,
 )
@@ -540,32 +541,27 @@ def first_guess(contacts, load, state):
         state[i] = reach * load.force[i] / max(size, 1e-300)
 
 
-def new_descent(angle):
-    """Empty work space of Newton's descent of contacts at angles (n,) [rad]."""
-    n_contacts = angle.size
-    c, s, d, slope, soft, firm = np.zeros((6, n_contacts))
-    p, trial, start, state, guess = np.zeros((5, 5))
+def new_descent(n_contacts):
+    """Empty work space of Newton's descent."""
+    soft, firm = np.zeros((2, n_contacts))
+    p, trial, start = np.zeros((3, 5))
     return Descent(
-        np.zeros((2, 5)),
-        np.zeros((2, 5, 5)),
-        np.zeros((5, 5)),
-        p,
-        trial,
-        start,
-        soft,
-        firm,
-        state,
-        guess,
-        Place(c, s, d),
-        slope,
-        np.cos(angle),
-        np.sin(angle),
+        np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5)), p, trial, start, soft, firm
     )
+
+
+def new_map_work(angle):
+    """Empty work space of a map of contacts at angles (n,) [rad] from the first ball."""
+    c, s, d, slope = np.zeros((4, angle.size))
+    state, guess = np.zeros((2, 5))
+    circle_c, circle_s = np.cos(angle), np.sin(angle)
+    descent = new_descent(angle.size)
+    return MapWork(descent, state, guess, Place(c, s, d), slope, circle_c, circle_s)
 
 
 def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
     """Static states of the rows (first, last) of a map: see `solve_maps`."""
-    work = new_descent(contacts.angle)
+    work = new_map_work(contacts.angle)
     return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
 
@@ -591,6 +587,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     greatest = answers.greatest
     status = answers.status
     residual = answers.residual
+    descent = work.descent
     place = work.place
     d = place.d
     state = work.state
@@ -628,7 +625,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             circle_c = work.circle_c
             place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
             now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
-                state, place, contacts, load, work
+                state, place, contacts, load, descent
             )
             solved += 1
             evaluations += calls
@@ -651,7 +648,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             term = 0
             for a in range(5):
                 for b in range(a, 5):
-                    stiffness[term, e, k] = math.nan if nowhere else work.H[now, b, a]
+                    stiffness[term, e, k] = math.nan if nowhere else descent.H[now, b, a]
                     term += 1
     return solved, evaluations
 

@@ -138,12 +138,6 @@ class Descent(NamedTuple):
         where the descent with softened contacts begins.
     soft, firm : (contacts,) [N/m^exponent]
         factors of softened contacts, and of those that carry more than rounding.
-    state, guess : (5,) [m]
-        the displacement that moves, and one to begin with.
-    place, slope [m/rad]
-        where the balls are, and how their drops change with the cage's turning.
-    circle_c, circle_s : (contacts,)
-        cosine and sine of the angle from the first ball.
     """
 
     g: Array
@@ -154,6 +148,24 @@ class Descent(NamedTuple):
     start: Array
     soft: Array
     firm: Array
+
+
+class MapWork(NamedTuple):
+    """Work space of a map.
+
+    Attributes
+    ----------
+    descent
+        apart, as each array costs time in every call that hands it on.
+    state, guess : (5,) [m]
+        the displacement that moves, and one to begin with.
+    place, slope [m/rad]
+        where the balls are, and how their drops change with the cage's turning.
+    circle_c, circle_s : (contacts,)
+        cosine and sine of the angle from the first ball.
+    """
+
+    descent: Descent
     state: Array
     guess: Array
     place: Place

@@ -47,7 +47,7 @@ from bearingcore.kernels.statics import (
     RESIDUAL_LIMIT,
     ROUNDING,
     least_pivot,
-    new_descent,
+    new_map_work,
     newton_direction,
 )
 from bearingcore.kernels.structs import Array, Contacts, Integers, Path
@@ -448,7 +448,7 @@ def ball_positions(cage_angles, start, balls, load):
         np.empty(n),
         np.zeros(n, dtype=np.int64),
     )
-    work = new_descent(balls.contacts.angle), new_places(n_balls)
+    work = new_map_work(balls.contacts.angle), new_places(n_balls)
     find_positions(cage_angles, start, balls, load, found, work)
     return found
 
@@ -469,17 +469,18 @@ class PositionAnswers(NamedTuple):
 @compiled
 def find_positions(cage_angles, start, balls, load, found, work):
     """Body of `ball_positions`, with work space."""
-    descent, places = work
+    turning, places = work
+    descent = turning.descent
     q = found.q
     status = found.status
     n_balls = places.c.size
     for k in range(cage_angles.size):
         cage = cage_angles[k]
-        circle_c = descent.circle_c
-        place_balls(cage, balls.contacts, circle_c, descent.circle_s, places.c, places.s)
+        circle_c = turning.circle_c
+        place_balls(cage, balls.contacts, circle_c, turning.circle_s, places.c, places.s)
         for race in range(2):
             path = balls.inner_path if race == INNER else balls.outer_path
-            lay_out_drops(cage, balls.contacts, path, places.drop[race], descent.slope)
+            lay_out_drops(cage, balls.contacts, path, places.drop[race], turning.slope)
         if k > 0 and status[k - 1] == CONVERGED:
             # what the balls' loads moved the ring by, and the balls, at the angle before
             for a in range(5):

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from bearing_explorer.messages import SceneChange, take
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
@@ -49,8 +50,8 @@ def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
 
 
 def changing(message: object) -> Callable[[Explorer], None]:
-    """The controls send a message."""
-    return lambda explorer: explorer.requests.change_scene(message)
+    """The controls send a message, which is checked where it arrives."""
+    return lambda explorer: take(explorer.requests.change_scene, SceneChange, message)
 
 
 def showing(tab: str) -> Callable[[Explorer], None]:

@@ -74,7 +74,10 @@ def main() -> int:
     if chosen.here:
         compile_here(chosen.calls)
         return 0
+    from tests.benchmarks.machine import pace  # older trees, compiled above, have none
+
     failed = 0
+    print(pace())
     for tree in chosen.tree or [ROOT]:
         print(tree, flush=True)
         failed |= measure(tree)

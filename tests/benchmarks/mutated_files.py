@@ -27,9 +27,11 @@ from typing import Any
 import h5py
 import numpy as np
 
+from tests.benchmarks.machine import pace
 from tests.browser.helpers import Server, free_port, serving
 from tests.fuzz.inputs import bytes_like, text_like
 from tests.fuzz.targets import csv_texts, matlab_files, unclear, wav_files
+from tests.helpers.loops import run as run_coroutine
 from tests.helpers.page_client import PageClient
 
 LONGEST_TURN = 0.25
@@ -173,7 +175,7 @@ def run(files: int, seed: int) -> tuple[Tally, list[dict[str, Any]], list[str], 
                 ]
                 await asyncio.gather(*work)
 
-            asyncio.run(everything())
+            run_coroutine(everything())  # browser tests keep a loop in the main thread
             time.sleep(1.5)  # the watch writes once a second
             left = [str(path.relative_to(folder)) for path in Path(folder).rglob("*")]
         turns: list[dict[str, Any]] = []
@@ -206,6 +208,7 @@ def main() -> int:
     median, most = np.quantile(tally.seconds, [0.5, 1.0])
     print(f"{chosen.files} files in {time.perf_counter() - began:.0f} s, seed {chosen.seed}")
     print(f"answered: {dict(tally.answers)}; after {median:.2f} s (median), {most:.2f} s (longest)")
+    print(pace())
     for turn in turns[:3]:
         print(f"  {1e3 * turn['worked']:>6.0f} ms of work  {turn['where'][:150]}")
     faults = faults_of(chosen.files, tally, turns, left)

@@ -424,6 +424,8 @@ class Results:
     @of_kind(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
+        if kind := self.scene.bearing.kind.mass_unknown:
+            raise ValueError(f"the model has no mass of {kind}")
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
         return motions.ball_mass(self.scene.replace(balls=MASSLESS), how)
 

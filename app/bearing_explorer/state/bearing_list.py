@@ -93,7 +93,9 @@ class BearingTable:
                 rank = 0
             mark = "yours" if own else ""
             ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
-        yield from (entry for rank, entry in ranked if rank == 0)
+        best = [entry for rank, entry in ranked if rank == 0]
+        # a designation may be the first word of a longer name
+        yield from sorted(best, key=lambda one: _rank(text.lower(), one["label"], "") != 0)
         if by_number is not None:
             yield _estimated(by_number)
         elif len(text) > 1:

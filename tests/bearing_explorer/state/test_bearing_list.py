@@ -95,6 +95,8 @@ def found(text: str) -> list[tuple[str, str]]:
         ("6208", ("6208", "estimated")),
         ("6208-2RS/C3", ("6208-2RS/C3", "estimated")),
         ("7208 bep", ("7208, angular contact, 15°", "")),
+        ("7208 tandem", ("7208 pair, tandem", "")),
+        ("7208 pair", ("7208 pair, back to back (O)", "")),
         ("NU 208", ("NU 208, cylindrical rollers", "")),
         ("nu", ("NU 208, cylindrical rollers", "")),
         ("2206", ("2206", "estimated")),

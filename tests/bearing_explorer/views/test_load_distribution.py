@@ -164,7 +164,9 @@ def test_captions_of_a_roller_bearing_say_rollers() -> None:
     for name, element in (("nu208", "Roller"), ("fan-rig", "Ball")):
         results = Results(presets[name])
         view.say(results, view.sentence(results))
-        assert view._caption.line == f"{element} load against angular position."
+        line = view._caption.line
+        assert line.startswith(f"{element} load against angular position. Blue: ")
+        assert line.endswith(f"Dots: {element.lower()}s now.")
     rollers = with_elements_of(
         presets["nu208"].bearing, "Balls at the ball-pass frequency of a ball"
     )

@@ -88,10 +88,11 @@ def test_the_page_draws_anew_with_each_part(
         monkeypatch.setattr(explorer, "draw", lambda: (draw(), drawn.append(len(drawn))))
         explorer.start()
         async with asyncio.timeout(60.0):
+            seen = 0
             while compilation._left or explorer.status.progress:
-                before = len(drawn)
-                while len(drawn) == before and compilation._left:
+                while len(drawn) == seen and compilation._left:
                     await asyncio.sleep(0.01)
+                seen = len(drawn)
                 compilation._left = compilation._left[1:]
                 await asyncio.sleep(0.0)
         explorer.stop()

@@ -4,7 +4,8 @@
 const SEARCH_PAUSE = 150  // ms without a key until a text is sent
 
 function bearing_search(model, panel) {
-  const list = element("ul", { id: "found-bearings", role: "listbox", "aria-label": "Bearings", hidden: "" })
+  // what scrolls is a stop of Tab without a tabindex, and this list closes as the field is left
+  const list = element("ul", { id: "found-bearings", role: "listbox", "aria-label": "Bearings", tabindex: "-1", hidden: "" })
   const input = element("input", { type: "search", id: "choice-preset", role: "combobox", maxlength: "60",
     autocomplete: "off", spellcheck: "false", "aria-autocomplete": "list", "aria-expanded": "false",
     "aria-controls": "found-bearings", placeholder: "6208-2RS/C3, NU 208, 0.235 in \u2026" })

@@ -242,7 +242,7 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
                 }"""
             )
         )
-    assert len({name for name, _, _ in seen}) > 25, seen
+    assert len({name for name, _, _ in seen}) > 25, str(seen)
     assert [name for name, ring, _ in seen if not ring] == []
     assert [name for name, _, there in seen if not there] == []
     # a slider shows it on its thumb
@@ -351,7 +351,7 @@ def test_menus_are_gone_through_by_keys(watch: tuple[Page, Watch], explorer: Ser
     details = page.locator("footer .status").get_by_role("button", name="Details")
     listed = status(page).locator(".list")
     expect(listed).to_be_hidden()
-    expect(page.locator("footer .status [role=status]")).to_have_text("Converged")
+    expect(page.locator("footer .status strong[role=status]")).to_have_text("Converged")
     details.press("Enter")
     expect(listed).to_contain_text("residual at most")
     page.keyboard.press("Escape")

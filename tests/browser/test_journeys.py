@@ -538,7 +538,9 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
     first = title.inner_text()
     veil = visitor.main.locator(".view.veiled")
     expect(veil).to_have_count(2)  # what it asks to watch has the answer
-    expect(visitor.main.get_by_text(re.compile(r"\b39 N"))).to_have_count(0)
+    answer = visitor.main.get_by_text(re.compile(r"\b39 N"))
+    expect(answer).to_be_attached()  # computed, and behind the veil
+    expect(answer).to_be_hidden()
     expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
     lesson.get_by_role("button", name="500 N").click()
     expect(visitor.box("Force, up")).to_have_value("−500")

@@ -55,10 +55,9 @@ RANGE = """view => {
 
 
 NAMES_OF_BANDS = """() => {
-  const [plot] = [...Bokeh.index.query(({ model }) => model.type === "Figure")]
-    .map(({ model }) => model).filter(({ extra_x_ranges }) => extra_x_ranges.has?.("shares")
-      ?? extra_x_ranges.shares)
-  const [{ glyph, data_source }] = plot.renderers.filter(({ glyph }) => glyph?.type === "Text")
+  const glyphs = [...Bokeh.index.query(({ model }) => model.type === "GlyphRenderer")]
+  const { glyph, data_source } = glyphs.map(({ model }) => model).find(({ glyph, data_source }) =>
+    glyph.type === "Text" && data_source.name === "modes_bands")
   return [...glyph.text.expr.v_compute(data_source)]
 }"""
 

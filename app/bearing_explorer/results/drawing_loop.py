@@ -6,6 +6,7 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar
+from weakref import WeakKeyDictionary
 
 from bearing_explorer.results.executors import in_thread
 
@@ -13,6 +14,9 @@ log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
 """[s] without newer inputs after the last picture after which a slider counts as at rest."""
+
+_ONE_BY_ONE = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+"""Fine pictures of all sessions wait for one another: their threads hold up moving sliders."""
 
 Inputs = TypeVar("Inputs")
 Fine = TypeVar("Fine")
@@ -122,7 +126,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     async def _draw_finely(self, inputs: Inputs) -> None:
         """Unless newer inputs come first: they do not wait for it."""
-        fine = asyncio.ensure_future(in_thread(self._refine, inputs, lambda: self.waiting))
+        fine = asyncio.ensure_future(self._fine(inputs))
         newer = asyncio.ensure_future(self._submitted.wait())
         try:
             await asyncio.wait({fine, newer}, return_when=asyncio.FIRST_COMPLETED)
@@ -135,6 +139,13 @@ class DrawingLoop(Generic[Inputs, Fine]):
             await self._report(error)
         finally:
             newer.cancel()
+
+    async def _fine(self, inputs: Inputs) -> Fine | None:
+        """The fine picture, when those of other sessions are done; None where it is not wanted."""
+        async with _ONE_BY_ONE.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
+            if self._newest or self._stopped:
+                return None
+            return await in_thread(self._refine, inputs, lambda: self.waiting)
 
     async def _report(self, error: Exception) -> None:
         log.error("drawing a scene failed", exc_info=error)

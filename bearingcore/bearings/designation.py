@@ -256,6 +256,7 @@ def inside_of(basic: str) -> Inside:
     )
 
 
+@cache
 def _rows(name: str) -> list[dict[str, str]]:
     """Lines of a table of this package by their headings."""
     text = resources.files("bearingcore.bearings").joinpath(name).read_text("utf-8")

@@ -22,32 +22,44 @@ def fields(
     radial_clearance: float,
 ) -> dict[str, Any]:
     """All fields of a `Bearing` of cylindrical rollers; see `Bearing.cylindrical`."""
-    length = checks.number("roller_length", roller_length, above=0.0, unit="m")
-    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
-    pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+    sizes = checked_sizes(roller_diameter, roller_length, pitch_diameter)
     return {
         "kind": ROLLER,
         "n_balls": n_rollers,
-        "ball_diameter": diameter,
-        "pitch_diameter": pitch,
         "contact_angle": 0.0,
         "radial_clearance": radial_clearance,
-        "roller_length": length,
-        **_derived(diameter, length, pitch)._asdict(),
+        **sizes,
+        **_derived(**sizes)._asdict(),
     }
 
 
-def _derived(diameter: float, length: float, pitch: float) -> Derived:
+def checked_sizes(
+    roller_diameter: float, roller_length: float, pitch_diameter: float
+) -> dict[str, float]:
+    """Sizes of rollers [m] by the names that a `Bearing` has for them.
+
+    Raises ValueError where one is out of range.
+    """
+    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+    return {
+        "ball_diameter": diameter,
+        "roller_length": checks.number("roller_length", roller_length, above=0.0, unit="m"),
+        "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m"),
+    }
+
+
+def _derived(ball_diameter: float, roller_length: float, pitch_diameter: float) -> Derived:
     return Derived(
-        groove_center_radius=0.5 * pitch,
-        groove_center_distance=diameter,  # of no account where contacts never swivel
-        load_deflection_factor=palmgren_factor(length),
-        outer_raceway_radius=0.5 * (pitch + diameter),
-        inner_raceway_radius=0.5 * (pitch - diameter),
+        groove_center_radius=0.5 * pitch_diameter,
+        groove_center_distance=ball_diameter,  # of no account where contacts never swivel
+        load_deflection_factor=palmgren_factor(roller_length),
+        outer_raceway_radius=0.5 * (pitch_diameter + ball_diameter),
+        inner_raceway_radius=0.5 * (pitch_diameter - ball_diameter),
     )
 
 
-def _length(bearing: Bearing) -> float:
+def length_of(bearing: Bearing) -> float:
+    """Length of the rollers [m]. ValueError where there is none."""
     return checks.number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
 
 
@@ -93,7 +105,7 @@ class Roller(Kind):
         return bearing.roller_length is not None and bearing.contact_angle == 0.0
 
     def check(self, bearing: Bearing) -> None:
-        length = _length(bearing)
+        length = length_of(bearing)
         if bearing.contact_angle != 0.0 or bearing.rows or bearing.is_drawn:
             raise checks.refuse(
                 "roller_length",
@@ -118,13 +130,15 @@ class Roller(Kind):
         return ("line_load_deflection_factor",)
 
     def derived(self, bearing: Bearing) -> Derived:
-        return _derived(bearing.ball_diameter, _length(bearing), bearing.pitch_diameter)
+        return _derived(bearing.ball_diameter, length_of(bearing), bearing.pitch_diameter)
 
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
-        return roller_contact(race, bearing.ball_diameter, bearing.pitch_diameter, _length(bearing))
+        return roller_contact(
+            race, bearing.ball_diameter, bearing.pitch_diameter, length_of(bearing)
+        )
 
     def volume(self, bearing: Bearing) -> float:
-        return math.pi / 4.0 * bearing.ball_diameter**2 * _length(bearing)
+        return math.pi / 4.0 * bearing.ball_diameter**2 * length_of(bearing)
 
 
 ROLLER = Roller()

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
 from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
-from bearingcore.bearings.roller import Roller
+from bearingcore.bearings.roller import Roller, checked_sizes, length_of
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
 from bearingcore.common import checks
 
@@ -50,29 +50,27 @@ def fields(
     radial_clearance: float,
 ) -> dict[str, Any]:
     """All fields of a `Bearing` of one row of tapered rollers; see `Bearing.tapered`."""
-    length = checks.number("roller_length", roller_length, above=0.0, unit="m")
-    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
-    pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+    sizes = checked_sizes(roller_diameter, roller_length, pitch_diameter)
     return {
         "kind": TAPERED,
         "n_balls": n_rollers,
-        "ball_diameter": diameter,
-        "pitch_diameter": pitch,
         "contact_angle": contact_angle,
         "radial_clearance": radial_clearance,
-        "roller_length": length,
-        **_derived(diameter, length, pitch, contact_angle)._asdict(),
+        **sizes,
+        **_derived(**sizes, contact_angle=contact_angle)._asdict(),
     }
 
 
-def _derived(diameter: float, length: float, pitch: float, angle: float) -> Derived:
-    across = diameter * math.cos(angle)
+def _derived(
+    ball_diameter: float, roller_length: float, pitch_diameter: float, contact_angle: float
+) -> Derived:
+    across = ball_diameter * math.cos(contact_angle)
     return Derived(
-        groove_center_radius=0.5 * pitch,
+        groove_center_radius=0.5 * pitch_diameter,
         groove_center_distance=STRAIGHT,
-        load_deflection_factor=palmgren_factor(length),
-        outer_raceway_radius=0.5 * (pitch + across),
-        inner_raceway_radius=0.5 * (pitch - across),
+        load_deflection_factor=palmgren_factor(roller_length),
+        outer_raceway_radius=0.5 * (pitch_diameter + across),
+        inner_raceway_radius=0.5 * (pitch_diameter - across),
     )
 
 
@@ -120,7 +118,7 @@ class Tapered(Roller):
         return bearing.roller_length is not None and bearing.contact_angle != 0.0
 
     def check(self, bearing: Bearing) -> None:
-        checks.number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
+        length_of(bearing)
         checks.number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
         if bearing.is_drawn:
             raise checks.refuse(
@@ -165,15 +163,16 @@ class Tapered(Roller):
         return super().replaced(bearing, {"kind": self} | changes)
 
     def derived(self, bearing: Bearing) -> Derived:
-        length: float = bearing.roller_length  # type: ignore[assignment]  # `check` refuses None
         return _derived(
-            bearing.ball_diameter, length, bearing.pitch_diameter, bearing.contact_angle
+            bearing.ball_diameter,
+            length_of(bearing),
+            bearing.pitch_diameter,
+            bearing.contact_angle,
         )
 
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
-        length: float = bearing.roller_length  # type: ignore[assignment]  # `check` refuses None
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
-        return roller_contact(race, bearing.ball_diameter, across, length)
+        return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
 
 
 TAPERED = Tapered()

@@ -159,14 +159,16 @@ class _Models:
             return failed(model, "", math.nan, str(refused))
 
     def _marched(self, model: str, scene: Scene) -> Point:
-        motion, seconds, runs = least_time(
-            lambda: simulate(scene, self.duration, self.sample_rate).outer_acceleration
+        (found, acceleration), seconds, runs = least_time(
+            lambda: (
+                motion := simulate(scene, self.duration, self.sample_rate),
+                motion.outer_acceleration,
+            )
         )
-        found = simulate(scene, self.duration, self.sample_rate)
         words = f"{found.step_rate:.0f} steps/s"
         if not found.completed:
             return failed(model, words, found.step_rate, found.reason, seconds)
-        errors = self._errors(AGAINST[model], motion[:, :2], found.inner_displacement[:, :2])
+        errors = self._errors(AGAINST[model], acceleration[:, :2], found.inner_displacement[:, :2])
         return Point(
             model, words, found.step_rate, errors, seconds, runs, found.right_hand_side_calls,
             settings={"step_rate": found.step_rate},

@@ -171,6 +171,54 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
     return Found(precise, np.isfinite(q).all(axis=1) & (residual <= 1e-15), steps * len(q))
 
 
+class _OneByOne:
+    """Displacements found angle by angle, in units of the guess's length; counts evaluations."""
+
+    def __init__(self, problem: StaticProblem) -> None:
+        self.problem = problem
+        self.active, self.load = problem.active, problem.load or 1.0
+        self.length = float(np.linalg.norm(problem.guess)) or 1e-6
+        self.guess = problem.guess[self.active] / self.length
+        self.q = np.zeros((len(problem.angles), 5))
+        self.solved = np.zeros(len(self.q), dtype=bool)
+        self.evaluations = 0
+
+    def unbalanced(self, u: Array, k: int) -> Array:
+        """Forces that are not balanced, over the load."""
+        return self._unbalanced(self._at(u, k))
+
+    def jacobian(self, u: Array, k: int) -> Array:
+        """Slopes of `unbalanced`."""
+        stiffness = self._at(u, k).stiffness[0][np.ix_(self.active, self.active)]
+        slopes: Array = stiffness * (self.length / self.load)
+        return slopes
+
+    def energy(self, u: Array, k: int) -> tuple[float, Array]:
+        """Energy with the load's, over load times length, and its slopes."""
+        found = self._at(u, k)
+        work = float(u @ self.problem.force[self.active]) * self.length
+        energy = (float(found.energy[0]) - work) / (self.load * self.length)
+        return energy, self._unbalanced(found)
+
+    def take(self, k: int, u: Array, solved: bool) -> None:
+        """The answer at an angle."""
+        self.q[k, self.active], self.solved[k] = u * self.length, solved
+
+    def found(self) -> Found:
+        """All answers."""
+        return Found(self.q, self.solved, self.evaluations)
+
+    def _at(self, u: Array, k: int) -> Contacts:
+        self.evaluations += 1
+        full = np.zeros((1, 5))
+        full[0, self.active] = u * self.length
+        return contacts(self.problem, full, slice(k, k + 1))
+
+    def _unbalanced(self, found: Contacts) -> Array:
+        forces: Array = (found.force[0] - self.problem.force)[self.active] / self.load
+        return forces
+
+
 def _by_scipy(
     problem: StaticProblem,
     tolerance: float,
@@ -184,80 +232,38 @@ def _by_scipy(
     """
     from scipy.optimize import least_squares, root  # imported late: slow to import
 
-    active, load = problem.active, problem.load or 1.0
-    length = float(np.linalg.norm(problem.guess)) or 1e-6
-    q = np.zeros((len(problem.angles), 5))
-    solved = np.zeros(len(q), dtype=bool)
-    evaluations = 0
-
-    def at(u: Array, k: int) -> Contacts:
-        nonlocal evaluations
-        evaluations += 1
-        full = np.zeros((1, 5))
-        full[0, active] = u * length
-        return contacts(problem, full, slice(k, k + 1))
-
-    def unbalanced(u: Array, k: int) -> Array:
-        forces: Array = (at(u, k).force[0] - problem.force)[active] / load
-        return forces
-
-    def jacobian(u: Array, k: int) -> Array:
-        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
-        return slopes
-
-    guess = problem.guess[active] / length
-    for k in range(len(q)):
-        start = q[k - 1, active] / length if warm and k > 0 and solved[k - 1] else guess
-        start = start if starts is None else starts[k, active] / length
+    one = _OneByOne(problem)
+    for k in range(len(problem.angles)):
+        before = warm and k > 0 and one.solved[k - 1]
+        start = one.q[k - 1, one.active] / one.length if before else one.guess
+        start = start if starts is None else starts[k, one.active] / one.length
         if method == "least_squares":
             tight = max(tolerance, 2.3e-16)
             fit = least_squares(
-                unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
-            )
-            u, solved[k] = fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8)
+                one.unbalanced, start, jac=one.jacobian, args=(k,), ftol=tight, xtol=tight,
+                gtol=tight,
+            )  # fmt: skip
+            one.take(k, fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8))
         else:
             answer = root(  # type: ignore[call-overload]
-                unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
+                one.unbalanced, start, args=(k,), jac=one.jacobian, method=method, tol=tolerance
             )
-            u, solved[k] = answer.x, answer.success
-        q[k, active] = u * length
-    return Found(q, solved, evaluations)
+            one.take(k, answer.x, answer.success)
+    return one.found()
 
 
 def _by_minimize(problem: StaticProblem, tolerance: float) -> Found:
     """`scipy.optimize.minimize` (trust-exact) on the energy, angle by angle, from the guess."""
     from scipy.optimize import minimize  # imported late: slow to import
 
-    active, load = problem.active, problem.load or 1.0
-    length = float(np.linalg.norm(problem.guess)) or 1e-6
-    q = np.zeros((len(problem.angles), 5))
-    solved = np.zeros(len(q), dtype=bool)
-    evaluations = 0
-
-    def at(u: Array, k: int) -> Contacts:
-        nonlocal evaluations
-        evaluations += 1
-        full = np.zeros((1, 5))
-        full[0, active] = u * length
-        return contacts(problem, full, slice(k, k + 1))
-
-    def energy(u: Array, k: int) -> tuple[float, Array]:
-        found = at(u, k)
-        work = float(u @ problem.force[active]) * length
-        unbalanced: Array = (found.force[0] - problem.force)[active] / load
-        return (float(found.energy[0]) - work) / (load * length), unbalanced
-
-    def curvature(u: Array, k: int) -> Array:
-        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
-        return slopes
-
-    for k in range(len(q)):
+    one = _OneByOne(problem)
+    for k in range(len(problem.angles)):
         answer = minimize(
-            energy, problem.guess[active] / length, args=(k,), jac=True, hess=curvature,
+            one.energy, one.guess, args=(k,), jac=True, hess=one.jacobian,
             method="trust-exact", options={"gtol": tolerance},
         )  # fmt: skip
-        q[k, active], solved[k] = answer.x * length, answer.success
-    return Found(q, solved, evaluations)
+        one.take(k, answer.x, answer.success)
+    return one.found()
 
 
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Found:

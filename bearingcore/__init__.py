@@ -15,6 +15,7 @@ from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.dynamics.ross_element import to_ross
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
@@ -96,5 +97,6 @@ __all__ = [
     "spectrum",
     "static_state",
     "stiffness_maps",
+    "to_ross",
     "warm",
 ]

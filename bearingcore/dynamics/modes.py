@@ -351,7 +351,7 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
         ],
         axis=-1,
     )
-    e *= (state.ball_load > 0.0)[..., None]
+    e *= state.carries[..., None]
     return np.swapaxes(e, 1, 2) @ e
 
 

@@ -99,6 +99,11 @@ class Equilibrium:
         """(n,) True where there is one equilibrium and it was found."""
         return self.status == StaticStatus.CONVERGED
 
+    @property
+    def carries(self) -> NDArray[np.bool_]:
+        """(n, N_b) True for balls that carry load from ring to ring."""
+        return self.ball_load > 0.0
+
     @cached_property
     def ball_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""

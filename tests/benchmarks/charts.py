@@ -98,11 +98,16 @@ def document(text: str) -> str:
     """The document with the tables of the files in it."""
     for preset in IN_DOCUMENT:
         found = measurements_from((FILES / f"{preset}.json").read_text(encoding="utf-8"))
-        begin, end = BEGIN.format(preset), END.format(preset)
-        before, _, rest = text.partition(begin)
-        _, _, after = rest.partition(end)
-        text = f"{before}{begin}\n\n{tables(found)}\n\n{end}{after}"
+        text = put(text, preset, tables(found))
     return text
+
+
+def put(text: str, name: str, tables: str) -> str:
+    """A document with its tables of that name replaced."""
+    begin, end = BEGIN.format(name), END.format(name)
+    before, _, rest = text.partition(begin)
+    _, _, after = rest.partition(end)
+    return f"{before}{begin}\n\n{tables}\n\n{end}{after}"
 
 
 def main() -> None:

@@ -45,6 +45,7 @@ from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.views.overview.stiffness import OverviewStiffness
 from bearing_explorer.views.sizing import DefectSize
+from bearing_explorer.views.slow_passage import SlowPassage
 from bearing_explorer.views.speed_run import SpeedRunSpectra
 from bearing_explorer.views.stability_map import OrbitStability
 from bearing_explorer.views.stiffness import Stiffness
@@ -65,7 +66,7 @@ SECTIONS = (
     Section("maps", "Maps", (StiffnessMaps,)),
     Section("explore", "Explore", (ExplorePlane,)),
     Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra)),
+    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra, SlowPassage)),
     Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
     Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
     Section("speed-run", "Speed run", (SpeedRunSpectra,)),

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from bearingcore import Motion, Scene, equilibrium
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.passes import Crossing, crossings, passing_rate
+from bearingcore.scene.defect import RACES
+from bearingcore.statics.passes import Crossing, crossings, drops_at, passing_rate
 
 STATIC_POINTS = 241
 
@@ -45,6 +46,9 @@ class Excerpt:
         what they would carry at rest at each of these instants.
     greatest_static_load : float [N]
         of all balls.
+    static_cage_angle : (p,) [rad], moving_load : (p, N_b) [N], drop : {race: (p, N_b)} [m]
+        cage, what each ball carries as it moves, and how far its centre is in a defect, at each of
+        the same instants.
     broke_off
         why the motion ended early; empty if it did not.
     """
@@ -59,6 +63,9 @@ class Excerpt:
     static_load: NDArray[np.float64]
     greatest_static_load: float
     broke_off: str
+    static_cage_angle: NDArray[np.float64]
+    moving_load: NDArray[np.float64]
+    drop: dict[str, NDArray[np.float64]]
 
     def table(self) -> ResultTable:
         """Rows in time: acceleration and loads as they move; and the loads at rest."""
@@ -106,7 +113,9 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
         for found in crossings(scene, float(cage[cut][0]), float(cage[cut][-1]))
     )
     static_time = np.linspace(time[cut][0], time[cut][-1], STATIC_POINTS)
-    static = equilibrium(scene, np.interp(static_time, time, cage)).ball_load
+    static_cage = np.interp(static_time, time, cage)
+    static = equilibrium(scene, static_cage).ball_load
+    load = motion.ball_loads(first, last)
     balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
     if not balls.size:
         balls = np.sort(np.argsort(np.nan_to_num(static).max(axis=0), kind="stable")[-2:])
@@ -119,11 +128,14 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
         },
         events=events,
         balls=balls,
-        ball_load=motion.ball_loads(first, last)[:, balls],
+        ball_load=load[:, balls],
         static_time=static_time - zero,
         greatest_static_load=float(np.max(np.nan_to_num(static))),
         broke_off="" if motion.completed else why_ended(motion),
         static_load=static[:, balls],
+        static_cage_angle=static_cage,
+        moving_load=load[np.searchsorted(time[cut], static_time).clip(max=last - first - 1)],
+        drop={race: drops_at(scene, static_cage, race) for race in RACES},
     )
 
 

@@ -227,22 +227,11 @@ class BearingDrawing(View):
         several: list[Sources] = []
         for row in range(len(rows)):
             own = scene.bearing.balls_of_rows[row]
-            load = now.ball_load[0, own]
             drawn = Shapes(scene, results.cage_angle, row)
             drop = {race: drops[own] for race, drops in results.drop.items()}
-            balls = drawn.balls(drop, load)
-            shapes = {
-                "rings": drawn.rings(),
-                "defect": drawn.defects(),
-                "marks": drawn.angle_marks(),
-                "balls": balls,
-                "roller_ends": roller_ends(scene, balls),
-                "bars": drawn.bars(load, top),
-                "arrow": drawn.load_arrow(),
-                "healthy_loads": drawn.load_rim(*healthy[row], top)
-                if row < len(healthy)  # a pinned scene may have fewer rows
-                else polar(),
-            }
+            shapes = drawn.all(now.ball_load[0, own], drop, top)
+            if row < len(healthy):  # a pinned scene may have fewer rows
+                shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
             several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(
@@ -401,6 +390,22 @@ class Shapes:
             round_down(DRAWN_DEPTH * self.ball * self.unit / deepest) if deepest > 0.0 else 0.0
         )
 
+    def all(
+        self, load: NDArray[np.float64], drop: dict[str, NDArray[np.float64]], top: float
+    ) -> Sources:
+        """The columns of all shapes by name, for loads [N] and drops [m] of the row's balls."""
+        balls = self.balls(drop, load)
+        return {
+            "rings": self.rings(),
+            "defect": self.defects(),
+            "marks": self.angle_marks(),
+            "balls": balls,
+            "roller_ends": roller_ends(self.scene, balls),
+            "bars": self.bars(load, top),
+            "arrow": self.load_arrow(),
+            "healthy_loads": polar(),
+        }
+
     def _drawn(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
         return self.depth_scale * depth / self.unit
 
@@ -466,12 +471,15 @@ class Shapes:
         bearing = self.scene.bearing
         return ball_angles(bearing, np.array([self.cage_angle]))[0, bearing.balls_of_rows[self.row]]
 
+    def ball_radii(self, drop: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Drawn distances of balls from the middle of the shaft, for drops [m] of any shape."""
+        return self.pitch + self._drawn(drop["outer"]) - self._drawn(drop["inner"])
+
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
     ) -> dict[str, np.ndarray]:
         """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
-        angle = self.ball_angles()
-        radius = self.pitch + self._drawn(drop["outer"]) - self._drawn(drop["inner"])
+        angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
             "x": radius * np.cos(angle),
             "y": radius * np.sin(angle),

@@ -21,6 +21,8 @@ from bearing_explorer.views.passage_view import (
     SLOTS,
     PassageView,
     ball_names,
+    event_lines,
+    event_names,
     named,
     places_of_labels,
     traces,
@@ -58,8 +60,8 @@ class MassInTime(PassageView):
             quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
             own = curve("mass_motion", "time", dof, style.color_along(dof), 1.4)
             other = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
-            figures.append((quantity, 210, [self.events(), other, own]))
-        figures[0][2].append(self.names_of_events(_EVENT_WORDS, ("kind",), style.NARROW))
+            figures.append((quantity, 210, [event_lines("mass"), other, own]))
+        figures[0][2].append(event_names("mass", _EVENT_WORDS, ("kind",), style.NARROW))
         return figures
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
@@ -70,7 +72,7 @@ class MassInTime(PassageView):
             *(curve("mass_loads", "time", f"inner{i}", color, 1.3, (5, 3)) for i, color in balls),
             *(curve("mass_loads", "time", f"outer{i}", color, 1.8) for i, color in balls),
             self.names_of_balls(),
-            self.events(),
+            event_lines("mass"),
         ]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

@@ -81,23 +81,6 @@ class PassageView(View):
             f"{self.prefix}_load": self._load.fit(1.2 * np.asarray(loads)),
         }
 
-    def events(self) -> Layer:
-        """The upright lines at events."""
-        return uprights(f"{self.prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
-
-    def names_of_events(self, code: str, reads: tuple[str, ...], below: float) -> Layer:
-        """Their names by some code, shorter below a width [px] of the frame."""
-        return Words(
-            f"{self.prefix}_events",
-            "label_from",
-            "label_at",
-            code,
-            reads=(*NAMED, *reads),
-            y_share=True,
-            fitting=below,
-            look={"x_offset": 4, **ON_PAPER},
-        )
-
     def names_of_balls(self) -> Layer:
         """The names of the balls in their colours."""
         return Words(
@@ -111,6 +94,25 @@ class PassageView(View):
             fitting=style.NARROW,
             look={"text_color": by_number("slot", style.BALL_COLORS)},
         )
+
+
+def event_lines(prefix: str) -> Layer:
+    """The upright lines at events, of the source of that prefix."""
+    return uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
+
+
+def event_names(prefix: str, code: str, reads: tuple[str, ...], below: float) -> Layer:
+    """Their names by some code, shorter below a width [px] of the frame."""
+    return Words(
+        f"{prefix}_events",
+        "label_from",
+        "label_at",
+        code,
+        reads=(*NAMED, *reads),
+        y_share=True,
+        fitting=below,
+        look={"x_offset": 4, **ON_PAPER},
+    )
 
 
 def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:

@@ -18,6 +18,8 @@ from bearing_explorer.views.passage_view import (
     SLOTS,
     PassageView,
     ball_names,
+    event_lines,
+    event_names,
     named,
     places_of_labels,
     traces,
@@ -27,7 +29,7 @@ from bearingcore import Bearing
 ACCELERATION = style.AxisQuantity("Housing acceleration", "a", "m/s²", prefixed=True)
 NARROW = 270  # [px] of the frame: with larger type there is room for less
 
-_EVENT_WORDS = f"""
+EVENT_WORDS = f"""
 const does = row.enters ? 'enters' : 'leaves'
 return narrow ? `${{row.ball}} ${{does}}` : `{BALL} ${{does}}`
 """
@@ -50,8 +52,8 @@ class VibrationInTime(PassageView):
             curve("vibration_motion", "time", dof, style.color_along(dof), 1.4)
             for dof in reversed(SHOWN)
         ]
-        names = self.names_of_events(_EVENT_WORDS, ("enters",), NARROW)
-        return [(ACCELERATION, 270, [self.events(), *lines, names])]
+        names = event_names("vibration", EVENT_WORDS, ("enters",), NARROW)
+        return [(ACCELERATION, 270, [event_lines("vibration"), *lines, names])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
         lines = [
@@ -59,7 +61,7 @@ class VibrationInTime(PassageView):
             for i, color in enumerate(style.BALL_COLORS)
         ]
         static = curve("vibration_static_loads", "time", "load", style.INK, 1.0)
-        return 230, [self.events(), static, *lines, self.names_of_balls()]
+        return 230, [event_lines("vibration"), static, *lines, self.names_of_balls()]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing

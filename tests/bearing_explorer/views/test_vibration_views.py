@@ -11,6 +11,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.frequency_lines import FrequencyLines, of_rows
 from bearing_explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
+from bearing_explorer.views.slow_passage import SlowPassage
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra, pass_frequencies, passed
 from bearing_explorer.views.vibration_time import VibrationInTime, event_rows
 from hypothesis import given
@@ -51,6 +52,30 @@ def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Re
     lowest = low + (high - low) * np.nanmin(rows)
     assert lowest > top
     assert ranges["vibration_load"][1] >= results.excerpt.ball_load.max()
+
+
+def test_slow_motion_begins_where_a_ball_enters_and_holds_the_simulated_loads() -> None:
+    scene = FAN_RIG.replace(defect=Defect(race="inner", extent=0.2, depth=50e-6, center=-1.4))
+    results = Results(scene)
+    sources, _ = SlowPassage(PackedSource()).data(results)
+    shown = results.excerpt
+    entry = next(event for event in shown.events if event.enters)
+    n = scene.bearing.n_balls
+    frames, loads = sources["slow_frames"], sources["slow_path"]["load"].reshape(-1, n)
+    at = int(np.argmin(np.abs(frames["time"])))
+    np.testing.assert_allclose(sources["slow_cursor"]["now"], entry.time, atol=1e-4)
+    samples = np.searchsorted(shown.time, frames["time"]).clip(max=shown.time.size - 1)
+    of_entering = shown.ball_load[samples, list(shown.balls).index(entry.ball)]
+    np.testing.assert_array_equal(loads[:, entry.ball], of_entering)
+    np.testing.assert_array_equal(sources["slow_balls"]["load"], loads[at])
+    # a ball that enters is at the edge of the defect, which turns with the shaft
+    angle = sources["slow_start"]["angle"][entry.ball]
+    turns = sources["slow_base_defect"]["turns"]
+    edges = np.arctan2(sources["slow_base_defect"]["y"], sources["slow_base_defect"]["x"])
+    assert np.abs(np.angle(np.exp(1j * (edges[turns == 1.0] - angle)))).min() < 0.01
+    ratio = frames["shaft"][-1] / frames["turned"][-1]
+    assert ratio == pytest.approx(1.0 / scene.bearing.cage_ratio)
+    assert sources["slow_base_rings"]["turns"].min() == 0.0
 
 
 def test_a_packet_of_the_time_view_is_small(results: Results) -> None:

@@ -74,14 +74,16 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
 
 
 class LinksChange(SceneChange, omit_defaults=True):
-    """A message of the bar above the controls: steps, scenes that are kept or pinned, files.
+    """A message of the bar above the controls: steps, scenes that are kept or compared, files.
 
     Attributes
     ----------
-    open, file, pin
-        a scene that is to be opened, from the browser or from a file, or drawn in grey.
-    pin_here
-        the name under which the current scene is drawn in grey.
+    open, file, compare
+        a scene that is to be opened, from the browser or from a file, or drawn too.
+    compare_here
+        the name under which the current scene is drawn too; empty for the usual one.
+    number
+        which of the compared scenes to `remove`, or to `rename`.
     keep
         the name under which the browser keeps the current scene.
     want
@@ -94,9 +96,11 @@ class LinksChange(SceneChange, omit_defaults=True):
     redo: bool = False
     open: TextFile | None = None
     file: TextFile | None = None
-    pin: TextFile | None = None
-    pin_here: str | None = None
-    unpin: bool = False
+    compare: TextFile | None = None
+    compare_here: str | None = None
+    number: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    remove: bool = False
+    rename: str | None = None
     keep: str | None = None
     want: str | None = None
     report: str | None = None

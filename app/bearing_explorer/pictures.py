@@ -12,7 +12,7 @@ from bearing_explorer.results import compiling
 from bearing_explorer.results.cache import Overtaken
 from bearing_explorer.results.endurance import LifeInputs
 from bearing_explorer.results.results import Results
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.sentences import words_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -41,8 +41,8 @@ class Inputs:
         how finely it is computed.
     rested
         whether the slider is at rest, and it is drawn as finely as can be.
-    pinned
-        a scene that is drawn in grey, instead of the one without the defect.
+    compared
+        scenes that are drawn too, each under a name.
     before
         the scene before the last change.
     life_inputs
@@ -55,7 +55,7 @@ class Inputs:
     focus: int = 0
     settings: Settings = field(default_factory=Settings)
     rested: bool = False
-    pinned: Reference | None = None
+    compared: tuple[Compared, ...] = ()
     before: Scene | None = None
     life_inputs: LifeInputs = field(default_factory=LifeInputs)
 
@@ -67,7 +67,7 @@ class Inputs:
             self.settings,
             self.focus,
             moving=not self.rested,
-            pinned=self.pinned,
+            compared=self.compared,
             before=self.before,
             life_inputs=self.life_inputs,
             give_up=give_up,

@@ -25,6 +25,7 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import extent_words, row_words, with_elements_of
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
+from bearing_explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.state.sentences import words_of
 from bearing_explorer.views.base import View
@@ -118,7 +119,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
         "<section><h2>Scene</h2>",
         _changes(scene, about),
-        f"<p>Grey in the figures: {_text(results.reference_caption)}. Cage angle: "
+        f"<p>Grey in the figures: {WITHOUT_DEFECT}. {_compared(results)}Cage angle: "
         f"{_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
         f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
@@ -173,13 +174,18 @@ def _link(address: str) -> str:
 
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
     bearing = results.scene.bearing
-    caption = _text(with_elements_of(bearing, view.caption(results.reference_caption)))
+    caption = _text(with_elements_of(bearing, view.caption()))
     title = _text(with_elements_of(bearing, view.title))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{title}</h2><p class='about'>{caption}</p>"
         f"<figure>{drawings}<figcaption>{_sentence(sentence)}</figcaption></figure></section>"
     )
+
+
+def _compared(results: Results) -> str:
+    names = style.list_words([f"“{one.name}”" for one in results.compared])
+    return _text(f"Drawn too: {names}. ") if names else ""
 
 
 def _changes(scene: Scene, about: About) -> str:

@@ -198,7 +198,7 @@ class Requests:
     # The bar above the controls
 
     def change_links(self, message: Any) -> None:
-        """Take a message of the bar: steps, links, kept and pinned scenes, files, a report."""
+        """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
         if not isinstance(message, dict):
             return
         if isinstance(name := message.get("keep"), str):
@@ -211,10 +211,7 @@ class Requests:
             return
         if self.bookmarks.go(message):
             self.show_controls(state=self.editor.state())
-        if isinstance(name := message.get("pin_here"), str):
-            self.bookmarks.pin_here(name)
-        if message.get("unpin") is True:
-            self.bookmarks.unpin()
+        self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
             self._page.in_background(
                 lambda: read_request(wanted),

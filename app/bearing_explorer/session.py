@@ -145,7 +145,7 @@ class Explorer:
             self.requests.mark,
             self.editor.focus,
             self._settings,
-            pinned=self.bookmarks.pinned,
+            compared=self.bookmarks.compared,
             before=self._last_state.before,
             life_inputs=self._life_inputs,
         )
@@ -187,7 +187,7 @@ class Explorer:
 
     def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
         """The key of a fine picture; another key needs one of its own."""
-        return self._shown, inputs.scene, inputs.settings, inputs.pinned
+        return self._shown, inputs.scene, inputs.settings, inputs.compared
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""

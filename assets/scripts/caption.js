@@ -33,7 +33,7 @@ export function render({ model }) {
     : model.title)
   const help = element("button", { type: "button", class: "help", "aria-controls": "rest",
                                    "aria-label": `More about “${model.title}”` }, "?")
-  const line = element("p", { class: "line" }), grey = element("p", { class: "grey" })
+  const line = element("p", { class: "line" })
   const rest = element("p", { class: "rest", id: "rest" })
   unfolds(help, rest)
   help.hidden = !model.rest
@@ -42,12 +42,8 @@ export function render({ model }) {
     rest.textContent = model.rest
     if (model.compact) title.title = `${model.line} ${model.rest}`.trim()
   })
-  follow(model, ["pinned"], () => {
-    grey.hidden = !model.pinned
-    grey.textContent = `Grey: ${model.pinned}`
-  })
   if (model.compact)  // the figure says it itself; the rest is a tooltip
-    return element("header", { class: "compact" }, element("div", { class: "words" }, title, grey))
+    return element("header", { class: "compact" }, element("div", { class: "words" }, title))
   const head = element("div", { class: "title" }, title, help)
 
   const file = (ending) => `bearing-${model.name_of_files}.${ending}`
@@ -149,5 +145,5 @@ export function render({ model }) {
   })
   const menu = menu_of([...pictures, ...numbers, python], { class: "menu", "aria-label": `Export “${model.title}”` })
   opens_below(opener, menu, 190)
-  return element("header", {}, element("div", { class: "words" }, head, line, rest, grey), enlarge, opener, menu, dialog, table)
+  return element("header", {}, element("div", { class: "words" }, head, line, rest), enlarge, opener, menu, dialog, table)
 }

@@ -3,6 +3,7 @@
 
 const KEPT = "bearing-explorer.kept.1"
 const MOST_KEPT = 50
+const MOST_COMPARED = 4
 const LONGEST_NAME = 60
 const LONGEST_TEXT = 2.5e6
 const LARGEST_FILE = 2e6  // bytes
@@ -61,23 +62,30 @@ export function render({ model }) {
   menu("Share", "Share this scene", "share",
     ...field("This link opens the current scene, tab and cage angle.", link), copy, left_out)
 
-  // Keep: scenes with names, and the one that is drawn in grey
+  // Compare: scenes with names that are drawn too, and those that are kept
   const name = element("input", { type: "text", id: "share-name", maxlength: String(LONGEST_NAME),
-                                  autocomplete: "off", placeholder: "A name for this scene" })
-  const form = element("form", {}, ...field("Keep this scene in this browser", name), element("div", { class: "row" },
-    element("button", { type: "submit", class: "main" }, "Keep"),
-    tool("Pin as grey", "Draw this scene in grey, to compare others with it",
-         () => ask(model, { pin_here: name.value || "this scene" }))))
+                                  autocomplete: "off" })
+  const compare = element("button", { type: "submit", class: "main",
+                                      title: "Draw this scene with every other, as curves of its own" }, "Compare")
+  const form = element("form", {}, ...field("Name of this scene", name), element("div", { class: "row" }, compare,
+    tool("Keep", "Keep this scene in this browser", () => model.send_msg({ keep: name.value || name.placeholder }))))
   form.addEventListener("submit", (event) => {
     event.preventDefault()
-    model.send_msg({ keep: name.value })
+    ask(model, { compare_here: name.value })
+    name.value = ""
   })
-  const pinned = element("p", { class: "pinned" })
-  const unpin = tool("Unpin", "Draw the bearing without its defect in grey", asks({ unpin: true }))
+  const compared = element("ul", { class: "compared", "aria-label": "Compared scenes" })
+  const list_compared = (names) => compared.replaceChildren(...names.map((own, number) => {
+    const box = element("input", { type: "text", maxlength: String(LONGEST_NAME), "aria-label": `Name of curve ${number + 1}` })
+    box.value = own
+    box.addEventListener("change", () => ask(model, { number, rename: box.value }))
+    return element("li", {}, element("i", { class: `line line-${number}`, "aria-hidden": "true" }), box,
+      tool("\u00d7", `Compare “${own}” no longer`, asks({ number, remove: true }),
+           { "aria-label": `Remove curve “${own}”`, class: "remove" }))
+  }))
   const list = element("ul", { class: "kept", "aria-label": "Kept scenes" })
   const kept_words = element("p", { class: "note", role: "status" })
-  menu("Keep", "Keep and compare scenes", "keep", form,
-    element("div", { class: "grey" }, pinned, unpin), list, kept_words)
+  menu("Compare", "Compare and keep scenes", "compare", form, compared, list, kept_words)
   const save_kept = (items) => {
     try {
       localStorage.setItem(KEPT, JSON.stringify(items))
@@ -92,12 +100,12 @@ export function render({ model }) {
     const items = read_kept()
     list.replaceChildren(...items.map((item) => element("li", {},
       tool(item.name, `Open “${item.name}”`, asks({ open: item }), { class: "open" }),
-      tool("Pin", `Draw “${item.name}” in grey`, asks({ pin: item }), { "aria-label": `Pin “${item.name}” as grey` }),
+      tool("Compare", `Draw “${item.name}” too`, asks({ compare: item }), { "aria-label": `Compare “${item.name}”` }),
       tool("\u00d7", `Remove “${item.name}”`, () => {
         save_kept(read_kept().filter((other) => other.name !== item.name))
         name.focus()
       }, { "aria-label": `Remove “${item.name}”`, class: "remove" }))))
-    kept_words.textContent = items.length ? "Open one, or pin it: then every figure shows it in grey."
+    kept_words.textContent = items.length ? "Kept scenes: open or compare one."
       : "No scene is kept in this browser yet."
   }
   window.addEventListener("storage", (event) => { if (event.key === KEPT) list_kept() })
@@ -132,16 +140,17 @@ export function render({ model }) {
     const said = new URLSearchParams(text)
     return { tab: said.get("tab") ?? "", lesson: said.get("lesson") ?? "" }
   }
-  let shown = null, said = null
+  let shown = null, said = null, named = ""
   let going = null  // the tab that Back leads to, until it is shown
   follow(model, ["state"], () => {
-    const { address, whole, undo: back, redo: again, pinned: grey, said: sentence } = model.state
+    const { address, whole, undo: back, redo: again, said: sentence } = model.state
     undo.disabled = !back
     redo.disabled = !again
     link.value = `${location.origin}${location.pathname}?${address}`
     left_out.hidden = whole
-    pinned.textContent = grey ? `Grey: “${grey}”.` : "Grey: the bearing without its defect."
-    unpin.hidden = !grey
+    name.placeholder = model.state.usual_name
+    compare.disabled = model.state.compared.length >= MOST_COMPARED
+    if (named !== (named = model.state.compared.join("\n"))) list_compared(model.state.compared)
     // The first is that of the page as it was opened: what is in the address stays, even if it
     // could not be read. Back goes to the last tab or lesson; changes of the scene are undone by Undo.
     const place = place_of(address)

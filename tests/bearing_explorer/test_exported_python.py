@@ -24,7 +24,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.views.base import View
 from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.python_lines import FILE, scene_code
@@ -34,21 +34,28 @@ from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
 from tests.helpers.measuring import measuring, signal
 
 FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
-SCENES: dict[str, tuple[Scene, float, Reference | None]] = {
-    "dragged": (FAN_RIG, 0.1, None),
-    "pinned": (FAN_RIG, 0.0, Reference(presets["fan-rig"].replace(n_balls=11), 'a "name"')),
-    "inner race": (presets["6205"].replace(race="inner", extent=0.1), 5.0, None),
+SCENES: dict[str, tuple[Scene, float, list[Compared]]] = {
+    "dragged": (FAN_RIG, 0.1, []),
+    "compared": (
+        FAN_RIG,
+        0.0,
+        [
+            Compared(presets["fan-rig"].replace(n_balls=11), 'a "name"'),
+            Compared(presets["liew-lim"], "another"),
+        ],
+    ),
+    "inner race": (presets["6205"].replace(race="inner", extent=0.1), 5.0, []),
     "two defects": (
         presets["liew-lim"].replace(
             defect=(Defect(0.3, 50e-6, 4.7), Defect(0.2, 30e-6, 1.0, floor=RoughFloor(2e-6, 2e-4)))
         ),
         0.05,
-        None,
+        [],
     ),
     "balls with mass": (
         presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass"),
         0.05,
-        None,
+        [],
     ),
 }
 VIEWS = {view.name: view for section in SECTIONS for view in section.views}
@@ -65,7 +72,7 @@ CHOICES: dict[str, dict[str, Any]] = {
 }
 CASES = [
     *(("dragged", name) for name in VIEWS),
-    *(("pinned", name) for name in ("load-distribution", "stiffness", "vibration-spectrum")),
+    *(("compared", name) for name in ("load-distribution", "stiffness", "vibration-spectrum")),
     *(("two defects", name) for name in ("depth-profile", "maps", "vibration-time")),
     *(("inner race", name) for name in ("load-distribution", "modes", "vibration-spectrum")),
     *(("balls with mass", name) for name in ("bearing", "stiffness", "mass-time")),
@@ -88,11 +95,11 @@ def recorded() -> tuple[bytes, Measured]:
 def shown(case: tuple[str, str]) -> tuple[View, Results]:
     """A view with all that it shows, as it is when its lines are asked for."""
     name = case[1]
-    scene, cage_angle, pinned = SCENES.get(case[0], SCENES["dragged"])
+    scene, cage_angle, compared = SCENES.get(case[0], SCENES["dragged"])
     choices = CHOICES.get(name, {})
     if case[0] == "error of the extent":  # none has an answer, which is quick
         scene, choices = SCENES["inner race"][0], choices | {"output": "extent_error"}
-    results = Results(scene, cage_angle, pinned=pinned)
+    results = Results(scene, cage_angle, compared=compared)
     view = VIEWS[name](PackedSource())
     if isinstance(view, MeasuredView):
         results = Results(presets["fan-rig"])

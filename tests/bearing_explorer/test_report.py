@@ -12,7 +12,7 @@ from bearing_explorer.page import SECTIONS
 from bearing_explorer.report import About, mark_of, page, report
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.stability_map import OrbitStability
@@ -111,9 +111,7 @@ def test_no_session_is_looked_at_that_may_end_meanwhile(monkeypatch: pytest.Monk
 
 def test_what_strangers_write_stays_text() -> None:
     scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
-    results = Results(scene, 0.0, pinned=Reference(presets["fan-rig"], NASTY))
-    sentence = LoadDistribution(PackedSource()).sentence(results)
-    assert NASTY in sentence
+    results = Results(scene, 0.0, compared=[Compared(presets["fan-rig"], NASTY)])
     made = report(results, [LoadDistribution], {}, about(f"http://x/?{NASTY}"))
     reader = Reader(made["html"])
     assert NASTY in reader.words

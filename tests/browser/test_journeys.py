@@ -646,21 +646,61 @@ _NAME = "<img src=x onerror=alert(1)>"
 """Of a kept scene: a name is text, whatever it looks like."""
 
 
-def test_a_scene_is_pinned_and_kept(visitor: Visitor, explorer: Server) -> None:
+def test_a_scene_is_kept_and_opened_again(visitor: Visitor, explorer: Server) -> None:
     visitor.open(explorer, FAN_RIG + "stiffness")
-    keep = visitor.menu("Keep")
-    keep.get_by_role("textbox").fill(_NAME)
-    keep.get_by_role("button", name="Keep", exact=True).click()
-    visitor.reads(_NAME, keep)
-    keep.get_by_role("button", name="Pin as grey").click()
+    menu = visitor.menu("Compare")
+    menu.get_by_role("textbox").fill(_NAME)
+    menu.get_by_role("button", name="Keep", exact=True).click()
+    visitor.reads(_NAME, menu)
     visitor.page.keyboard.press("Escape")
     visitor.sees_change(lambda: visitor.type("Extent", "60"))
-    visitor.reads(re.compile("^Grey"))
-    pinned = visitor.figures()
-    visitor.menu("Keep").get_by_role("button", name=_NAME, exact=True).click()
+    visitor.menu("Compare").get_by_role("button", name=_NAME, exact=True).click()
     expect(visitor.box("Extent")).to_have_value("12.9")
-    visitor.menu("Keep").get_by_role("button", name="Unpin").click()
-    visitor.wait(lambda: visitor.figures() != pinned)
+
+
+def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "load")
+    menu = visitor.menu("Compare")
+    menu.get_by_role("button", name="Compare", exact=True).click()
+    curves = visitor.scene.get_by_role("textbox", name="Name of curve")
+    visitor.wait(lambda: "12.9°, 50 µm" in _keys(visitor))
+    visitor.type("Extent", "60")
+    menu = visitor.menu("Compare")
+    menu.get_by_role("textbox", name="Name of this scene").fill(_NAME)
+    menu.get_by_role("button", name="Compare", exact=True).click()
+    visitor.menu("Compare")
+    expect(curves).to_have_count(2)
+    curves.nth(1).fill("long")
+    curves.nth(1).press("Tab")
+    visitor.page.keyboard.press("Escape")
+    visitor.type("Extent", "30")
+    names = "12.9°, 50 µm, long"
+    for tab in ("Load", "Stiffness", "Frequencies", "Vibration", "Overview"):
+        visitor.go_to(tab)
+        visitor.wait(lambda: names in _keys(visitor))
+    other = visitor.page.context.new_page()
+    other.goto(visitor.page.url)
+    again = Visitor(other)
+    again.steady()
+    again.wait(lambda: names in _keys(again))
+    assert again.number("Extent") == 30.0
+    menu = again.menu("Compare")
+    for left in (1, 0):
+        again.press(re.compile("^Remove curve"), menu)
+        expect(menu.get_by_role("textbox", name="Name of curve")).to_have_count(left)
+    again.wait(lambda: _keys(again) == [])
+    other.close()
+
+
+def _keys(visitor: Visitor) -> list[str]:
+    """The names of compared scenes in the keys of figures, one text a figure."""
+    found: list[str] = visitor.page.evaluate(
+        """() => [...Bokeh.index.query((view) => view.model.type === "Legend")]
+          .filter(({model, parent}) => model.visible && parent.el.getClientRects().length)
+          .map(({model}) => model.items.filter((item) => item.visible)
+                                       .map((item) => item.label.value).join(", "))"""
+    )
+    return found
 
 
 def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor, explorer: Server) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -30,8 +30,8 @@ from bearing_explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.results.excerpt import Excerpt
 from bearing_explorer.results.executors import PICTURES
 from bearing_explorer.results.load_curve import Curve, load_curve
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.field_values import defects_of
-from bearing_explorer.state.reference import WITHOUT_DEFECT, Reference
 from bearing_explorer.state.settings import Marching, Settings
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common.lazy import cached_property
@@ -45,7 +45,6 @@ from bearingcore.statics.equilibrium import (
     has_long_period,
 )
 
-Answer = TypeVar("Answer")
 Compute = TypeVar("Compute", bound=Callable[..., object])
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
@@ -87,8 +86,7 @@ def _load_curves(found: Equilibrium) -> list[Curve]:
 class Results:
     """What the views read. Attributes are computed when first asked for, in any thread.
 
-    Attributes that begin with ``healthy_`` are of the bearing without its defect, or of a pinned
-    scene.
+    Attributes that begin with ``healthy_`` are of the bearing without its defect.
 
     Parameters
     ----------
@@ -102,8 +100,8 @@ class Results:
         number of the defect that is looked at.
     moving
         whether a slider moves: be quick.
-    pinned
-        a scene in the place of the bearing without its defect.
+    compared
+        scenes that are drawn too, each under a name.
     before
         the scene before the last change, where there was one.
     life_inputs
@@ -122,7 +120,7 @@ class Results:
         focus: int = 0,
         *,
         moving: bool = False,
-        pinned: Reference | None = None,
+        compared: Sequence[Compared] = (),
         before: Scene | None = None,
         life_inputs: LifeInputs | None = None,
         give_up: Callable[[], bool] | None = None,
@@ -132,32 +130,33 @@ class Results:
         self.settings = settings or Settings()
         self.focus = focus
         self.moving = moving
-        self.pinned = pinned
+        self.compared = tuple(compared)
         self.before = before
         self.life_inputs = life_inputs or LifeInputs()
         self._give_up = give_up
 
-    @property
-    def reference(self) -> Scene:
-        """The scene drawn in grey: a pinned one, or the scene itself without its defect."""
-        return self.scene.healthy() if self.pinned is None else self.pinned.scene
+    @cached_property
+    def of_compared(self) -> list[Results]:
+        """Results of the compared scenes, in their order."""
+        settings, moving = self.settings, self.moving
+        return [
+            Results(one.scene, self.cage_angle, settings, moving=moving, give_up=self._give_up)
+            for one in self.compared
+        ]
+
+    def over_stretch_of(self, other: Results) -> tuple[Scene, float, float, int]:
+        """The scene of other results, and the stretch over which the curves of these are drawn."""
+        return other.scene, *self.stretch
+
+    @cached_property
+    def compared_equilibria(self) -> list[Equilibrium]:
+        """Static answers of the compared scenes over the stretch."""
+        return [statics.curves(*self.over_stretch_of(other)) for other in self.of_compared]
 
     @property
     def reference_label(self) -> str:
-        """Its name before its numbers; empty where it is the scene itself."""
-        if self.pinned is not None:
-            return self.pinned.words
+        """The name of the grey curves before their numbers; empty where the scene is the same."""
         return "without the defect" if self.scene.defects else ""
-
-    @property
-    def reference_caption(self) -> str:
-        """Its name in a caption."""
-        return WITHOUT_DEFECT if self.pinned is None else f"the pinned scene “{self.pinned.name}”"
-
-    @property
-    def reference_name(self) -> str:
-        """Its name in the names of columns."""
-        return "healthy" if self.pinned is None else "pinned"
 
     @property
     def over_shaft(self) -> bool:
@@ -205,15 +204,7 @@ class Results:
     @of_kind(OVER_STRETCH)
     def healthy_equilibrium(self) -> Equilibrium:
         """The same without the defect."""
-        return statics.curves(self.reference, *self.stretch)
-
-    @cached_property
-    def healthy_all_around(self) -> Equilibrium:
-        """The same over whatever stretch holds all that happens in a pinned scene."""
-        if self.pinned is None:
-            return self.healthy_equilibrium
-        own = Results(self.pinned.scene, self.cage_angle, self.settings, moving=self.moving)
-        return statics.curves(self.pinned.scene, *own.stretch)
+        return statics.curves(self.scene.healthy(), *self.stretch)
 
     @cached_property
     def load_curves(self) -> list[Curve]:
@@ -232,7 +223,7 @@ class Results:
     @cached_property
     def healthy_load_curves(self) -> list[Curve]:
         """The same without the defect."""
-        return _load_curves(self.healthy_all_around)
+        return _load_curves(self.healthy_equilibrium)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -248,17 +239,13 @@ class Results:
     @of_kind(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
-        return self._modes(self.scene)
+        return statics.modes(*self.over_stretch_of(self))
 
     @cached_property
     @of_kind(OVER_STRETCH)
     def healthy_modes(self) -> Modes:
         """The same without the defect."""
-        return self._of_pinned(self._modes, self.reference)
-
-    def _modes(self, scene: Scene) -> Modes:
-        first, last, n = self.stretch
-        return statics.modes(scene, first, last, n)
+        return statics.modes(self.scene.healthy(), *self.stretch)
 
     @cached_property
     @of_kind(OVER_STRETCH)
@@ -276,7 +263,7 @@ class Results:
         """The same without the defect."""
         if self.moving:
             return self.healthy_modes.bands()
-        return self._of_pinned(self._bands, self.reference)
+        return self._bands(self.scene.healthy())
 
     def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
         first, last, _ = self.stretch
@@ -318,7 +305,7 @@ class Results:
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "healthy_late_spectra"} <= needed:
-            key = self.reference, self._marching
+            key = self.scene.healthy(), self._marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
 
@@ -408,17 +395,7 @@ class Results:
     @of_kind(SLOW)
     def healthy_late_spectra(self) -> dict[str, Spectrum]:
         """The same without the defect."""
-        return self._of_pinned(motions.late_spectra, self.reference, self._marching)
-
-    def _of_pinned(self, compute: Callable[..., Answer], *key: Hashable) -> Answer:
-        """Compute a result of the reference; a refusal names the pinned scene."""
-        try:
-            return compute(*key)
-        except ValueError as error:
-            if self.pinned is None:
-                raise
-            words = f"the {self.pinned.words} cannot be shown: {error}"
-            raise ValueError(words) from None
+        return motions.late_spectra(self.scene.healthy(), self._marching)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -506,8 +483,8 @@ class Results:
     @cached_property
     @of_kind(SLOW, OVER_STRETCH)
     def chain_before(self) -> Chain:
-        """The same of the scene before the last change; before the first, of what is in grey."""
-        scene = self.reference if self.before is None else self.before
+        """The same of the scene before the last change; before the first, without the defect."""
+        scene = self.scene.healthy() if self.before is None else self.before
         if scene == self.scene:
             return self.chain
         return _chain_of(scene, self.cage_angle, self.settings, self.moving)

@@ -25,6 +25,8 @@ The rules of version 1, which later versions go on reading:
   of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
   it has not, and none of the last ones. `name` is what a person calls the bearing, `estimated` the
   dimensions that are estimates, with dots between them.
+- What has ``compare1.`` in front are the first scene that is compared, by
+  the same rules; `compare1.label` is the name of its curves.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
   open; alone it stands for the scene that the lesson begins with.
 - `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
@@ -52,6 +54,7 @@ from urllib.parse import parse_qsl, urlencode
 from bearing_explorer.state import field_values
 from bearing_explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
+from bearing_explorer.state.compared import Compared, usual_name
 from bearing_explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defects_of
 from bearing_explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.state.sentences import one_line, sentence_of
@@ -92,7 +95,7 @@ class Place:
     """A scene and how one looks at it: what a link stands for.
 
     `selected` is the defect that the sliders move, `cage_angle` in degrees, `tab` a section of the
-    page. `note` is a sentence for whoever opened the link.
+    page. `note` is a sentence for whoever opened the link; `compared` are the scenes drawn too.
     """
 
     scene: Scene
@@ -102,6 +105,7 @@ class Place:
     tab: str = ""
     note: str = ""
     name: str = ""
+    compared: tuple[Compared, ...] = ()
 
 
 def write(place: Place, longest: int | None = None) -> str:
@@ -126,9 +130,7 @@ def read(text: str) -> Place | None:
     if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
     try:
-        pairs = parse_qsl(
-            text.removeprefix("?"), True, encoding="ascii", max_num_fields=_MOST_FIELDS
-        )
+        pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
     except ValueError:
         raise ValueError("It has far too many parts, or signs that do not belong there.") from None
     strange = [name for name, _ in pairs if not _is_known(name)]
@@ -150,17 +152,18 @@ def read(text: str) -> Place | None:
 def opened(text: str, editor: SceneEditor) -> Place:
     """Show the place of a text on an editor. Never fails: `note` says where it could not be."""
     tab, note = "", ""
+    compared: tuple[Compared, ...] = ()
     try:
         place = read(text)
         if place is not None:
-            tab, note = place.tab, place.note
+            tab, note, compared = place.tab, place.note, place.compared
             editor.take_scene(
                 place.scene, place.preset, place.selected, place.cage_angle, place.name
             )
     except ValueError as error:
         why = sentence_of(error)
         note = f"The address could not be opened. {why} Showing the default bearing instead."
-    return dataclasses.replace(place_of(editor, tab), note=note)
+    return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
 
 _LESSON = re.compile(r"(?:^|&)lesson=([a-z0-9-]{1,60})(?=&|$)")
@@ -193,8 +196,22 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 
 
 def _written(place: Place, without_floors: bool) -> str:
+    pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
+    for number, one in enumerate(place.compared, 1):
+        preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
+        own = [("label", one.name), *_scene_pairs(Place(one.scene, preset), without_floors)]
+        pairs += [(f"compare{number}.{name}", value) for name, value in own]
+    if place.cage_angle:
+        pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
+    if place.tab:
+        pairs.append(("tab", place.tab))
+    return urlencode(pairs)
+
+
+def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
+    """The scene of a place, with the defect that is selected and its bearing's name."""
     scene, base = place.scene, presets[place.preset]
-    pairs: list[tuple[str, str]] = [("v", VERSION), ("preset", place.preset)]
+    pairs: list[tuple[str, str]] = [("preset", place.preset)]
     defects, usual = defects_of(scene), defects_of(base)[0]
     if len(defects) != 1:
         pairs.append(("defects", str(len(defects))))
@@ -207,11 +224,7 @@ def _written(place: Place, without_floors: bool) -> str:
         pairs += _changes(entries, _part_of(scene, part), _part_of(base, part))
     if place.name:
         pairs.append(("name", place.name))
-    if place.cage_angle:
-        pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
-    if place.tab:
-        pairs.append(("tab", place.tab))
-    return urlencode(pairs)
+    return pairs
 
 
 def _behind(number: int) -> str:
@@ -278,14 +291,38 @@ def packed(floor: MeasuredFloor) -> str:
 # Reading
 
 
+_OF_COMPARED = re.compile(r"compare([1-4])\.(.+)", re.ASCII)
+
+
 def _is_known(name: str) -> bool:
+    if own := _OF_COMPARED.fullmatch(name):
+        return own[2] == "label" or (own[2] not in _PLACE_ONLY and _is_known_of_scene(own[2]))
+    return name in _PLACE_ONLY or _is_known_of_scene(name)
+
+
+def _is_known_of_scene(name: str) -> bool:
     head, dot, tail = name.rpartition(".")
     if not dot:
         return name in _PLACE_NAMES or name in _DEFECT_NAMES
     return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
 
 
+def _compared(given: dict[str, str]) -> tuple[Compared, ...]:
+    """The compared scenes of an address, in the order of their numbers; they are taken out."""
+    parts: dict[str, dict[str, str]] = {}
+    for name in list(given):
+        if own := _OF_COMPARED.fullmatch(name):
+            parts.setdefault(own[1], {})[own[2]] = given.pop(name)
+    found = []
+    for _, part in sorted(parts.items()):
+        label = one_line(part.pop("label", ""), LONGEST_NAME)
+        scene = _read({"v": VERSION, **part}).scene
+        found.append(Compared(scene, label or usual_name(scene)))
+    return tuple(found)
+
+
 def _read(given: dict[str, str]) -> Place:
+    compared = _compared(given)
     version = given.pop("v", None)
     if version is None:
         raise ValueError("It does not say its version (v=1).")
@@ -323,7 +360,8 @@ def _read(given: dict[str, str]) -> Place:
     }
     defect = defects[0] if count == 1 else tuple(defects)
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
-    return Place(scene, preset, selected, cage_angle, FORMER_TABS.get(tab, tab)[:40], note, name)
+    tab = FORMER_TABS.get(tab, tab)[:40]
+    return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
 
 
 def _taken(entries: Iterable[Entry], given: dict[str, str]) -> dict[str, Any]:
@@ -490,8 +528,9 @@ _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _d
 _DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]
 _FLOOR = _numbers_of("floor")
 
+_PLACE_ONLY = {"v", "tab", CAGE_ANGLE}
 _PLACE_NAMES = {
-    *("v", "preset", "defects", "selected", "tab", "name", CAGE_ANGLE),
+    *("preset", "defects", "selected", "name"),
     *(entry.name for entries in _SCENE.values() for entry in entries),
 }
 _DEFECT_NAMES = ["floor", "points", *(entry.name for entry in (*_DEFECT, *_FLOOR))]

@@ -1,4 +1,4 @@
-"""Scenes that a session remembers: steps to undo, a pinned scene, the address.
+"""Scenes that a session remembers: steps to undo, compared scenes, the address.
 
 Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
 and refused with a sentence. Scenes that a person keeps lie in the browser, as
@@ -8,7 +8,7 @@ the text of `bearing_explorer.state.address` with a name; nothing of them stays 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlencode
 
@@ -25,9 +25,9 @@ from bearing_explorer.state.address import (
     read,
     write,
 )
+from bearing_explorer.state.compared import MOST_COMPARED, Compared, usual_name
 from bearing_explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.state.history import History
-from bearing_explorer.state.reference import Reference
 from bearing_explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
 from bearing_explorer.state.sentences import one_line, sentence_of
 from bearingcore import Scene
@@ -38,7 +38,7 @@ _STEPS = ("set", "typed", "choose", "reset", "floor")
 
 @dataclass(frozen=True)
 class OpenRequest:
-    """A request to open or pin a scene; `read_request` reads it, in any thread."""
+    """A request to open or compare a scene; `read_request` reads it, in any thread."""
 
     what: str
     name: str
@@ -46,8 +46,8 @@ class OpenRequest:
 
 
 def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
-    """The request of a message to open ("open", "file") or pin ("pin") a scene, or None."""
-    for what in ("open", "file", "pin"):
+    """The request of a message to open ("open", "file") or compare a scene, or None."""
+    for what in ("open", "file", "compare"):
         if given := message.get(what):
             return OpenRequest(what, name_of(given["name"]), given["text"][: LONGEST_TEXT + 1])
     return None
@@ -72,7 +72,7 @@ def name_of(text: str) -> str:
 
 
 class Bookmarks:
-    """Undo, pinned scene, notice and address of one session."""
+    """Undo, compared scenes, notice and address of one session."""
 
     def __init__(self, editor: SceneEditor, address: str = "") -> None:
         """`address`: what stood behind the question mark as the page was opened."""
@@ -85,7 +85,8 @@ class Bookmarks:
         self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
-        self.pinned: Reference | None = None
+        #: scenes that are drawn too
+        self.compared: tuple[Compared, ...] = place.compared
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
@@ -147,12 +148,12 @@ class Bookmarks:
         return kept is not None
 
     def take(self, request: OpenRequest, found: Place | str) -> bool:
-        """Open or pin the place that `read_request` found; whether anything changed."""
+        """Open or compare the place that `read_request` found; whether anything changed."""
         if isinstance(found, str):
             self.say(found)
             return False
-        if request.what == "pin":
-            self._pin(found.scene, request.name)
+        if request.what == "compare":
+            self._compare(found.scene, request.name)
             return True
         try:
             self._editor.take_scene(
@@ -165,18 +166,27 @@ class Bookmarks:
         self.step()
         return True
 
-    def pin_here(self, name: str) -> None:
-        """Pin the scene of now."""
-        self._pin(self._editor.scene, name_of(name))
+    def change_compared(self, message: Mapping[Any, Any]) -> None:
+        """Add the scene of now, rename or remove compared scenes, where a message says so."""
+        if isinstance(name := message.get("compare_here"), str):
+            usual = usual_name(self._editor.scene, self._editor.selected)
+            self._compare(self._editor.scene, one_line(name, LONGEST_NAME) or usual)
+        compared = list(self.compared)
+        number = message.get("number")
+        if not isinstance(number, int) or number >= len(compared):
+            return
+        if message.get("remove") is True:
+            del compared[number]
+        if isinstance(name := message.get("rename"), str) and number < len(compared):
+            compared[number] = replace(compared[number], name=name_of(name))
+        self.compared = tuple(compared)
 
-    def _pin(self, scene: Scene, name: str) -> None:
-        self.pinned = Reference(scene, name)
-        self.say(f"“{name}” is pinned: grey shows it behind every scene.")
-
-    def unpin(self) -> None:
-        """Grey shows the healthy bearing again."""
-        self.pinned = None
-        self.say("Grey shows the bearing without its defect again.")
+    def _compare(self, scene: Scene, name: str) -> None:
+        if len(self.compared) == MOST_COMPARED:
+            self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
+            return
+        self.compared += (Compared(scene, name),)
+        self.say(f"“{name}” is drawn with every scene now.")
 
     def kept(self, name: str) -> dict[str, str]:
         """The scene of now for the browser to keep."""
@@ -189,7 +199,8 @@ class Bookmarks:
 
     def state(self) -> dict[str, Any]:
         """State for the browser."""
-        address = write(place_of(self._editor, self._tab), LONGEST_LINK)
+        place = replace(place_of(self._editor, self._tab), compared=self.compared)
+        address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})
         return {
@@ -197,6 +208,7 @@ class Bookmarks:
             "whole": not leaves_out(address),
             "undo": self._history.can_undo,
             "redo": self._history.can_redo,
-            "pinned": "" if self.pinned is None else self.pinned.name,
+            "compared": [one.name for one in self.compared],
+            "usual_name": usual_name(self._editor.scene, self._editor.selected),
             "said": {"number": self._said[0], "words": self._said[1]},
         }

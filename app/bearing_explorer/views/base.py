@@ -15,7 +15,8 @@ and give it
 A view that needs the scene of the controls, a job or a measured signal takes it from the
 session in `attach(parts)`.
 
-The grey reference is ``{grey}`` in `about`: the healthy bearing, or a scene that is pinned.
+The grey curves are of the bearing without its defect, ``{grey}`` in `about`. Those of compared
+scenes are layers of `plots.compared_curves`; the key with their names follows by itself.
 
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
@@ -34,6 +35,7 @@ from bokeh.models import LayoutDOM, Plot, SaveTool
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.measurement.session import Measurement
+from bearing_explorer.plots.compared_curves import CurveKey
 from bearing_explorer.plots.element_words import with_elements_of
 from bearing_explorer.plots.zoom import zoomable
 from bearing_explorer.results.endurance import LifeInputs
@@ -41,7 +43,7 @@ from bearing_explorer.results.jobs import Jobs
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.live_component import LiveComponent
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.reference import WITHOUT_DEFECT
+from bearing_explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
 from bearing_explorer.widgets.controls import Rows
@@ -63,8 +65,6 @@ class Caption(LiveComponent):
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
-    #: name of the grey reference, where that is a pinned scene
-    pinned = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
@@ -178,6 +178,8 @@ class View:
             margin=0,
         )
         self._caption.on_msg(self._answer)
+        #: the names of compared scenes, a key a figure that draws them
+        self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
             for tool in plot.toolbar.tools:
                 if isinstance(tool, SaveTool):
@@ -231,16 +233,16 @@ class View:
         )
         if results is not None:
             bearing = results.scene.bearing
-            text = with_elements_of(bearing, self.caption(results.reference_caption))
-            line, rest = parts_of(text)
-            pinned = results.pinned.name if self.compares and results.pinned else ""
+            line, rest = parts_of(with_elements_of(bearing, self.caption()))
             title = with_elements_of(bearing, self.title)
-            self._caption.put(title=title, line=line, rest=rest, pinned=pinned)
+            self._caption.put(title=title, line=line, rest=rest)
+            for key in self._keys:
+                key.show([one.name for one in results.compared])
 
     @classmethod
-    def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
-        """The text above the figure; `grey` names the grey reference."""
-        return cls.about.replace("{grey}", grey)
+    def caption(cls) -> str:
+        """The text above the figure."""
+        return cls.about.replace("{grey}", WITHOUT_DEFECT)
 
     def put_away(self) -> None:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""
@@ -251,8 +253,8 @@ class View:
 
     @property
     def compares(self) -> bool:
-        """Whether it draws a grey reference."""
-        return any(name.startswith("healthy_") for name in self.needs)
+        """Whether it draws compared scenes."""
+        return bool(self._keys)
 
     @property
     def is_empty(self) -> bool:

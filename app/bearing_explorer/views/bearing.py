@@ -230,8 +230,7 @@ class BearingDrawing(View):
             drawn = Shapes(scene, results.cage_angle, row)
             drop = {race: drops[own] for race, drops in results.drop.items()}
             shapes = drawn.all(now.ball_load[0, own], drop, top)
-            if row < len(healthy):  # a pinned scene may have fewer rows
-                shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
+            shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
             several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.element_words import extent_words, row_words
 from bearing_explorer.plots.layers import ball_dots, curve, draw
 from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.defect_shape import Profile
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -23,6 +24,7 @@ EDGE_WORDS = {
 
 
 LAYERS = (
+    *compared_curves.curves("depth_profile", "angle", "drop"),
     curve("depth_profile_path", "angle", "drop", style.DEFECTIVE, dash=(6, 4)),
     ball_dots("depth_profile_balls", "angle", "drop"),
 )
@@ -60,7 +62,15 @@ class DepthProfile(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         profile = results.profile
         angle = np.degrees(profile.angle)
-        deepest = self._range.fit(1.15 * profile.depth)[1]
+        compared = compared_curves.sources(
+            "depth_profile",
+            ("angle", "drop"),
+            results.of_compared,
+            lambda other: _path(other.profile),
+        )
+        deepest = self._range.fit(
+            1.15 * profile.depth, 1.15 * compared_curves.numbers(compared, "drop")
+        )[1]
         start, end = float(angle[0]), float(angle[-1])
         own = results.scene.bearing.balls_of_rows[profile.row]
         balls = np.degrees(results.now.ball_angle[0, own])
@@ -68,12 +78,13 @@ class DepthProfile(View):
         balls = start + (balls - start) % 360.0
         balls[balls > end] = np.nan
         sources = {
+            **compared,
             "depth_profile_surface": {
                 "angle": angle,
                 "depth": profile.depth,
                 "bottom": np.full(angle.size, deepest),
             },
-            "depth_profile_path": {"angle": angle, "drop": profile.path},
+            "depth_profile_path": _path(profile),
             "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race][own]},
         }
         return sources, {
@@ -115,3 +126,8 @@ class DepthProfile(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.profile.table().in_units().named()
+
+
+def _path(profile: Profile) -> dict[str, np.ndarray]:
+    """The path of a ball's centre as columns."""
+    return {"angle": np.degrees(profile.angle), "drop": profile.path}

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.element_words import elements
-from bearing_explorer.plots.layers import Words, ball_dots, curve, draw, strips
+from bearing_explorer.plots.layers import Layer, Words, ball_dots, curve, draw, strips
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
 from bearing_explorer.results.load_curve import Curve, curves_table, load_curve, row_name
@@ -30,10 +30,11 @@ CURVES = (
     curve("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
     curve("load_distribution_curve", "angle", "load", style.DEFECTIVE),
 )
-LAYERS = (
+LAYERS: tuple[Layer, ...] = (
     strips("load_distribution_defect", style.DEFECT, 0.16, low="start", high="end"),
     curve("load_distribution_healthy", "angle", "load", style.HEALTHY),
     curve("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
+    *compared_curves.curves("load_distribution", "angle", "load"),
     curve("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
     *CURVES,
     ball_dots("load_distribution_balls", "angle", "load"),
@@ -91,7 +92,14 @@ class LoadDistribution(View):
         (angle, load), *others = results.load_curves
         (healthy_angle, healthy_load), *healthy_others = results.healthy_load_curves
         now = results.now
+        compared = compared_curves.sources(
+            "load_distribution",
+            ("angle", "load"),
+            results.of_compared,
+            lambda other: _one_line(other.load_curves),
+        )
         sources = {
+            **compared,
             "load_distribution_other_rows": _one_line(others),
             "load_distribution_other_healthy": _one_line(healthy_others),
             "load_distribution_inner": _one_line(results.inner_load_curves),
@@ -106,6 +114,7 @@ class LoadDistribution(View):
         }
         room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
         loads = [room * one for _, one in (*results.load_curves, *results.healthy_load_curves)]
+        loads.append(compared_curves.numbers(compared, "load"))
         return sources, {"load_distribution_load": self._range.fit(*loads)}
 
     def sentence(self, results: Results) -> str:
@@ -143,7 +152,7 @@ class LoadDistribution(View):
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
             tables += [_at_both_races(results.equilibrium, row) for row in rows]
-        tables.append(curves_table(results.healthy_load_curves).prefixed(results.reference_name))
+        tables.append(curves_table(results.healthy_load_curves).prefixed("healthy"))
         return reduce(or_, tables).in_units().named()
 
 

@@ -36,7 +36,7 @@ class MassInSpectrum(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = results.ball_mass
         return self._spectra.data(
-            found.spectra, found.massless_spectra, found.resonances, found.sample_rate
+            results, found.spectra, found.massless_spectra, found.resonances, found.sample_rate
         )
 
     def sentence(self, results: Results) -> str:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips, uprights
 from bearing_explorer.plots.ranges import ROOM, StickyRange
+from bearing_explorer.results import statics
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -45,6 +47,8 @@ def layers(colors: Any) -> Sequence[Layer]:
     """From the lowest to the highest; `colors` of bands and their names, by direction."""
     return (
         strips("modes_bands", colors, 0.10, level=True),
+        *compared_curves.bands("modes_band", level=True),
+        *compared_curves.curves("modes", "angle", "frequency"),
         curve("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
         *(
             curve(f"modes_{direction}", "angle", "frequency", color)
@@ -102,12 +106,28 @@ class NaturalFrequencies(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         modes, healthy = results.modes, results.healthy_modes
         bands = band_rows(results.bands)
-        shown = self._range.fit(modes.frequency, healthy.frequency, bands["low"], bands["high"])
+        compared = compared_curves.sources(
+            "modes", ("angle", "frequency"), results.of_compared, partial(_of_compared, results)
+        )
+        shown = self._range.fit(
+            modes.frequency,
+            healthy.frequency,
+            bands["low"],
+            bands["high"],
+            compared_curves.numbers(compared, "frequency"),
+        )
         angle = results.along(modes.cage_angles)
         pixels = HEIGHT - 60.0  # of the frame, without axis and borders
         middle = 0.5 * (bands["low"] + bands["high"])
         bands["label_at"] = spread(middle, LABEL_PIXELS * (shown[1] - shown[0]) / pixels, *shown)
         sources: Sources = {
+            **compared,
+            **compared_curves.sources(
+                "modes_band",
+                ("low", "high"),
+                results.of_compared,
+                lambda other: band_rows(other.bands),
+            ),
             "modes_bands": bands,
             "modes_healthy": lines(results.along(healthy.cage_angles), healthy.frequency),
             "modes_now": {"now": results.along([results.cage_angle])},
@@ -143,11 +163,17 @@ class NaturalFrequencies(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.healthy_modes
-        own, grey = modes.table(), healthy.table().prefixed(results.reference_name)
+        own, grey = modes.table(), healthy.table().prefixed("healthy")
         columns = (own | grey).in_units().named()
         if results.over_shaft:
             columns["shaft_angle_deg"] = results.along(modes.cage_angles)
         return columns
+
+
+def _of_compared(results: Results, other: Results) -> dict[str, np.ndarray]:
+    """Natural frequencies of other results over the stretch of these."""
+    modes = statics.modes(*results.over_stretch_of(other))
+    return lines(results.along(modes.cage_angles), modes.frequency)
 
 
 def _from_to(band: tuple[float, float]) -> str:

@@ -56,9 +56,9 @@ def arguments(view: View, results: Results) -> dict[str, str]:
         given["cage_angle"] = short(results.cage_angle)
     if results.focus:
         given["focus"] = str(results.focus)
-    if results.pinned is not None and view.compares:
-        given["pinned"] = scene_code(results.pinned.scene)
-        given["pinned_name"] = code_of(results.pinned.name)
+    if results.compared and view.compares:
+        named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in results.compared)
+        given["compared"] = "{" + ", ".join(named) + "}"
     if results.before is not None and "chain_before" in view.needs:
         given["before"] = scene_code(results.before)
     for name, value, usual in (

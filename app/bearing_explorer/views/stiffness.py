@@ -13,7 +13,7 @@ import numpy as np
 from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
-from bearing_explorer.plots import matrix_cells, style
+from bearing_explorer.plots import compared_curves, layers, matrix_cells, style
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.plots.ranges import ROOM, StickyRange
@@ -22,7 +22,7 @@ from bearing_explorer.results.chain import over_turn
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearingcore import STIFFNESS_TERMS
+from bearingcore import STIFFNESS_TERMS, Scene
 from bearingcore.statics.equilibrium import TERM_UNITS
 
 NARROWEST = 700
@@ -70,6 +70,7 @@ class Stiffness(View):
         _moving_parts(plot, cells, axis)
         plot.segment("x", "low", "x", "high", source=now, line_color=style.INK, line_alpha=0.45)
         plot.line("x", "y", source=healthy, line_color=style.HEALTHY, line_width=1.6)
+        layers.draw(plot, packed, compared_curves.curves("stiffness", "x", "y"))
         plot.line("x", "y", source=defective, line_color=style.DEFECTIVE, line_width=1.8)
         plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
         units = [*UNITS, ""]
@@ -78,12 +79,13 @@ class Stiffness(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
-        found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
+        found, now = results.equilibrium, results.now
+        answers = [found, results.healthy_equilibrium, *results.compared_equilibria]
         first, last, _ = results.stretch
-        shares = [(e.cage_angles - first) / (last - first) for e in (found, healthy)]
+        shares = [(e.cage_angles - first) / (last - first) for e in answers]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = matrix_cells.term_sizes(
-            lambda term: np.concatenate([found.term(term), healthy.term(term)])
+            lambda term: np.concatenate([e.term(term) for e in answers])
         )
         lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
@@ -99,16 +101,16 @@ class Stiffness(View):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
+            terms = [cleaned(e.term(term), scale) for e in answers]
             at_now = float(cleaned(now.term(term), scale)[0])
-            limits = matrix_cells.trace_limits(sticky, scale, a, b)
-            put(cell, limits, shares, a, b)
+            limits = matrix_cells.trace_limits(sticky, scale, *terms)
+            put(cell, limits, shares, *terms)
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             heads.append((limits[0], limits[1], at_now, zero))
 
-        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in (found, healthy)]
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
         put(
@@ -122,11 +124,12 @@ class Stiffness(View):
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
         heads.append((limits[0], limits[1], balls, _BALLS.bottom))
 
-        drawn, reference = (
+        drawn, reference, *others = (
             {axis: np.concatenate(parts) for axis, parts in line.items()} for line in lines
         )
         mark, head = np.array(marks).T, np.array(heads).T
         return {
+            **compared_curves.sources("stiffness", ("x", "y"), others, lambda line: line),
             "stiffness_defective": drawn,
             "stiffness_healthy": reference,
             "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
@@ -141,7 +144,6 @@ class Stiffness(View):
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
         found, healthy = results.equilibrium, results.healthy_equilibrium
-        reference = "healthy" if results.pinned is None else results.pinned.words
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
@@ -152,7 +154,7 @@ class Stiffness(View):
             line += f" to {with_prefix(most, 'N/m')}"
             if results.reference_label and healthy.converged.any():
                 mean = over_turn(healthy.cage_angles, healthy_values)
-                line += f" ({reference}: {with_prefix(mean, 'N/m')} on average)"
+                line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
@@ -164,10 +166,10 @@ class Stiffness(View):
         )
 
     def say(self, results: Results | None, sentence: str) -> None:
-        """Name the grey curve in the legend too."""
+        """Say in the legend whether there is a defect."""
         super().say(results, sentence)
         if results is not None:
-            words = _legend_words(results)
+            words = _legend_words(results.scene)
             if words != self._legend.data["text"]:
                 self._legend.data = {**self._legend.data, "text": words}
 
@@ -175,7 +177,7 @@ class Stiffness(View):
         """Every trace in SI, defective and healthy."""
         found, healthy = results.equilibrium, results.healthy_equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), (results.reference_name, healthy)):
+        for kind, answer in (("defective", found), ("healthy", healthy)):
             table = answer.table().in_units().prefixed(kind)
             columns |= table.only(f"{kind}_cage_angle").named()
             if results.over_shaft:
@@ -224,11 +226,10 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     return legend
 
 
-def _legend_words(results: Results) -> list[str]:
+def _legend_words(scene: Scene) -> list[str]:
     """Words of the legend: blue, grey, and the upright line."""
-    own = "with the defect" if results.scene.defects else "this bearing, without a defect"
-    reference = results.pinned.words if results.pinned else "healthy bearing"
-    return [own, reference if len(reference) <= 40 else reference[:39] + "…", "now"]
+    own = "with the defect" if scene.defects else "this bearing, without a defect"
+    return [own, "healthy bearing", "now"]
 
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"

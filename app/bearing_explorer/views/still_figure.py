@@ -21,7 +21,7 @@ from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.endurance import LifeInputs
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import Columns, PackedSource
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
 
@@ -164,8 +164,7 @@ def figure_of(
     *,
     cage_angle: float = 0.0,
     focus: int = 0,
-    pinned: Scene | None = None,
-    pinned_name: str = "pinned",
+    compared: Mapping[str, Scene] | None = None,
     before: Scene | None = None,
     settings: Mapping[str, Any] | None = None,
     endurance: Mapping[str, Any] | None = None,
@@ -179,8 +178,8 @@ def figure_of(
         [rad] shown.
     focus
         number of the defect that is looked at.
-    pinned, pinned_name
-        a scene drawn in grey, and its name; None: the bearing without its defect.
+    compared
+        further scenes that are drawn, by their names.
     before
         the scene before the last change, for the view of the last change.
     settings, endurance
@@ -193,7 +192,7 @@ def figure_of(
         cage_angle,
         Settings(**(settings or {})),
         focus,
-        pinned=None if pinned is None else Reference(pinned, pinned_name),
+        compared=[Compared(one, name) for name, one in (compared or {}).items()],
         before=before,
         life_inputs=LifeInputs(**(endurance or {})),
     )

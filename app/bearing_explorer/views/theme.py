@@ -44,6 +44,7 @@ DARK_COLORS = {
     "#DDE0E3": "#333D47",
     "#8B929A": "#7A8591",
     "#B9BEC4": "#525D69",
+    "#882255": "#D8709F",  # the third compared scene
 }
 """By the light colour, as upper-case hex."""
 

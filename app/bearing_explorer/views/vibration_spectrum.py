@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import panel as pn
 from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import (
     CENTERED,
     ON_PAPER,
@@ -30,6 +31,7 @@ from bearing_explorer.plots.levels import (
     decibels,
     density_axis,
     drawn_levels,
+    levels_of_compared,
     seen_levels,
 )
 from bearing_explorer.plots.ranges import StickyRange
@@ -65,6 +67,7 @@ def spectra(dof: str) -> list[Layer]:
     bands = f"spectrum_bands_{dof}"
     return [
         strips(bands, color, 0.12),
+        *compared_curves.bands(f"spectrum_band_{dof}"),
         Words(
             bands,
             "label_at",
@@ -75,6 +78,7 @@ def spectra(dof: str) -> list[Layer]:
             look={"text_color": color, **CENTERED},
         ),
         curve("spectrum_healthy", "frequency", dof, style.HEALTHY, 1.5),
+        *compared_curves.curves("spectrum", "frequency", dof),
         curve("spectrum_lines", "frequency", dof, color),
     ]
 
@@ -176,7 +180,11 @@ class VibrationSpectra(View):
         if results.scene.balls == WITH_MASS:
             band = contact_resonance_band(results.scene)
         return self._wide.data(
-            results.late_spectra, results.healthy_late_spectra, band, results.motion.sample_rate
+            results,
+            results.late_spectra,
+            results.healthy_late_spectra,
+            band,
+            results.motion.sample_rate,
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -185,14 +193,23 @@ class VibrationSpectra(View):
         passing = pass_frequencies(results.scene, top)
         which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
         sources, ranges = self._wide_data(results)
+        compared = levels_of_compared("spectrum", results, top)
+        for dof in SHOWN:
+            sources |= compared_curves.sources(
+                f"spectrum_band_{dof}",
+                ("low", "high"),
+                results.of_compared,
+                partial(_bands_of, dof, top),
+            )
         sources |= {
+            **compared,
             "spectrum_lines": drawn,
             "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
             "spectrum_passes": {"frequency": passing["frequency"]},
             "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
             **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
         }
-        shown = self._levels.fit(*seen_levels(6.0, drawn))
+        shown = self._levels.fit(*seen_levels(6.0, drawn, *compared.values()))
         return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
 
     def sentence(self, results: Results) -> str:
@@ -200,8 +217,7 @@ class VibrationSpectra(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        reference = f"{results.reference_name}_"
-        spectra_of = {"": results.late_spectra, reference: results.healthy_late_spectra}
+        spectra_of = {"": results.late_spectra, "healthy_": results.healthy_late_spectra}
         for prefix, drawn in spectra_of.items():
             for dof, one in drawn.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
@@ -209,6 +225,10 @@ class VibrationSpectra(View):
                 columns = one.table([dof], unit).named()
                 table |= {f"{prefix}{name}": values for name, values in columns.items()}
         return table
+
+
+def _bands_of(dof: str, top: float, other: Results) -> dict[str, np.ndarray]:
+    return bands_along(other.bands, dof, top)
 
 
 def loudest_words(results: Results) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.element_words import element_name
 from bearing_explorer.plots.layers import Layer, curve
 from bearing_explorer.plots.levels import SHOWN
@@ -53,7 +53,9 @@ class VibrationInTime(PassageView):
             for dof in reversed(SHOWN)
         ]
         names = event_names("vibration", EVENT_WORDS, ("enters",), NARROW)
-        return [(ACCELERATION, 270, [event_lines("vibration"), *lines, names])]
+        compared = compared_curves.curves("vibration", "time", *SHOWN, width=1.1)
+        lines = [event_lines("vibration"), *compared, *lines]
+        return [(ACCELERATION, 270, [*lines, names])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
         lines = [
@@ -66,11 +68,18 @@ class VibrationInTime(PassageView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing
         missing = np.full(shown.time.size, np.nan)
-        signals = {dof: shown.acceleration.get(dof, missing) for dof in SHOWN}
+        signals = signals_of(shown)
         loads = dict.fromkeys((f"load{i}" for i in range(SLOTS)), missing)
         loads |= {f"load{i}": load for i, load in enumerate(shown.ball_load.T[:SLOTS])}
         start, end = float(shown.time[0]), float(shown.time[-1])
+        compared = compared_curves.sources(
+            "vibration",
+            ("time", *SHOWN),
+            results.of_compared,
+            lambda other: traces(other.excerpt.time, signals_of(other.excerpt)),
+        )
         sources: Sources = {
+            **compared,
             "vibration_motion": traces(shown.time, signals),
             "vibration_loads": traces(shown.time, loads),
             "vibration_static_loads": static_lines(shown),
@@ -78,7 +87,8 @@ class VibrationInTime(PassageView):
             "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),
         }
         carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
-        return sources, self.ranges(shown.time, np.stack(list(signals.values())), carried)
+        drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
+        return sources, self.ranges(shown.time, np.concatenate(drawn), carried)
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
@@ -111,6 +121,12 @@ class VibrationInTime(PassageView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.excerpt.table().named()
+
+
+def signals_of(shown: Excerpt) -> dict[str, np.ndarray]:
+    """Acceleration along x and y; NaN where the housing cannot move."""
+    missing = np.full(shown.time.size, np.nan)
+    return {dof: shown.acceleration.get(dof, missing) for dof in SHOWN}
 
 
 def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from bokeh.plotting import figure
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import (
     ON_PAPER,
     Layer,
@@ -18,8 +18,15 @@ from bearing_explorer.plots.layers import (
     sources_of,
     strips,
 )
-from bearing_explorer.plots.levels import SHOWN, density_axis, drawn_levels, seen_levels
+from bearing_explorer.plots.levels import (
+    SHOWN,
+    density_axis,
+    drawn_levels,
+    levels_of_compared,
+    seen_levels,
+)
 from bearing_explorer.plots.ranges import StickyRange
+from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearingcore import Spectrum
@@ -79,6 +86,7 @@ class WideSpectra:
         return [
             strips(f"{name}_resonance", style.DEFECT, 0.22, reads=("above",)),
             curve(f"{name}_others", "frequency", dof, **beneath),
+            *compared_curves.curves(name, "frequency", dof, width=1.3),
             curve(f"{name}_lines", "frequency", dof, color, 1.4),
             Words(
                 f"{name}_resonance",
@@ -97,16 +105,25 @@ class WideSpectra:
         lines = dict.fromkeys(("frequency", *SHOWN), empty)
         band = dict.fromkeys(("low", "high", "above", "label_at"), empty)
         name = self._name
-        return {f"{name}_lines": lines, f"{name}_others": lines, f"{name}_resonance": band}
+        return {
+            **compared_curves.sources(name, list(lines), (), dict),
+            f"{name}_lines": lines,
+            f"{name}_others": lines,
+            f"{name}_resonance": band,
+        }
 
     def data(
         self,
+        results: Results,
         spectra: dict[str, Spectrum],
         others: dict[str, Spectrum],
         resonances: tuple[float, float],
         sample_rate: float,
     ) -> tuple[Sources, Ranges]:
-        """Sources and ranges: spectra by direction, and the band of the contact resonances [Hz]."""
+        """Sources and ranges: spectra by direction, and the band of the contact resonances [Hz].
+
+        The compared scenes are those of `results`.
+        """
         top = 0.5 * sample_rate
         sources = self.nothing()
         name = self._name
@@ -114,6 +131,8 @@ class WideSpectra:
         last = math.nextafter(top, 0.0)
         drawn = [drawn_levels(one, last, LOWEST) for one in (spectra, others)]
         sources[f"{name}_lines"], sources[f"{name}_others"] = drawn
+        compared = levels_of_compared(name, results, last, LOWEST)
+        sources |= compared
         low, high = resonances
         if high > 0.0:
             above = low >= top
@@ -123,7 +142,9 @@ class WideSpectra:
                 "above": np.array([float(above)]),
                 "label_at": np.array([0.97 * min(low, top)]),
             }
-        fitted = self._levels.fit(*seen_levels(6.0, *drawn, depth=DEPTH_OF_VIEW))
+        fitted = self._levels.fit(
+            *seen_levels(6.0, *drawn, *compared.values(), depth=DEPTH_OF_VIEW)
+        )
         return sources, {f"{name}_frequency": (LOWEST, top), f"{name}_level": fitted}
 
 

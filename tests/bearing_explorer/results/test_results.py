@@ -5,11 +5,12 @@ import threading
 
 import numpy as np
 import pytest
+from bearing_explorer.plots.levels import levels_of_compared
 from bearing_explorer.results import motions
 from bearing_explorer.results.cache import Overtaken, cached
 from bearing_explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.results.results import Results
-from bearing_explorer.state.reference import Reference
+from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.settings import Settings
 
 from bearingcore import Scene, equilibrium, presets
@@ -41,29 +42,29 @@ def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
     assert usual.time[-1] == pytest.approx(1.4, rel=1e-3)
 
 
-def test_what_is_pinned_stands_in_for_the_healthy_bearing() -> None:
+def test_compared_scenes_have_results_of_their_own() -> None:
     scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
-    results = Results(scene, 0.1, pinned=Reference(other, "mine"))
+    results = Results(scene, 0.1, compared=[Compared(other, "mine")])
     first, last, n = results.stretch
     angles = np.linspace(first, last, n)
-    np.testing.assert_array_equal(
-        results.healthy_equilibrium.term("k_yy"), equilibrium(other, angles).term("k_yy")
+    (found,) = results.compared_equilibria
+    np.testing.assert_array_equal(found.term("k_yy"), equilibrium(other, angles).term("k_yy"))
+    (own,) = results.of_compared
+    assert own.equilibrium.cage_angles[-1] == pytest.approx(2.0 * np.pi / 9)
+    assert Results(scene, 0.1).of_compared == []
+
+
+def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_theirs() -> None:
+    still = presets["liew-lim"].replace(stiffness_z=None)
+    shorter = presets["fan-rig"].replace(extent=0.1)
+    results = Results(
+        presets["fan-rig"], compared=[Compared(still, "still"), Compared(shorter, "shorter")]
     )
-    around = results.healthy_all_around.cage_angles
-    assert around[-1] == pytest.approx(2.0 * np.pi / 9)
-    assert results.healthy_modes.cage_angles[-1] == last
-    alone = Results(scene, 0.1)
-    assert alone.reference == scene.healthy()
-    assert alone.healthy_all_around is alone.healthy_equilibrium
-
-
-def test_a_pinned_scene_that_cannot_move_says_that_it_is_the_pinned_one() -> None:
-    other = presets["liew-lim"].replace(stiffness_z=None)
-    results = Results(presets["fan-rig"], 0.1, pinned=Reference(other, "mine"))
-    for name in ("healthy_modes", "healthy_late_spectra"):
-        with pytest.raises(ValueError, match=r"pinned “mine” cannot be shown.*stiffness_z"):
-            getattr(results, name)
-    assert np.isfinite(results.modes.frequency).all()
+    drawn = levels_of_compared("here", results, 2000.0)
+    sizes = [one["x"].size for one in drawn.values()]
+    assert sizes[0] == sizes[2] == sizes[3] == 0
+    assert np.isfinite(list(drawn.values())[1]["y"]).all()
+    assert sizes[1]
 
 
 def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(

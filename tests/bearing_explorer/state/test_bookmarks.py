@@ -1,4 +1,4 @@
-"""What a session remembers: steps, a pinned scene, the address; and what strangers ask of it."""
+"""What a session remembers: steps, compared scenes, the address; and what strangers ask of it."""
 
 import pytest
 from bearing_explorer.state.address import read
@@ -10,6 +10,7 @@ from bearing_explorer.state.bookmarks import (
     open_request_of,
     read_request,
 )
+from bearing_explorer.state.compared import MOST_COMPARED, Compared
 from bearing_explorer.state.scene_editor import SceneEditor, read_file
 
 from bearingcore import Scene, presets
@@ -122,21 +123,60 @@ def test_what_was_kept_opens_again(editor: SceneEditor, bookmarks: Bookmarks) ->
     assert editor.preset == "liew-lim"
 
 
-def test_a_pinned_scene_is_the_reference_until_it_is_unpinned(
-    editor: SceneEditor, bookmarks: Bookmarks
-) -> None:
-    bookmarks.pin_here("first")
-    pinned = editor.scene
+def test_scenes_are_compared_renamed_and_removed(editor: SceneEditor, bookmarks: Bookmarks) -> None:
+    bookmarks.change_compared({"compare_here": ""})
+    first = editor.scene
     editor.set({"extent_deg": 33})
-    assert bookmarks.pinned is not None
-    assert (bookmarks.pinned.name, bookmarks.pinned.scene) == ("first", pinned)
-    request = open_request_of({"pin": {"name": "other", "text": "v=1&preset=6205"}})
+    request = open_request_of({"compare": {"name": "other", "text": "v=1&preset=6205"}})
     assert request is not None
     assert bookmarks.take(request, read_request(request))
-    assert bookmarks.pinned.scene == presets["6205"]
-    assert editor.values["extent_deg"] == 33, "pinning moves nothing"
-    bookmarks.unpin()
-    assert bookmarks.state()["pinned"] == ""
+    assert bookmarks.compared == (
+        Compared(first, "12.9°, 50 µm"),
+        Compared(presets["6205"], "other"),
+    )
+    assert editor.values["extent_deg"] == 33, "comparing moves nothing"
+    bookmarks.change_compared({"number": 0, "rename": " small\n"})
+    assert bookmarks.state()["compared"] == ["small", "other"]
+    bookmarks.change_compared({"number": 0, "remove": True})
+    bookmarks.change_compared({"number": 7, "remove": True})
+    assert bookmarks.state()["compared"] == ["other"]
+
+
+def test_no_more_scenes_are_compared_than_there_are_colours(bookmarks: Bookmarks) -> None:
+    for _ in range(MOST_COMPARED + 1):
+        bookmarks.change_compared({"compare_here": ""})
+    assert len(bookmarks.compared) == MOST_COMPARED
+    assert "remove one first" in bookmarks.state()["said"]["words"]
+
+
+def test_a_link_holds_the_compared_scenes(editor: SceneEditor, bookmarks: Bookmarks) -> None:
+    bookmarks.change_compared({"compare_here": "as it was & is"})
+    editor.take_preset("liew-lim")
+    editor.choose({"defect": "add"})
+    editor.set({"extent_deg": 40.1})
+    bookmarks.change_compared({"compare_here": ""})
+    editor.choose({"floor": "rough"})
+    bookmarks.change_compared({"compare_here": ""})
+    address = bookmarks.state()["address"]
+    again = Bookmarks(other := SceneEditor("fan-rig"), address + "&tab=load")
+    assert again.compared == bookmarks.compared
+    assert other.scene == editor.scene
+    assert again.state()["address"] == address + "&tab=load"
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "compare5.extent_deg=1",
+        "compare1.tab=load",
+        "compare1.compare2.extent_deg=1",
+        "compare1.v=1",
+    ],
+)
+def test_what_compares_nothing_is_passed_over(editor: SceneEditor, address: str) -> None:
+    bookmarks = Bookmarks(editor, f"v=1&preset=6205&{address}")
+    assert bookmarks.compared == ()
+    assert "passed over" in bookmarks.state()["said"]["words"]
 
 
 def test_a_file_is_the_scene_and_a_bad_one_a_sentence(

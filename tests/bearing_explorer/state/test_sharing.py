@@ -112,7 +112,7 @@ def test_one_report_at_a_time(answers: list[dict]) -> None:
         {"mark": 2, "open": {"name": ["x"], "text": {}}},
         {"mark": 2, "file": {"name": "x", "text": "[" * 100_000}},
         {"mark": 2, "file": {"name": "x" * 100_000, "text": "\0"}},
-        {"mark": 2, "pin": {"name": "x", "text": "v=1&floor=measured&points=" + "A" * 100_000}},
+        {"mark": 2, "compare": {"name": "x", "text": "v=1&floor=measured&points=" + "A" * 100_000}},
         {"want": "../../etc/passwd"},
         {"keep": {"name": 1}},
         {"report": {"base": 1}},
@@ -121,6 +121,6 @@ def test_one_report_at_a_time(answers: list[dict]) -> None:
 def test_strangers_change_nothing(answers: list[dict], message: object) -> None:
     explorer = session(lambda e: take(e.requests.change_links, LinksChange, message))
     assert explorer.scene == presets["fan-rig"]
-    assert explorer.inputs.pinned is None
+    assert explorer.inputs.compared == ()
     assert answers == []
     assert len(explorer.share.state["said"]["words"]) < 400

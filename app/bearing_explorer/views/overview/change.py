@@ -32,7 +32,7 @@ class LastChange(View):
         "Outwards: to balls further from the line of the radial load. Small changes are not "
         "named: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
-        "is compared with the grey reference."
+        "is compared with the bearing without its defect."
     )
     needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
     compact = True
@@ -49,8 +49,6 @@ class LastChange(View):
         before = results.before
         if before is not None:
             cause = difference(results.scene, before, results.focus)
-        elif results.pinned is not None:
-            cause = f"Against the {results.pinned.words}"
         elif results.scene.defects:
             cause = "With the defect"
         else:

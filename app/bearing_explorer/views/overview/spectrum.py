@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.plots.levels import (
     FREQUENCY,
@@ -15,6 +15,7 @@ from bearing_explorer.plots.levels import (
     SHOWN,
     density_axis,
     drawn_levels,
+    levels_of_compared,
     seen_levels,
 )
 from bearing_explorer.plots.ranges import StickyRange
@@ -45,8 +46,8 @@ let room = 0
 try {{ room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width/6.5 }} catch {{}}
 return whole.length < room ? whole : name.length < room ? name : ''
 """
-_CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect', 'pinned'][row.which]"
-_OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK, style.FAINT_INK)
+_CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect'][row.which]"
+_OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK)
 
 
 def layers() -> list[Layer]:
@@ -57,6 +58,7 @@ def layers() -> list[Layer]:
     return [
         strips("overview_bands", of_band, 0.13, reads=("direction",)),
         *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
+        *compared_curves.curves("overview_spectrum", "frequency", *SHOWN, width=1.2),
         curve("overview_lines", "frequency", "x", blue),
         curve("overview_lines", "frequency", "y", orange),
         Words(
@@ -115,12 +117,14 @@ class OverviewSpectrum(View):
         top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.healthy_late_spectra, top)
-        shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn))
+        compared = levels_of_compared("overview_spectrum", results, top)
+        shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
         names = end_names(drawn, shown, top)
         if results.reference_label:
-            names += grey_name(healthy, drawn, shown, 2 if results.pinned is None else 3)
+            names += grey_name(healthy, drawn, shown)
         x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
         return {
+            **compared,
             "overview_lines": drawn,
             "overview_healthy_lines": healthy,
             "overview_bands": named_bands(results, top),
@@ -180,7 +184,6 @@ def grey_name(
     healthy: dict[str, NDArray[np.float64]],
     drawn: dict[str, NDArray[np.float64]],
     shown: tuple[float, float],
-    which: int,
 ) -> list[tuple[float, float, int]]:
     """Name of the grey curves, over one of their peaks, as far from all curves as it can be.
 
@@ -202,4 +205,4 @@ def grey_name(
     if not free:
         return []
     _, y, i = max(free)
-    return [(float(healthy["frequency"][i]), y + room, which)]
+    return [(float(healthy["frequency"][i]), y + room, 2)]

@@ -11,7 +11,7 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, layers, style
 from bearing_explorer.plots.matrix_cells import (
     PLACES,
     SYMBOLS,
@@ -128,6 +128,7 @@ class OverviewStiffness(View):
             text_color=style.FAINT_INK,
             **small,
         )
+        layers.draw(plot, packed, compared_curves.curves("overview_stiffness", "x", "y", width=1.3))
         for name, color, width in (
             ("healthy", style.HEALTHY, 1.3),
             ("lively", style.DEFECTIVE, 1.8),
@@ -140,32 +141,40 @@ class OverviewStiffness(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
+        answers = [found, healthy, *results.compared_equilibria]
         first, last, _ = results.stretch
-        pick = [_some(answer.cage_angles.size) for answer in (found, healthy)]
+        pick = [_some(answer.cage_angles.size) for answer in answers]
         shares = [
             (answer.cage_angles[some] - first) / (last - first)
-            for answer, some in zip((found, healthy), pick, strict=True)
+            for answer, some in zip(answers, pick, strict=True)
         ]
         share = (results.cage_angle - first) % (last - first) / (last - first)
-        scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
+        scales = term_sizes(lambda term: np.concatenate([e.term(term) for e in answers]))
         free = free_terms(found.dofs)
         is_held = np.array([dof not in found.dofs for dof in DOF_NAMES])[_DIRECTIONS]
         held = np.where(is_held[:, 0], _DIRECTIONS[:, 0], _DIRECTIONS[:, 1])
         lively = np.zeros(len(_CELLS))
         values = np.empty(len(_CELLS))
-        traces: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"healthy": [], "lively": []}
+        traces: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in answers]
         marks = np.full((2, len(_CELLS)), np.nan)
         for i, (cell, term, scale) in enumerate(zip(_CELLS, STIFFNESS_TERMS, scales, strict=True)):
-            a, b = cleaned(found.term(term), scale), cleaned(healthy.term(term), scale)
+            terms = [cleaned(answer.term(term), scale) for answer in answers]
             values[i] = cleaned(now.term(term), scale)[0]
-            lively[i] = term in free and is_lively(a, b, scale)
+            lively[i] = term in free and any(is_lively(terms[0], b, scale) for b in terms[1:])
             if lively[i]:
-                limits = trace_limits(self._limits[i], scale, a, b)
-                traces["lively"].append((cell.x(shares[0]), cell.y(a[pick[0]], limits)))
-                traces["healthy"].append((cell.x(shares[1]), cell.y(b[pick[1]], limits)))
+                limits = trace_limits(self._limits[i], scale, *terms)
+                for trace, share_of, some, values_of in zip(
+                    traces, shares, pick, terms, strict=True
+                ):
+                    trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
                 marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
+        drawn, reference, *compared = map(_with_gaps, traces)
         return {
-            **{f"overview_{name}": _with_gaps(lines) for name, lines in traces.items()},
+            **compared_curves.sources(
+                "overview_stiffness", ("x", "y"), compared, lambda line: line
+            ),
+            "overview_lively": drawn,
+            "overview_healthy": reference,
             "overview_terms": {
                 "right": _RIGHT,
                 "top": _TOP,

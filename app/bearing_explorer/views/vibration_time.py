@@ -54,8 +54,8 @@ class VibrationInTime(PassageView):
         ]
         names = event_names("vibration", EVENT_WORDS, ("enters",), NARROW)
         compared = compared_curves.curves("vibration", "time", *SHOWN, width=1.1)
-        lines = [event_lines("vibration"), *compared, *lines]
-        return [(ACCELERATION, 270, [*lines, names])]
+        layers = [event_lines("vibration"), *compared, *lines, names]
+        return [(ACCELERATION, 270, layers)]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
         lines = [

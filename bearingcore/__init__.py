@@ -23,7 +23,7 @@ from bearingcore.scene.load import Load
 from bearingcore.scene.presets import preset_notes, presets
 from bearingcore.scene.scene import CONTACT_LAWS, DOF_NAMES, Scene
 from bearingcore.scene.support import Support
-from bearingcore.signals.envelope_band import impulsive_band
+from bearingcore.signals.kurtogram import Kurtogram, kurtogram
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
 from bearingcore.statics.ball_positions import BallPositions, ball_positions, static_state
@@ -52,6 +52,7 @@ __all__ = [
     "Diagnosis",
     "Equilibrium",
     "Film",
+    "Kurtogram",
     "Life",
     "Limit",
     "Load",
@@ -80,7 +81,7 @@ __all__ = [
     "equilibrium",
     "film",
     "frequency_bands",
-    "impulsive_band",
+    "kurtogram",
     "life",
     "limits",
     "measure_extent",

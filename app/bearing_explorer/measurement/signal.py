@@ -5,6 +5,7 @@ As with `compute.results`, everything that is drawn of a measurement passes thro
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -16,23 +17,16 @@ from bearing_explorer.results.cache import cached
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.settings import Settings
 from bearingcore.common.lazy import cached_property
-from bearingcore.signals.envelope_band import PIECES
+from bearingcore.diagnosis.part.listened_signal import NARROWEST
 
 if TYPE_CHECKING:
-    from bearingcore import Motion, Recording, Scene, Spectrum
+    from bearingcore import Kurtogram, Motion, Recording, Scene, Spectrum
 
 SETTLING = 0.2
 """[s] of a simulated motion that are left out, when the start is forgotten."""
 
 ENVELOPE_LINES = 1600
 """Frequencies of an envelope spectrum that are drawn, at most."""
-
-PASSES_IN_BAND = 5.0
-"""The lowest band for envelopes begins at so many times the ball-pass frequency: what is narrower
-cannot swell and fade with the balls."""
-
-HIGHEST_SHARE = 0.4
-"""Of the sample rate: above, the filter of a recorder may have worked."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +77,7 @@ class Measured:
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False
     )
-    _bands: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, repr=False)
+    _kurtograms: dict[int, Kurtogram] = field(default_factory=dict, repr=False)
 
     @property
     def directions(self) -> tuple[str, ...]:
@@ -105,22 +99,15 @@ class Measured:
         frequency, density = self._spectra[resolution]
         return core.Spectrum(frequency, density[:, self.directions.index(direction)])
 
-    def band(self, direction: str, passing: float) -> tuple[float, float]:
-        """The band [Hz] in which to listen for balls that pass `passing` [Hz] times a second."""
+    def kurtogram(self, direction: str) -> Kurtogram:
+        """Kurtogram of the signal along a direction."""
         column = self.directions.index(direction)
-        if (column, passing) not in self._bands:
-            rate = self.recording.sample_rate
-            highest = HIGHEST_SHARE * rate
-            lowest = min(max(PASSES_IN_BAND * passing, 1e-3 * rate), 0.5 * highest)
-            signal = self.recording.acceleration[:, column]
-            long_enough = len(signal) >= 64 * PIECES
-            found = (
-                core.impulsive_band(signal, rate, lowest, highest)
-                if long_enough
-                else (lowest, highest)
-            )
-            _put(self._bands, (column, passing), found)
-        return self._bands[column, passing]
+        if column not in self._kurtograms:
+            recording = self.recording
+            turning = NARROWEST * self.shaft_speed / (2.0 * math.pi)
+            signal = recording.acceleration[:, column]
+            self._kurtograms[column] = core.kurtogram(signal, recording.sample_rate, turning)
+        return self._kurtograms[column]
 
     def envelope_resolution(self, top: float) -> float:
         """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""

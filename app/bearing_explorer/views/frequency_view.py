@@ -1,4 +1,4 @@
-"""A measured and a simulated signal over frequency: figures, lines, and their choices."""
+"""A measured signal over frequency: its lines, a cursor, the model over it, and their choices."""
 
 from __future__ import annotations
 
@@ -15,40 +15,37 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
+from bearing_explorer.plots.frequency_cursor import FrequencyCursor
 from bearing_explorer.plots.layers import Layer, add_all, curve, nothing, sources_of
-from bearing_explorer.plots.levels import (
-    DEPTH_OF_VIEW,
-    FREQUENCY,
-    HIGHEST,
-    LEVEL_FLOOR,
-    SHOWN,
-    decibels,
-)
+from bearing_explorer.plots.levels import FREQUENCY, HIGHEST, LEVEL_FLOOR, SHOWN
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import FAMILIES, FrequencyLines, of_rows
-from bearing_explorer.views.measured_view import MEASURED, MeasuredView
+from bearing_explorer.views.frequency_lines import (
+    FAMILIES,
+    FrequencyLines,
+    fundamentals,
+    of_rows,
+)
+from bearing_explorer.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure
 HEIGHT = 300
 SCALES = ("dB", "linear")
-AXES = {
-    "dB": (
-        style.AxisQuantity("Density", "S", "dB re 1 (m/s²)²/Hz"), "level", (-80.0, -20.0),
-    ),
-    "linear": (
-        style.AxisQuantity("Amplitude density", "√S", "m/s²/√Hz", prefixed=True),
-        "height", (0.0, 1.0),
-    ),
-}  # fmt: skip
-"""Quantity, name and first range of the axis of each scale."""
+AXES = {"dB": ("level", (-80.0, -20.0)), "linear": ("height", (0.0, 1.0))}
+"""Name and first range of the axis of each scale."""
+AMPLITUDE = style.AxisQuantity("Amplitude", "A", "")
+ORDER = style.AxisQuantity("Order, turns of the shaft", "", "")
+DEPTH_OF_VIEW = 80.0  # [dB] below the highest line
 RESOLUTIONS = ("32", "8", "2")
 MOST_LINES = 3000
 """Of a spectrum that are drawn."""
+HANN_WIDTH = 1.5
+"""Noise bandwidth of Hann's window, in lines."""
 
 
 ALONG: LookField = {
@@ -63,24 +60,38 @@ SCALE: LookField = {
     "label": "Scale",
     "options": [["dB", "dB"], ["linear", "linear"]],
 }
+AXIS: LookField = {
+    "kind": "one",
+    "name": "axis",
+    "label": "Axis",
+    "options": [["Hz", "Hz"], ["orders", "orders"]],
+}
 LINES: LookField = {
     "kind": "some",
     "name": "lines",
     "label": "Lines",
     "options": [[family.name, family.title, family.color] for family in FAMILIES],
 }
+MODEL: LookField = {
+    "kind": "some",
+    "name": "overlay",
+    "label": "Simulated",
+    "options": [["model", "the scene, scaled", style.color_along("y")]],
+}
 """Choices above the figures."""
 
 
 @dataclass(frozen=True)
 class Look:
-    """Choices above a spectrum."""
+    """Choices above a spectrum; without a `direction` it is the one that shows most."""
 
-    direction: str = "y"
+    direction: str = ""
     scale: str = "dB"
     resolution: str = "32"
     lines: tuple[str, ...] = ("bpfo",)
     band: tuple[float | None, float | None] = (None, None)
+    axis: str = "Hz"
+    overlay: tuple[str, ...] = ()
 
 
 def look_values(look: Look) -> dict[str, Any]:
@@ -93,12 +104,17 @@ def look_values(look: Look) -> dict[str, Any]:
         "lines": list(look.lines),
         "low": low,
         "high": high,
+        "axis": look.axis,
+        "overlay": list(look.overlay),
     }
 
 
 @dataclass(frozen=True)
 class Shown:
-    """Content of a figure: spectra up to `top` [Hz], and remarks on them."""
+    """Content of a figure: spectra up to `top` [Hz], and remarks on them.
+
+    `share`: by how much the simulated amplitudes are multiplied to be drawn over the measured ones.
+    """
 
     direction: str
     top: float
@@ -107,15 +123,17 @@ class Shown:
     resolution: float
     why_not: str = ""
     band: tuple[float, float] | None = None
+    share: float = 1.0
 
 
 class FrequencyView(MeasuredView):
-    """Common parts of spectra: figures in decibels and linear, lines, and choices."""
+    """Common parts of spectra: figures in decibels and linear, lines, a cursor, and choices."""
 
     prefix: ClassVar[str]
     fields: ClassVar[list[LookField]]
     first_look: ClassVar[Look]
     needs = frozenset({"spectra"})
+    without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         self.look = self.first_look
@@ -128,21 +146,25 @@ class FrequencyView(MeasuredView):
         self._plots = {
             scale: style.make_figure(
                 FREQUENCY,
-                quantity,
+                AMPLITUDE,
                 frequency,
                 packed.range(f"{p}_{name}", *first),
                 height=HEIGHT,
                 name=f"{p}_drawing_{scale}",
             )
-            for scale, (quantity, name, first) in AXES.items()
+            for scale, (name, first) in AXES.items()
         }
-        self._lines = FrequencyLines(packed, p, list(self._plots.values()), FRAME)
-        self.decorate(packed, list(self._plots.values()))
+        plots = list(self._plots.values())
+        self._lines = FrequencyLines(packed, p, plots, FRAME)
+        self.decorate(packed, plots)
         for scale, plot in self._plots.items():
             add_all(plot, sources, layers[scale])
+        self._cursor = FrequencyCursor(packed, p, self._plots, sources[f"{p}_measured"])
         self.panel_of_look = LookPanel(self.look_changed, self.fields)
-        whole = {"sizing_mode": "stretch_width", "margin": 0}
-        self.hidden = pn.Column(self.panel_of_look, *self._plots.values(), visible=False, **whole)
+        whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self.hidden = pn.Column(
+            self.panel_of_look, *plots, self._cursor.controls, visible=False, **whole
+        )
         self._show_look()
         return self.hidden
 
@@ -151,7 +173,7 @@ class FrequencyView(MeasuredView):
         p = self.prefix
         return [
             *(
-                curve(f"{p}_simulated_{dof}", "frequency", scale, style.color_along(dof), 2.4)
+                curve(f"{p}_simulated_{dof}", "frequency", scale, style.color_along(dof), 1.6)
                 for dof in SHOWN
             ),
             curve(f"{p}_measured", "frequency", scale, MEASURED, 1.2, alpha=0.9),
@@ -168,6 +190,19 @@ class FrequencyView(MeasuredView):
         """The spectra as the look has them."""
         raise NotImplementedError
 
+    def with_model(self, shown: Shown, simulate: Any) -> Shown:
+        """The model over the measured spectrum where it is switched on, with its scale."""
+        if not self.look.overlay:
+            return shown
+        try:
+            simulated = simulate()
+        except ValueError as error:
+            return replace(shown, why_not=sentence_of(error))
+        if simulated is None:
+            return replace(shown, why_not="The scene does not move along this direction.")
+        share = scale_of(shown.measured, simulated, 1.5 * shown.resolution, shown.top)
+        return replace(shown, simulated=simulated, share=share)
+
     # The look
 
     def look_changed(self, name: str, value: Any) -> None:
@@ -182,8 +217,10 @@ class FrequencyView(MeasuredView):
             self.measurement.redraw()
 
     def _looked(self, name: str, value: Any) -> Look:
-        if name in ("direction", "scale", "resolution"):
+        if name in ("direction", "scale", "resolution", "axis"):
             return replace(self.look, **{name: value})
+        if name == "overlay":
+            return replace(self.look, overlay=tuple(value))
         if name == "lines":
             known = [family.name for family in FAMILIES]
             return replace(self.look, lines=tuple(line for line in known if line in value))
@@ -195,7 +232,12 @@ class FrequencyView(MeasuredView):
 
     def choices(self) -> dict[str, Any]:
         first = look_values(self.first_look)
-        return {k: v for k, v in look_values(self.look).items() if v != first[k]}
+        look = self.look
+        if self.measured is not None:  # what the diagnosis chose is not known elsewhere
+            look = replace(
+                look, direction=self.direction_of(self._results, self.measured, look.direction)
+            )
+        return {k: v for k, v in look_values(look).items() if v != first[k]}
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
         for name, value in choices.items():
@@ -204,18 +246,21 @@ class FrequencyView(MeasuredView):
     def _show_look(self) -> None:
         look, measured = self.look, self.measured
         directions = measured.directions if measured is not None else SHOWN
-        seen = look.direction if look.direction in directions else directions[0]
+        seen = (
+            directions[-1]
+            if measured is None
+            else self.direction_of(self._results, measured, look.direction)
+        )
         self.panel_of_look.show(
             look_values(look) | {"direction": seen},
             disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
         )
+        unit = "" if measured is None else shown_unit(measured)[0]
         for scale, plot in self._plots.items():
             plot.visible = scale == look.scale
-
-    def direction(self, measured: Measured) -> str:
-        """The direction that is shown: the one chosen, where it was measured."""
-        chosen = self.look.direction
-        return chosen if chosen in measured.directions else measured.directions[0]
+            label = f"dB re 1 {unit}".replace("units", "unit") if scale == "dB" else unit
+            plot.yaxis[0].axis_label = replace(AMPLITUDE, unit=label).label()
+            plot.xaxis[0].axis_label = (FREQUENCY if look.axis == "Hz" else ORDER).label()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -227,14 +272,16 @@ class FrequencyView(MeasuredView):
         p, measured, look = self.prefix, self.measured, self.look
         if measured is None:
             empty = nothing([layer for scale in SCALES for layer in self._layers(scale)])
-            return empty | self._lines.nothing() | self.decoration(None, None), {}
+            empty |= self._lines.nothing() | self._cursor.nothing()
+            return empty | self.decoration(None, None), {}
         shown = self.shown(results, measured)
         lines = of_rows(measured.scene(results.scene))
         top, resolution = shown.top, shown.resolution
-        sources: Sources = {f"{p}_measured": curves(shown.measured, top)}
+        factor = 1.0 / shown_unit(measured)[1]
+        sources: Sources = {f"{p}_measured": curves(shown.measured, top, factor)}
         for dof in SHOWN:
             own = shown.simulated if dof == shown.direction else None
-            sources[f"{p}_simulated_{dof}"] = curves(own, top)
+            sources[f"{p}_simulated_{dof}"] = curves(own, top, shown.share * factor)
         both = [sources[f"{p}_measured"], sources[f"{p}_simulated_{shown.direction}"]]
         # the scale leaves a slow drift out
         seen = [part["frequency"] > 1.5 * resolution for part in both]
@@ -247,51 +294,88 @@ class FrequencyView(MeasuredView):
         lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
         head = (loudest - lowest) * room / (1.0 - room) + 3.0
         greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
+        turn = measured.shaft_speed / (2.0 * math.pi)
+        per = turn if look.axis == "orders" else 1.0  # [Hz] that a 1 on the axis is
         ranges = {
-            f"{p}_frequency": (0.0, top),
+            f"{p}_frequency": (0.0, top / per),
             f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
             f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
         }
         sources |= self._lines.columns(lines, look.lines, top)
-        return sources | self.decoration(results, shown), ranges
+        sources |= self.decoration(results, shown)
+        for columns in sources.values():
+            for name in {"frequency", "low", "high", "label_at"} & set(columns):
+                columns[name] = columns[name] / per
+        cage = fundamentals(measured.scene(results.scene))["ftf"]
+        return sources | self._cursor.columns(turn, cage, per), ranges
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         measured = self.measured
         if measured is None:
             return {}
         shown = self.shown(results, measured)
+        unit, size = shown_unit(measured)
+        words = unit.replace("/", "_per_").replace("²", "2") if measured.in_si else "as_in_file"
         table: dict[str, np.ndarray] = {}
-        unit = f"{shown.direction}_m2_per_s4_per_hz"
-        for name, spectrum in (("measured", shown.measured), ("simulated", shown.simulated)):
+        for name, spectrum, scale in (
+            ("measured", shown.measured, 1.0),
+            ("simulated_scaled", shown.simulated, shown.share),
+        ):
             if spectrum is not None:
                 kept = spectrum.frequency <= shown.top
+                amplitude = amplitudes(spectrum)[kept] * scale / size
                 table[f"{name}_frequency_hz"] = spectrum.frequency[kept]
-                table[f"{name}_density_{unit}"] = spectrum.density[kept]
+                table[f"{name}_amplitude_{shown.direction}_{words}"] = amplitude
         return table
 
-    def simulated_at(self, results: Results, measured: Measured) -> str:
-        """That the scene is simulated at another speed than the sliders have, if it is."""
-        ours, theirs = results.scene.shaft_speed, measured.shaft_speed
-        if math.isclose(ours, theirs, rel_tol=1e-4):
+    def words_on_model(self, results: Results, measured: Measured, shown: Shown) -> str:
+        """The scale of the simulated spectrum, and its speed where the sliders have another."""
+        if not self.look.overlay:
             return ""
-        return (
-            f" The scene is simulated at the measured {_hertz(theirs)} Hz, not at the "
-            f"{_hertz(ours)} Hz of the sliders."
-        )
+        words = f" {shown.why_not}".rstrip()
+        if shown.simulated is not None:
+            words += (
+                f" The simulated amplitudes are multiplied by {style.number(shown.share, 3)}, to "
+                "have the measured root mean square."
+            )
+        ours, theirs = results.scene.shaft_speed, measured.shaft_speed
+        if not math.isclose(ours, theirs, rel_tol=1e-4):
+            words += (
+                f" The scene is simulated at the measured {_hertz(theirs)} Hz, not at the "
+                f"{_hertz(ours)} Hz of the sliders."
+            )
+        return words
 
 
-def curves(spectrum: Spectrum | None, top: float) -> dict[str, NDArray[np.float64]]:
-    """A spectrum up to `top` [Hz] in both scales; of very fine ones each peak stays."""
+def amplitudes(spectrum: Spectrum) -> NDArray[np.float64]:
+    """Amplitude (peak) of a tone at each line of a spectrum with Hann's window."""
+    step = float(spectrum.frequency[1] - spectrum.frequency[0])
+    return np.asarray(np.sqrt(2.0 * HANN_WIDTH * step * spectrum.density))
+
+
+def scale_of(measured: Spectrum, simulated: Spectrum, low: float, top: float) -> float:
+    """The factor by which simulated amplitudes have the measured mean square in a range [Hz]."""
+    high = min(top, float(measured.frequency[-1]), float(simulated.frequency[-1]))
+    power = []
+    for frequency, density in (measured, simulated):
+        kept = (frequency >= low) & (frequency <= high)
+        power.append(float(density[kept].sum()) * float(frequency[1] - frequency[0]))
+    return math.sqrt(power[0] / power[1]) if power[1] > 0.0 else 1.0
+
+
+def curves(spectrum: Spectrum | None, top: float, factor: float) -> dict[str, NDArray[np.float64]]:
+    """Amplitudes up to `top` [Hz] in both scales; of very fine spectra each peak stays."""
     if spectrum is None:
         return dict.fromkeys(("frequency", *SCALES), np.zeros(0))
     kept = spectrum.frequency <= top
-    frequency, density = spectrum.frequency[kept], spectrum.density[kept]
+    frequency, amplitude = spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
     size = math.ceil(frequency.size / MOST_LINES)
     if size > 1:
         n = frequency.size // size * size
-        frequency = frequency[:n].reshape(-1, size)[:, size // 2]
-        density = density[:n].reshape(-1, size).max(axis=1)
-    return {"frequency": frequency, "dB": decibels(density), "linear": np.sqrt(density)}
+        highest = amplitude[:n].reshape(-1, size).argmax(axis=1) + np.arange(0, n, size)
+        frequency, amplitude = frequency[highest], amplitude[highest]
+    level = 20.0 * np.log10(np.maximum(amplitude, 10.0 ** (LEVEL_FLOOR / 20.0)))
+    return {"frequency": frequency, "dB": level, "linear": amplitude}
 
 
 def _hertz(speed: float) -> str:

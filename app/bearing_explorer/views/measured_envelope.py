@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
-from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.frequency_lines import fundamentals, of_rows
-from bearing_explorer.views.frequency_view import ALONG, LINES, SCALE, FrequencyView, Look, Shown
+from bearing_explorer.views.frequency_view import (
+    ALONG,
+    AXIS,
+    LINES,
+    MODEL,
+    SCALE,
+    FrequencyView,
+    Look,
+    Shown,
+    amplitudes,
+)
+from bearing_explorer.views.measured_view import HIGHEST_SHARE, Demodulation, shown_unit
 from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
@@ -17,16 +27,18 @@ if TYPE_CHECKING:
 
 
 class MeasuredEnvelope(FrequencyView):
-    """Envelope spectrum of both in the demodulation band."""
+    """Envelope spectrum of the measured acceleration in the demodulation band."""
 
     name = "measured-envelope"
     prefix = "measured_envelope"
-    title = "Envelope spectrum, measured and simulated"
+    title = "Envelope spectrum"
     about = (
-        "How often impacts repeat. Each makes something ring, and the envelope of that rises: "
-        "lines at BPFO speak for the outer race, at BPFI for the inner race, at "
-        "twice BSF for a ball. Unless you give a band, it is the octave in which knocks stand "
-        "out most."
+        "How often impacts repeat. Dark: measured. Coloured: the scene. It is simulated once you "
+        "switch it on, and scaled to the measured root mean square. Each impact makes something "
+        "ring, and the envelope of that rises: lines at BPFO speak for the outer race, at BPFI "
+        "for the inner race, at twice BSF for a ball. The band is that of the diagnosis, or, "
+        "without one, where the kurtogram is highest; you can give another. A click puts a "
+        "cursor on a line."
     )
     first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
     fields: ClassVar[list[LookField]] = [
@@ -34,33 +46,34 @@ class MeasuredEnvelope(FrequencyView):
         SCALE,
         {"kind": "number", "name": "low", "label": "Band from", "hint": "auto"},
         {"kind": "number", "name": "high", "label": "to (Hz)", "hint": "auto"},
+        AXIS,
         LINES,
+        MODEL,
     ]
 
     def shown(self, results: Results, measured: Measured) -> Shown:
-        model = Simulated(results, measured)
-        first = fundamentals(model.scene)
-        direction = self.direction(measured)
-        band = self.band(measured, direction, first["bpfo"])
+        first = fundamentals(measured.scene(results.scene))
+        direction = self.direction_of(results, measured, self.look.direction)
+        band = self.band(results, measured, direction).band
         nyquist = 0.5 * measured.recording.sample_rate
         top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
         top = min(top, 0.8 * nyquist)
         spectrum = measured.envelope(direction, band, top)
-        try:
-            simulated, why_not = model.envelope(direction, band, top), ""
-        except ValueError as error:
-            simulated, why_not = None, sentence_of(error)
-        resolution = measured.envelope_resolution(top)
-        return Shown(direction, top, spectrum, simulated, resolution, why_not, band)
+        shown = Shown(direction, top, spectrum, None, measured.envelope_resolution(top), band=band)
+        return self.with_model(
+            shown, lambda: Simulated(results, measured).envelope(direction, band, top)
+        )
 
-    def band(self, measured: Measured, direction: str, passing: float) -> tuple[float, float]:
-        """The demodulation band [Hz] as chosen; ends that are not given are found in the signal."""
+    def band(self, results: Results, measured: Measured, direction: str) -> Demodulation:
+        """The demodulation band [Hz] as chosen; ends that are not given are found."""
         low, high = self.look.band
-        if low is None or high is None:
-            best = measured.band(direction, passing)
-            low = low if low is not None else best[0] if high is None else 0.5 * high
-            high = high if high is not None else best[1] if low == best[0] else 2.0 * low
-        highest = 0.49 * measured.recording.sample_rate
+        if low is None and high is None:
+            return self.demodulation(results, measured, direction)
+        low = 0.5 * high if low is None and high is not None else low
+        high = 2.0 * low if high is None and low is not None else high
+        assert low is not None
+        assert high is not None
+        highest = HIGHEST_SHARE * measured.recording.sample_rate
         if not low < high:
             raise ValueError(
                 f"a band from {style.number(low, 6)} to {style.number(high, 6)} Hz is empty"
@@ -70,7 +83,17 @@ class MeasuredEnvelope(FrequencyView):
                 f"a band up to {style.number(high, 5)} Hz needs a faster sample rate; here it "
                 f"ends at {highest:.0f} Hz"
             )
-        return low, high
+        return Demodulation((low, high), "as chosen")
+
+    def choices(self) -> dict[str, Any]:
+        measured, results = self.measured, self._results
+        chosen = super().choices()
+        if measured is None or results is None or self.diagnosed(results) is None:
+            return chosen
+        # elsewhere there is no diagnosis
+        direction = self.direction_of(results, measured, self.look.direction)
+        low, high = self.band(results, measured, direction).band
+        return chosen | {"low": f"{low!r}", "high": f"{high!r}"}
 
     def sentence(self, results: Results) -> str:
         measured = self.measured
@@ -79,12 +102,12 @@ class MeasuredEnvelope(FrequencyView):
         shown = self.shown(results, measured)
         sets = of_rows(measured.scene(results.scene))
         assert shown.band is not None
-        chosen = "as chosen" if self.look.band != (None, None) else "where knocks stand out most"
         words = (
             f"Envelope along {shown.direction} between {shown.band[0]:.0f} and "
-            f"{shown.band[1]:.0f} Hz, {chosen}. "
+            f"{shown.band[1]:.0f} Hz, {self.band(results, measured, shown.direction).reason}. "
         )
-        return words + telling(shown, sets) + f" {shown.why_not}".rstrip()
+        words += telling(shown, sets, *shown_unit(measured))
+        return words + self.words_on_model(results, measured, shown)
 
 
 _PLACES = {
@@ -96,7 +119,7 @@ _PLACES = {
 _NEAR = 0.02  # slip, and what the shaft speed is off
 
 
-def telling(shown: Shown, sets: Sequence[Mapping[str, float]]) -> str:
+def telling(shown: Shown, sets: Sequence[Mapping[str, float]], unit: str, size: float) -> str:
     """The bearing frequency, a set a row, at the highest line of the envelope."""
     frequency, density = shown.measured
     lowest = max(2.5 * shown.resolution, 0.7 * min(first["ftf"] for first in sets))
@@ -104,7 +127,8 @@ def telling(shown: Shown, sets: Sequence[Mapping[str, float]]) -> str:
     if not seen.any():
         return "It holds no lines."
     at = float(frequency[seen][density[seen].argmax()])
-    words = f"Its highest line, at {style.number(at, 4)} Hz,"
+    height = float(amplitudes(shown.measured)[seen].max()) / size
+    words = f"Its highest line, {style.number(height, 3)} {unit} at {style.number(at, 4)} Hz,"
     lines = [
         (
             abs(at / (multiple * first[name]) - 1.0),

@@ -9,21 +9,23 @@ from bokeh.plotting import figure
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
-from bearing_explorer.plots.levels import HIGHEST, SHOWN, decibels
+from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
     ALONG,
+    AXIS,
     LINES,
+    MODEL,
     RESOLUTIONS,
     SCALE,
     FrequencyView,
     Look,
     Shown,
+    amplitudes,
 )
-from bearing_explorer.views.measured_view import write_over
-from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
+from bearing_explorer.views.measured_view import shown_unit, write_over
+from bearing_explorer.views.modes import BAND_WORDS, bands_along
 from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
@@ -32,17 +34,18 @@ if TYPE_CHECKING:
 
 
 class MeasuredSpectrum(FrequencyView):
-    """Power spectral density of the measured and of the simulated acceleration."""
+    """Amplitude spectrum of the measured acceleration, up to half the sample rate."""
 
     name = "measured-spectrum"
     prefix = "measured_spectrum"
-    title = "Spectrum, measured and simulated"
+    title = "Spectrum of the signal"
     about = (
-        "Measured (thin), and what the scene gives (coloured). Shaded: the bands of the scene's "
-        "natural frequencies. Where measured resonances lie in the bands, the scene is like the "
-        "machine."
+        "Amplitudes of the vibration up to half the sample rate. Dark: measured. Coloured: the "
+        "scene. It is simulated once you switch it on, scaled to the measured root mean square, "
+        "with the bands of its natural frequencies shaded: where measured resonances lie in "
+        "them, the scene is like the machine. A click puts a cursor on a line."
     )
-    first_look = Look()
+    first_look = Look(resolution="8", lines=())
     fields: ClassVar[list[LookField]] = [
         ALONG,
         SCALE,
@@ -52,7 +55,9 @@ class MeasuredSpectrum(FrequencyView):
             "label": "Resolution",
             "options": [[resolution, f"{resolution} Hz"] for resolution in RESOLUTIONS],
         },
+        AXIS,
         LINES,
+        MODEL,
     ]
 
     def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
@@ -74,43 +79,35 @@ class MeasuredSpectrum(FrequencyView):
             f"{self.prefix}_bands_{dof}": dict.fromkeys(columns, np.zeros(0)) for dof in SHOWN
         }
         measured = self.measured
-        if results is None or shown is None or measured is None:
+        if results is None or shown is None or measured is None or shown.simulated is None:
             return sources
         bands = Simulated(results, measured).results.bands
         own = bands_along(bands, shown.direction, shown.top)
         return sources | {f"{self.prefix}_bands_{shown.direction}": own}
 
     def shown(self, results: Results, measured: Measured) -> Shown:
-        model = Simulated(results, measured)
-        direction = self.direction(measured)
+        direction = self.direction_of(results, measured, self.look.direction)
         resolution = measured.finest(float(self.look.resolution))
-        top = max(HIGHEST, 1.05 * highest(model.results.bands))
-        top = min(top, 0.5 * measured.recording.sample_rate)
-        spectrum = measured.spectrum(direction, resolution)
-        try:
-            simulated, why_not = model.spectrum(direction, resolution), ""
-        except ValueError as error:
-            simulated, why_not = None, sentence_of(error)
-        return Shown(direction, top, spectrum, simulated, resolution, why_not)
+        top = 0.5 * measured.recording.sample_rate
+        shown = Shown(direction, top, measured.spectrum(direction, resolution), None, resolution)
+        return self.with_model(
+            shown, lambda: Simulated(results, measured).spectrum(direction, resolution)
+        )
 
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
             return self.why_nothing
         shown = self.shown(results, measured)
-        words = f"Along {shown.direction} above 100 Hz the measured housing vibrates most "
-        words += _loudest(shown.measured, shown.top)
-        if shown.simulated is not None:
-            words += f", the simulated one {_loudest(shown.simulated, shown.top)}"
+        unit, size = shown_unit(measured)
+        words = f"Along {shown.direction} above 100 Hz the highest line is "
+        words += _highest(shown.measured, unit, size)
         words += f"; resolution {style.number(shown.resolution, 2)} Hz."
-        return f"{words} {shown.why_not}".strip() + self.simulated_at(results, measured)
+        return words + self.words_on_model(results, measured, shown)
 
 
-def _loudest(spectrum: Spectrum, top: float) -> str:
-    frequency, density = spectrum
-    audible = np.flatnonzero((frequency >= 100.0) & (frequency <= top))
-    if not audible.size:
-        return "below that"
-    most = audible[np.argmax(density[audible])]
-    level = style.number(float(decibels(density[most])), 2)
-    return f"at {frequency[most]:.0f} Hz ({level} dB)"
+def _highest(spectrum: Spectrum, unit: str, size: float) -> str:
+    amplitude = np.where(spectrum.frequency >= 100.0, amplitudes(spectrum), 0.0)
+    most = int(amplitude.argmax())
+    height = f"{style.number(float(amplitude[most]) / size, 3)} {unit}"
+    return f"at {spectrum.frequency[most]:.0f} Hz ({height})"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bokeh.models import ColumnDataSource, Range1d
@@ -12,11 +13,16 @@ from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.views.base import SessionParts, View
 from bearing_explorer.views.python_lines import code_of, lines_of, short
+from bearingcore.files.units import ACCELERATIONS
 
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
     from bearingcore import Scene
+    from bearingcore.diagnosis.part.evidence import EnvelopeLines
+
+HIGHEST_SHARE = 0.49
+"""Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
 
 MEASURED = style.INK
 """Colour of measured curves in figures with simulated ones."""
@@ -45,6 +51,26 @@ def write_over(
         text_font_size=style.SMALL_TEXT_SIZE, background_fill_color=style.PAPER,
         background_fill_alpha=0.85, level="annotation", **look,
     )  # fmt: skip
+
+
+def shown_unit(measured: Measured) -> tuple[str, float]:
+    """The unit in which amplitudes are shown, that of the file, and what it is [m/s²].
+
+    g where the file holds voltages or velocities; "units of the file" where its unit is not known.
+    """
+    if not measured.in_si:
+        return "units of the file", 1.0
+    unit = "m/s²" if measured.origin is None else measured.origin.unit
+    unit = unit if unit in ACCELERATIONS else "g"
+    return unit, ACCELERATIONS[unit]
+
+
+@dataclass(frozen=True)
+class Demodulation:
+    """The band [Hz] of an envelope, and the reason for it in words."""
+
+    band: tuple[float, float]
+    reason: str
 
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."
@@ -88,6 +114,34 @@ class MeasuredView(View):
             return ""
         knows_unit = there.origin is not None and there.origin.unit
         return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
+
+    def diagnosed(self, results: Results | None) -> EnvelopeLines | None:
+        """The envelope on which the diagnosis rests, once there is one."""
+        if self.measurement is None or results is None:
+            return None
+        found = self.measurement.diagnosis(results.scene.bearing)
+        return None if found is None else found.spectrum
+
+    def direction_of(self, results: Results | None, measured: Measured, chosen: str = "") -> str:
+        """The direction to show: the one chosen, or that of the diagnosis, or y."""
+        diagnosed = self.diagnosed(results)
+        wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
+        return next(one for one in wanted if one in measured.directions)
+
+    def demodulation(self, results: Results, measured: Measured, direction: str) -> Demodulation:
+        """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""
+        highest = HIGHEST_SHARE * measured.recording.sample_rate
+        diagnosed = self.diagnosed(results)
+        if diagnosed is not None:
+            low, high = diagnosed.band
+            along = f", along {diagnosed.direction}" if diagnosed.direction != direction else ""
+            reason = f"the band of the diagnosis{along}"
+        else:
+            passing = measured.scene(results.scene)
+            lowest = min(5.0 * passing.bearing.bpfo(passing.shaft_speed), 0.25 * highest)
+            low, high = measured.kurtogram(direction).best(lowest)
+            reason = "where the kurtogram is highest"
+        return Demodulation((low, min(high, highest)), reason)
 
     def python(self) -> str:
         """Lines of Python that read the file and make what is drawn."""

@@ -1,9 +1,8 @@
 // Head of a view: title, a line about it and the rest behind "?", and a menu that exports the figure:
-// pictures, numbers, Python; the numbers as a table to read, too.
+// pictures, numbers, Python; the numbers as a table to read, too. Enlarging it is in enlarge.js.
 
-const LAID_OUT = 150   // ms until figures have followed a change of their width
-const SENTENCE = 70    // px below enlarged figures
 const MOST_ROWS = 300  // of a table on the page; the file has all
+const PLACE = /angle|frequency|time/  // columns that say where a row is
 const UNITS = { n_m_per_rad: "N·m/rad", n_per_rad: "N/rad", n_per_m: "N/m", m_per_s2: "m/s²", deg: "°",
                 um: "µm", mm: "mm", hz: "Hz", ms: "ms", db: "dB", n: "N", s: "s", m: "m" }
 const WITH_UNIT = new RegExp(`^(.+)_(${Object.keys(UNITS).join("|")})$`)
@@ -52,9 +51,20 @@ export function render({ model }) {
   const views = () => model.picture
     ? [drawing_of(find_deep(opener.getRootNode().host.getRootNode(), "svg.picture"))]
     : figures_on_screen(model.figures)
+  // What a picture says of itself: its title, its key, the scene and the link to it.
+  const about = () => {
+    const { scene, link } = document.documentElement.dataset
+    return { title: model.title, key: model.line, scene, link }
+  }
+  const as_png = () => figures_as_png(views(), about())
+  const copy_picture = async () => {
+    const done = await copy_image(as_png())
+    announce("said", done ? "The picture is copied." : "This browser does not copy pictures; save it as PNG.")
+  }
   const pictures = [
-    item("png", "Picture (PNG)", async () => save_file(file("png"), await figures_as_png(views()))),
-    item("svg", "Drawing (SVG)", () => save_file(file("svg"), figures_as_svg(views(), model.title), "image/svg+xml")),
+    item("png", "Picture (PNG)", async () => save_file(file("png"), await as_png())),
+    item("svg", "Drawing (SVG)", () => save_file(file("svg"), figures_as_svg(views(), about()), "image/svg+xml")),
+    item("copy", "Copy picture", copy_picture),
   ]
   let wanted = "file"
   const ask_for = (what) => () => {
@@ -83,11 +93,15 @@ export function render({ model }) {
   const show_table = (text) => {
     const [names, ...lines] = csv_rows(text)
     const cells = (texts, tag) => element("tr", {}, ...texts.map((cell) => element(tag, {}, cell)))
+    // what is zero up to somewhere begins there
+    const says = (cells) => cells.some((cell, i) => !PLACE.test(names[i]) && Number(cell) !== 0 && cell !== "nan")
+    const first = Math.max(0, lines.findIndex(says) - 1), shown = lines.slice(first, first + MOST_ROWS)
     count.textContent = !text ? "Nothing is drawn yet."
-      : lines.length > MOST_ROWS ? `Rows 1 to ${MOST_ROWS} of ${lines.length}; the CSV file has all.`
+      : shown.length < lines.length ? `Rows ${first + 1} to ${first + shown.length} of ${lines.length}`
+        + `${first ? "; before them all values are zero" : ""}; the CSV file has all.`
       : `${lines.length} ${lines.length === 1 ? "row" : "rows"}`
     rows.replaceChildren(...(text ? [element("table", {}, element("thead", {}, cells(names.map(column_words), "th")),
-      element("tbody", {}, ...lines.slice(0, MOST_ROWS).map((line) => cells(line.map(cell_words), "td"))))] : []))
+      element("tbody", {}, ...shown.map((line) => cells(line.map(cell_words), "td"))))] : []))
     table.showModal()
     rows.focus()
   }
@@ -101,38 +115,7 @@ export function render({ model }) {
     copy.focus()
   })
 
-  // Over the whole screen and back: its figures share the height that is left.
-  const host = () => enlarge.getRootNode().host.getRootNode().host  // the view
-  const heights = new Map()  // of its figures, while it is enlarged
-  const resize = () => {
-    const plots = figures_on_screen(model.figures)
-    const rows = new Set(plots.map(({ el }) => Math.round(el.getBoundingClientRect().top))).size
-    const end = Math.max(...plots.map(({ el }) => el.getBoundingClientRect().bottom))
-    const more = Math.floor((innerHeight - end - SENTENCE) / rows)
-    for (const { model: plot } of more > 0 ? plots : []) {
-      heights.set(plot, plot.height)
-      if (plot.height) plot.setv({ height: plot.height + more }, { sync: false })
-    }
-  }
-  const set_large = (large) => {
-    const view = host()
-    view.popover = large ? "manual" : null
-    view.classList.toggle("enlarged", large)
-    enlarge.textContent = large ? "Close" : "Enlarge"
-    if (large) {
-      view.showPopover()
-      setTimeout(resize, LAID_OUT)
-    } else {
-      for (const [plot, height] of heights) plot.setv({ height }, { sync: false })
-      heights.clear()
-    }
-    enlarge.focus()
-  }
-  const enlarge = button("Enlarge", () => set_large(!host().matches(".enlarged")), { class: "enlarge" })
-  enlarge.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && host().matches(".enlarged")) set_large(false)
-  })
-  on_event("tab", enlarge, () => { if (host()?.matches(".enlarged")) set_large(false) })
+  const { enlarge, steps } = enlarging(model)
 
   const opener = element("button", { type: "button", class: "opener", "aria-haspopup": "menu",
                                      "aria-label": `Export “${model.title}”` }, "Export")
@@ -145,5 +128,5 @@ export function render({ model }) {
   })
   const menu = menu_of([...pictures, ...numbers, python], { class: "menu", "aria-label": `Export “${model.title}”` })
   opens_below(opener, menu, 190)
-  return element("header", {}, element("div", { class: "words" }, head, line, rest), enlarge, opener, menu, dialog, table)
+  return element("header", {}, element("div", { class: "words" }, head, line, rest), steps, enlarge, opener, menu, dialog, table)
 }

@@ -67,37 +67,88 @@ function with_own_ids(svg, mark) {
   return svg
 }
 
-// Views as one drawing, placed as on the page, with its size.
-function drawing_of_all(views, title = "") {
+const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif"
+const PAD = 12, LEAST_WIDTH = 420  // px
+
+// Lines of text as SVG, wrapped to a width; returns them and their height.
+function text_lines(words, size, color, width, looks = {}) {
+  const pen = document.createElement("canvas").getContext("2d")
+  pen.font = `${looks["font-weight"] ?? 400} ${size}px ${FONT}`
+  const lines = [""]
+  for (const word of words.split(/(?<=\s|&)/)) {  // a link is broken before its next part
+    const longer = lines.at(-1) + word
+    if (lines.at(-1) && pen.measureText(longer.trimEnd()).width > width) lines.push(word)
+    else lines[lines.length - 1] = longer
+  }
+  const step = Math.round(1.35 * size)
+  const made = lines.map((line, i) => {
+    const text = set_all(document.createElementNS(SVG, "text"),
+      { x: PAD, y: size + i * step, "font-size": size, "font-family": FONT, fill: color, ...looks })
+    text.textContent = line
+    return text
+  })
+  return { made, height: lines.length * step }
+}
+
+// Views as one drawing, placed as on the page. Above are title and key, below the scene and a link.
+function drawing_of_all(views, { title, key = "", scene = "", link = "" }) {
   const boxes = views.map((view) => view.el.getBoundingClientRect())
   const left = Math.min(...boxes.map((box) => box.left)), top = Math.min(...boxes.map((box) => box.top))
-  const width = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
-  const height = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
+  const wide = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
+  const high = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
+  const width = Math.max(wide, LEAST_WIDTH)
+  const look = getComputedStyle(document.documentElement)
+  const [ink, soft, paper] = ["--ink", "--ink-soft", "--card"].map((name) => look.getPropertyValue(name))
+  let height = PAD
+  const parts = []
+  const put = (words, size, color, looks) => {
+    if (!words) return
+    const { made, height: own } = text_lines(words, size, color, width - 2 * PAD, looks)
+    const group = set_all(document.createElementNS(SVG, "g"), { transform: `translate(0 ${height})` })
+    group.append(...made)
+    parts.push(group)
+    height += own + 3
+  }
+  put(title, 15, ink, { "font-weight": 620 })
+  put(key, 12, soft)
+  parts.push(...views.map((view, i) => set_all(with_own_ids(svg_of(view), `figure${i}`),
+    { x: boxes[i].left - left, y: boxes[i].top - top + height })))
+  height += high + 6
+  put(scene, 12, ink)
+  put(link, 11, soft)
+  height += PAD / 2
   const words = document.createElementNS(SVG, "title")
   words.textContent = title
   const whole = set_all(document.createElementNS(SVG, "svg"),
     { xmlns: SVG, width, height, viewBox: `0 0 ${width} ${height}`, role: "img" })
-  whole.append(words, ...views.map((view, i) => set_all(with_own_ids(svg_of(view), `figure${i}`),
-    { x: boxes[i].left - left, y: boxes[i].top - top })))
+  const ground = set_all(document.createElementNS(SVG, "rect"), { width: "100%", height: "100%", fill: paper })
+  whole.append(words, ground, ...parts)
   return { text: new XMLSerializer().serializeToString(whole), width, height }
 }
 
-const figures_as_svg = (views, title) => drawing_of_all(views, title).text
+const figures_as_svg = (views, about) => drawing_of_all(views, about).text
 
 // Twice as fine as the screen, or as fine as it is where that is finer.
-async function figures_as_png(views) {
-  const { text, width, height } = drawing_of_all(views)
+async function figures_as_png(views, about) {
+  const { text, width, height } = drawing_of_all(views, about)
   const scale = Math.max(2, window.devicePixelRatio)
   const canvas = Object.assign(document.createElement("canvas"), { width: width * scale, height: height * scale })
-  const context = canvas.getContext("2d")
-  context.fillStyle = "white"
-  context.fillRect(0, 0, canvas.width, canvas.height)
   const image = new Image()
   image.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }))
   await image.decode()
-  context.drawImage(image, 0, 0, canvas.width, canvas.height)
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height)
   URL.revokeObjectURL(image.src)
   return new Promise((done) => canvas.toBlob(done, "image/png"))
+}
+
+// Whether a picture that is on its way is on the clipboard.
+async function copy_image(png) {
+  try {
+    await navigator.clipboard.write([new ClipboardItem({ "image/png": png })])
+    return true
+  } catch {
+    return false
+  }
 }
 
 function save_file(name, content, type) {

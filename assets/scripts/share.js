@@ -147,6 +147,7 @@ export function render({ model }) {
     undo.disabled = !back
     redo.disabled = !again
     link.value = `${location.origin}${location.pathname}?${address}`
+    Object.assign(document.documentElement.dataset, { scene: model.state.scene, link: link.value })  // for pictures
     left_out.hidden = whole
     name.placeholder = model.state.usual_name
     compare.disabled = model.state.compared.length >= MOST_COMPARED
@@ -174,6 +175,7 @@ export function render({ model }) {
     if (place.tab !== from) announce("show", place.tab)
   }
   window.addEventListener("popstate", gone_back)
+  on_event("said", root, say)
   on_event("asked", root, ({ name }) => { if (name !== going) going = null })
   const failed = (error) => {
     console.warn("the report could not be made", error)

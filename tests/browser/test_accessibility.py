@@ -333,9 +333,9 @@ def test_menus_are_gone_through_by_keys(watch: tuple[Page, Watch], explorer: Ser
     opener.press("Enter")
     expect(opener).to_have_attribute("aria-expanded", "true")
     items = view.get_by_role("menuitem")
-    expect(items).to_have_count(5)
+    expect(items).to_have_count(6)
     expect(items.nth(0)).to_be_focused()
-    for key, index in (("ArrowDown", 1), ("End", 4), ("ArrowDown", 0), ("ArrowUp", 4)):
+    for key, index in (("ArrowDown", 1), ("End", 5), ("ArrowDown", 0), ("ArrowUp", 5)):
         page.keyboard.press(key)
         expect(items.nth(index)).to_be_focused()
     page.keyboard.press("Escape")

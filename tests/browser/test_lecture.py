@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import rest, slider, source
+from tests.browser.explorer_page import export, place, rest, slider, source
 from tests.browser.helpers import Server, Watch
 
 SOUNDS = """
@@ -83,3 +85,87 @@ def test_a_ball_crosses_the_defect_slowly_and_is_heard(
     loads = np.reshape(after["load"], (-1, n))
     frames, start = source(page, "slow_frames"), source(page, "slow_start")
     shown()
+
+
+RANGES = """() => {
+  const plot = Bokeh.documents[0].get_model_by_name('stiffness_drawing')
+  return [plot.x_range.start, plot.x_range.end, plot.y_range.start, plot.y_range.end,
+          plot.below[0].visible && plot.below[0].axis_label]
+}"""
+
+
+@pytest.mark.parametrize("by", ["click", "keys"])
+def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(
+    watch: tuple[Page, Watch], explorer: Server, by: str
+) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    open_tab(page, explorer, "stiffness")
+    view = page.locator(".view-stiffness")
+    whole = page.evaluate(RANGES)
+    if by == "click":
+        page.mouse.click(*place(page, "stiffness_drawing", 1.6, -1.5))
+    else:
+        view.get_by_role("button", name="Enlarge").press("Enter")
+        for _ in range(6):
+            page.keyboard.press("ArrowRight")
+    steps = view.get_by_role("group", name="Cells")
+    expect(steps).to_contain_text("kyy, 6 of 16")
+    left, right, bottom, top, label = page.evaluate(RANGES)
+    assert 1.0 < left < right < 2.0
+    assert -2.0 < bottom < top < -1.0
+    assert label == "kyy over cage angle φc (°)"
+    view.get_by_role("button", name="Next cell").click()
+    expect(steps).to_contain_text("kyz, 7 of 16")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowLeft")
+    expect(steps).to_contain_text("kxθy, 5 of 16")
+    page.keyboard.press("Escape")
+    expect(steps).to_be_hidden()
+    assert page.evaluate(RANGES) == whole
+
+
+def test_pictures_say_what_they_show(
+    watch: tuple[Page, Watch], explorer: Server, browser: BrowserContext
+) -> None:
+    page, _ = watch
+    open_tab(page, explorer, "load", "&extent_deg=20")
+    view = page.locator(".view-load-distribution")
+    export(view, "svg").wait_for()
+    with page.expect_download() as download:
+        view.locator(".save-svg").click()
+    svg = ElementTree.fromstring(download.value.path().read_text(encoding="utf-8"))
+    texts = ["".join(one.itertext()).strip() for one in svg.iter() if one.tag.endswith("text")]
+    said = " ".join(texts)
+    assert texts[0] == "Load distribution"
+    assert "Grey: the bearing without its defect" in said
+    assert "Fan rig, deep groove bearing: defect 20°, 50 µm; load 100 N at 270°; shaft 7 Hz" in said
+    assert f"{explorer.url}?v=1&preset=fan-rig&extent_deg=20" in said.replace(" ", "")
+    # the words are above and below the figure, not on it
+    height = float(svg.attrib["height"])
+    figure = next(one for one in svg if one.tag.endswith("svg"))
+    assert float(figure.attrib["y"]) > 40
+    assert float(figure.attrib["y"]) + float(figure.attrib["height"]) < height - 30
+    browser.grant_permissions(["clipboard-read", "clipboard-write"])
+    export(view, "copy").click()
+    expect(page.get_by_text("The picture is copied.")).to_be_visible()
+    size = page.evaluate(
+        """async () => {
+          const [item] = await navigator.clipboard.read()
+          const image = await createImageBitmap(await item.getType("image/png"))
+          return [image.width, image.height]
+        }"""
+    )
+    assert size == [2 * float(svg.attrib["width"]), 2 * height]
+    browser.clear_permissions()
+
+
+def test_a_table_begins_where_values_do(watch: tuple[Page, Watch], explorer: Server) -> None:
+    page, _ = watch
+    open_tab(page, explorer, "load")
+    view = page.locator(".view-load-distribution")
+    export(view, "table").click()
+    rows = view.locator("dialog[open] tbody tr")
+    assert float(rows.nth(0).locator("td").nth(1).inner_text()) == 0.0
+    assert float(rows.nth(1).locator("td").nth(1).inner_text()) > 0.0
+    expect(view.get_by_text("before them all values are zero")).to_be_visible()

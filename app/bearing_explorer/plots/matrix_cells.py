@@ -70,6 +70,23 @@ def sides_of(cells: Sequence[Cell]) -> dict[str, NDArray[np.float64]]:
     return {side: np.array([getattr(cell, side) for cell in cells]) for side in SIDES}
 
 
+Named = tuple[str, float, float, float, float]
+
+
+def named_cells(cells: Sequence[Cell]) -> list[Named]:
+    """Name and sides of the cells, one for each of NAMES."""
+    return [(name, c.left, c.right, c.bottom, c.top) for name, c in zip(NAMES, cells, strict=True)]
+
+
+def enlarge_on_click(plot: figure) -> None:
+    """Let a click on a cell fill the screen with it, see enlarge.js."""
+    code = """
+const detail = {figure: plot.id, x: cb_obj.x, y: cb_obj.y}
+window.dispatchEvent(new CustomEvent("explorer-cell", {detail}))
+"""
+    plot.js_on_event("tap", CustomJS(args={"plot": plot}, code=code))
+
+
 def matrix_figure(
     x: tuple[float, float], y: tuple[float, float], looks: str = "", **options: Any
 ) -> figure:

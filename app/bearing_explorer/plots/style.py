@@ -164,7 +164,7 @@ def make_figure(
         y_range=y_range,
         **({"min_height": height} if sizing_mode == "stretch_both" else {"height": height}),
         title=title,
-        tools="save",
+        tools="",
         toolbar_location="right",
         output_backend="canvas",
         sizing_mode=sizing_mode,

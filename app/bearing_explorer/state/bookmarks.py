@@ -25,7 +25,7 @@ from bearing_explorer.state.address import (
     read,
     write,
 )
-from bearing_explorer.state.compared import MOST_COMPARED, Compared, usual_name
+from bearing_explorer.state.compared import MOST_COMPARED, Compared, scene_line, usual_name
 from bearing_explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.state.history import History
 from bearing_explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
@@ -209,6 +209,7 @@ class Bookmarks:
             "undo": self._history.can_undo,
             "redo": self._history.can_redo,
             "compared": [one.name for one in self.compared],
+            "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": usual_name(self._editor.scene, self._editor.selected),
             "said": {"number": self._said[0], "words": self._said[1]},
         }

@@ -31,7 +31,7 @@ from typing import Any, ClassVar
 import numpy as np
 import panel as pn
 import param
-from bokeh.models import LayoutDOM, Plot, SaveTool
+from bokeh.models import LayoutDOM, Plot
 
 from bearing_explorer.assets import asset_path, asset_text, scripts
 from bearing_explorer.measurement.session import Measurement
@@ -69,6 +69,8 @@ class Caption(LiveComponent):
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
+    #: name, left, right, bottom and top of the cells that it enlarges one by one
+    cells = param.List(default=[])
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
     leads_to = param.String()
@@ -78,7 +80,7 @@ class Caption(LiveComponent):
     #: whether there is nothing at all to take along, no lines of Python either
     nothing = param.Boolean(default=False)
 
-    _esm = scripts("element.js", "menu.js", "figure_export.js", "caption.js")
+    _esm = scripts("element.js", "menu.js", "figure_export.js", "enlarge.js", "caption.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
 
 
@@ -143,6 +145,8 @@ class View:
     #: "unseen": for screen readers alone; "large"
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
+    #: name and sides of the cells of its drawing, one of which at a time can fill the screen
+    cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
     #: result of a job of the view
     found: Any = None
     #: whether `choose` computes the content of the view
@@ -172,6 +176,7 @@ class View:
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
             picture=self.picture,
+            cells=[list(cell) for cell in self.cells],
             compact=self.compact,
             leads_to=self.leads_to,
             sizing_mode="stretch_width",
@@ -181,9 +186,6 @@ class View:
         #: the names of compared scenes, a key a figure that draws them
         self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
-            for tool in plot.toolbar.tools:
-                if isinstance(tool, SaveTool):
-                    tool.filename = f"bearing-{self.name}"
             zoomable(plot, self.equal_aspect)
         self.panel: pn.viewable.Viewable = pn.Column(
             self._caption,

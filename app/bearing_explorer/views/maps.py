@@ -64,6 +64,8 @@ def _bar(cell: Cell) -> Cell:
     return Cell(cell.right + 0.02, cell.right + 0.02 + width, cell.bottom, cell.top)
 
 
+BAR_NUMBERS = 0.1
+"""Room for the numbers of a scale of colours, right of it."""
 _BARS = [_bar(cell) for cell in _CELLS]
 
 _SCALE_OF = """
@@ -88,6 +90,9 @@ class StiffnessMaps(View):
         "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
+    cells = matrix_cells.named_cells(
+        [Cell(c.left, _bar(c).right + BAR_NUMBERS, c.bottom, c.top) for c in _CELLS]
+    )
 
     def build(self, packed: PackedSource) -> Any:
         """One canvas for all maps."""

@@ -52,15 +52,18 @@ class Stiffness(View):
     about = (
         "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
         "5×5 stiffness matrix: displacements are the columns, "
-        "loads the rows. Grey: {grey}."
+        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
+    cells = matrix_cells.named_cells(_FRAMES)
 
     def build(self, packed: PackedSource) -> Any:
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
-        plot = matrix_cells.matrix_figure((-0.05, 5.03), (-5.08, 0.0), height=524)
+        plot = matrix_cells.matrix_figure(
+            (-0.05, 5.03), (-5.08, 0.0), height=524, name="stiffness_drawing"
+        )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
         healthy = packed.source("stiffness_healthy", "x", "y")
@@ -75,6 +78,7 @@ class Stiffness(View):
         plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
         units = [*UNITS, ""]
         matrix_cells.axes_when_zoomed(plot, _FRAMES, _SCALE_OF, [cells, axis], units=units)
+        matrix_cells.enlarge_on_click(plot)
         return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

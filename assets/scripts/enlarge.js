@@ -1,0 +1,80 @@
+// A view over the whole screen and back: its figures share the height that is left. A drawing of many
+// cells shows one of them with its axes, and arrows lead to the next.
+
+const LAID_OUT = 150   // ms until figures have followed a change of their width
+const SENTENCE = 70    // px below enlarged figures
+
+function enlarging(model) {
+  const host = () => enlarge.getRootNode().host?.getRootNode().host  // the view
+  const is_large = () => Boolean(host()?.matches(".enlarged"))
+  const heights = new Map()  // of its figures, while it is enlarged
+  const resize = () => {
+    const plots = figures_on_screen(model.figures)
+    const rows = new Set(plots.map(({ el }) => Math.round(el.getBoundingClientRect().top))).size
+    const end = Math.max(...plots.map(({ el }) => el.getBoundingClientRect().bottom))
+    const more = Math.floor((innerHeight - end - SENTENCE) / rows)
+    for (const { model: plot } of more > 0 ? plots : []) {
+      heights.set(plot, plot.height)
+      if (plot.height) plot.setv({ height: plot.height + more }, { sync: false })
+    }
+  }
+
+  let cell = -1  // the one that fills the drawing; -1 if all are shown
+  const name = element("span", { "aria-live": "polite" })
+  const show_cell = (number) => {
+    const [view] = figures_on_screen(model.figures)
+    if (!view) return
+    cell = number < 0 ? -1 : number % model.cells.length
+    const [words, ...sides] = model.cells[cell] ?? ["All"]
+    const { x_range, y_range } = view.model
+    const home = [x_range.reset_start, x_range.reset_end, y_range.reset_start, y_range.reset_end]
+    const [left, right, bottom, top] = cell < 0 ? home : sides
+    x_range.setv({ start: left, end: right })
+    y_range.setv({ start: bottom, end: top })
+    name.textContent = cell < 0 ? words : `${words}, ${cell + 1} of ${model.cells.length}`
+  }
+  const step = (by) => show_cell(cell < 0 ? (by > 0 ? 0 : model.cells.length - 1) : (cell + by + model.cells.length) % model.cells.length)
+  const steps = element("span", { class: "steps", role: "group", "aria-label": "Cells", hidden: "" },
+    button("\u2039", () => step(-1), { "aria-label": "Previous cell", title: "Previous (\u2190)" }), name,
+    button("\u203a", () => step(1), { "aria-label": "Next cell", title: "Next (\u2192)" }),
+    button("All", () => show_cell(-1), { "aria-label": "All cells" }))
+
+  const set_large = (large) => {
+    const view = host()
+    view.popover = large ? "manual" : null
+    view.classList.toggle("enlarged", large)
+    enlarge.textContent = large ? "Close" : "Enlarge"
+    steps.hidden = !(large && model.cells.length)
+    if (large) {
+      view.showPopover()
+      setTimeout(resize, LAID_OUT)
+    } else {
+      for (const [plot, height] of heights) plot.setv({ height }, { sync: false })
+      heights.clear()
+    }
+    if (model.cells.length) show_cell(-1)
+    enlarge.focus()
+  }
+  const enlarge = button("Enlarge", () => set_large(!is_large()), { class: "enlarge" })
+  const keys = (event) => {
+    if (!enlarge.isConnected) return removeEventListener("keydown", keys)
+    if (!is_large() || event.defaultPrevented) return
+    const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key]
+    const [at] = event.composedPath()
+    if (event.key === "Escape" && !at.closest?.("dialog, [popover=auto]")) set_large(false)
+    else if (by && model.cells.length && !at.matches?.("input, select, [role=menuitem]")) {
+      event.preventDefault()
+      step(by)
+    }
+  }
+  addEventListener("keydown", keys)
+  on_event("tab", enlarge, () => { if (is_large()) set_large(false) })
+  on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
+    if (!model.figures.includes(figure) || cell >= 0) return
+    const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)
+    if (at < 0) return
+    if (!is_large()) set_large(true)
+    show_cell(at)
+  })
+  return { enlarge, steps }
+}

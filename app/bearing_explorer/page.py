@@ -44,6 +44,7 @@ from bearing_explorer.views.overview.bearing import OverviewBearing
 from bearing_explorer.views.overview.change import LastChange
 from bearing_explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.views.overview.stiffness import OverviewStiffness
+from bearing_explorer.views.paper import PaperFigures
 from bearing_explorer.views.sizing import DefectSize
 from bearing_explorer.views.slow_passage import SlowPassage
 from bearing_explorer.views.speed_run import SpeedRunSpectra
@@ -86,6 +87,7 @@ SECTIONS = (
         ),
     ),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels), "How sure"),
+    Section("paper", "Paper", (PaperFigures,)),
 )
 """The tabs; a group goes on until the next begins.
 

@@ -13,8 +13,9 @@ from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.results import compiling
 from bearing_explorer.results.results import Results
+from bearing_explorer.state.address import Place
 from bearing_explorer.state.bearing_list import read_table
-from bearing_explorer.state.bookmarks import Bookmarks, open_request_of, read_request
+from bearing_explorer.state.bookmarks import Bookmarks, OpenRequest, open_request_of, read_request
 from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from bearing_explorer.views.base import View
@@ -220,6 +221,14 @@ class Requests:
                 ),
             )
         self.change_scene(message)  # the mark, and a reset
+
+    def open_link(self, name: str, text: str) -> None:
+        """Open what a link of the page's own holds, and its tab."""
+        request = OpenRequest("open", name, text)
+        place = read_request(request)
+        self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
+        if isinstance(place, Place):
+            self._page.show_tab({"show": place.tab})
 
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make a report; `base` is the address of the page without its query.

@@ -132,6 +132,7 @@ class Explorer:
             ask=self.requests.change_scene,
             add_controls=self.requests.panels.append,
             take_steps=self._take_steps,
+            open_link=self.requests.open_link,
             set_life_inputs=self._set_life_inputs,
         )
 

@@ -45,7 +45,7 @@ export function render({ model }) {
 
   // Steps
   const undo = tool("Undo", "Undo the last step (Ctrl+Z)", asks({ undo: true }))
-  const redo = tool("Redo", "Do it again (Ctrl+Shift+Z or Ctrl+Y)", asks({ redo: true }))
+  const redo = tool("Redo", "Do it again (Ctrl+Shift+Z or Ctrl+Y)", asks({ redo: true }), { class: "redo" })
   const reset = tool("Reset", "Back to the numbers of this bearing", asks({ reset: true }))
 
   // Share: the link

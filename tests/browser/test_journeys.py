@@ -692,6 +692,22 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     other.close()
 
 
+def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor, explorer: Server) -> None:
+    visitor.open(explorer, FAN_RIG + "paper")
+    visitor.press("Figure 10")
+    visitor.reads(re.compile("^Figure 10: "))
+    assert visitor.number("Extent") == 38.6
+    visitor.press("Figure 4")
+    visitor.reads(re.compile("^Figure 4: .* Blue: 70°"))
+    visitor.wait(lambda: len(visitor.figures()) == 15 and "blank" not in visitor.figures())
+    visitor.reads("100 to 260 MN/m")
+    visitor.reads(re.compile("^Where the paper slips"))
+    assert visitor.number("Extent") == 70.0
+    visitor.press(re.compile("^Open it on the tab Stiffness"))
+    expect(visitor.page.get_by_role("tab", name="Stiffness", selected=True)).to_be_visible()
+    visitor.wait(lambda: _keys(visitor) == ["5°, 50 µm, 40°, 50 µm"])
+
+
 def _keys(visitor: Visitor) -> list[str]:
     """The names of compared scenes in the keys of figures, one text a figure."""
     found: list[str] = visitor.page.evaluate(

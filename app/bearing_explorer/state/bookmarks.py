@@ -162,6 +162,7 @@ class Bookmarks:
         except ValueError as error:
             self.say(f"{request.name}: {sentence_of(error)}")
             return False
+        self.compared = found.compared or self.compared
         self.say(found.note or f"{request.name} is open.")
         self.step()
         return True

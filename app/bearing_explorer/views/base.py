@@ -113,6 +113,8 @@ class SessionParts:
         has a panel of controls follow the scene.
     take_steps
         sets the step rate [Hz] of time integration; None: the program's own.
+    open_link
+        opens what a link holds: a scene, compared ones, a tab; by a name and the link's text.
     set_life_inputs
         sets the data of steel, oil and surfaces.
     """
@@ -124,6 +126,7 @@ class SessionParts:
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
     take_steps: Callable[[float | None], None]
+    open_link: Callable[[str, str], None]
     set_life_inputs: Callable[[LifeInputs], None]
 
 

@@ -78,6 +78,7 @@ TABS = {
     "Model": (2, 0, None, None),
     "Diagnosis": (5, 0, None, None),
     "Accuracy": (2, 10, None, None),
+    "Paper": (1, 3, None, None),
 }
 
 

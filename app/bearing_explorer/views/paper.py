@@ -28,10 +28,13 @@ from bearingcore import Scene
 
 _OF_COMPARED = tuple(zip(("Green", "Pink"), compared_curves.COLORS, strict=False))
 _GRID = """
-:host {{ display: grid; grid-template-columns: repeat({columns}, minmax(0, 1fr)); }}
+:host {{
+  display: grid;
+  grid-template-columns: repeat(auto-fit, minmax(max(270px, calc(100% / {columns} - 1px)), 1fr));
+}}
 .scroll-button {{ display: none; }}
-@media (max-width: 760px) {{ :host {{ grid-template-columns: minmax(0, 1fr); }} }}
 """
+"""As many columns as in the paper, fewer where a panel would be too narrow."""
 
 
 class PaperFigures(View):
@@ -174,7 +177,7 @@ def _plot(panel: Panel, figure: PaperFigure) -> bokeh.plotting.figure:
     x0, x1, y0, y1 = panel.shown
     ranges = Range1d(x0, x1), Range1d(y0, y1)
     if not panel.title:
-        plot = style.bare_figure(*ranges, height=420, sizing_mode="fixed", width=500)
+        plot = style.bare_figure(*ranges, height=280, sizing_mode="fixed", width=330)
     else:
         plot = style.make_figure(
             panel.x, panel.y, *ranges, height=230, title=panel.title, min_width=200

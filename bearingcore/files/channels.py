@@ -106,7 +106,11 @@ def words_of(heading: str) -> set[str]:
 
 
 def choose(
-    columns: Sequence[Column], moving: Sequence[bool], why: str, file_name: str = ""
+    columns: Sequence[Column],
+    moving: Sequence[bool],
+    why: str,
+    file_name: str = "",
+    place: str = "",
 ) -> Choice:
     """The columns that are likely this bearing's, or the question which they are.
 
@@ -122,6 +126,8 @@ def choose(
         the directions of the columns are known.
     file_name
         which may say which place it is about.
+    place
+        that of the bearing, where it is known.
     """
     signals = [
         index
@@ -138,13 +144,19 @@ def choose(
         return Choice({}, "", words)
     places = {columns[index].place for index in signals} - {""}
     if len(places) > 1:
+        said = place_in(file_name)
+        place = said or place
+        there = [index for index in signals if place and columns[index].place == place]
+        if there:
+            return _by_direction(columns, there, f"the file's name says {said}" if said else why)
         known = ", ".join(sorted(places))
         question = f"The file holds signals of several places ({known}). Which is at this bearing?"
-        place = place_in(file_name)
-        there = [index for index in signals if columns[index].place == place]
-        if place and len(there) == 1:
-            return Choice({"y": there[0]}, f"the file's name says {place}", question)
         return Choice({}, "", question)
+    return _by_direction(columns, signals, why)
+
+
+def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
+    """Signals of one place by their directions."""
     named = {
         axis: next((i for i in signals if columns[i].direction == axis), None)
         for axis in ("x", "y")
@@ -153,7 +165,7 @@ def choose(
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:
-        return Choice({"y": signals[0]}, "the only signal; which direction is not said")
+        return Choice({"y": signals[0]}, f"{why}, the only signal there; its direction is not said")
     if len(signals) == 2:
         chosen = {"x": signals[0], "y": signals[1]}
         return Choice(chosen, "two signals, taken for the two directions; nothing says so")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -22,7 +23,7 @@ from bearingcore.files.channels import (
     choose,
     column_of,
 )
-from bearingcore.files.collections import Known, known_shape
+from bearingcore.files.collections import Known, known_look
 from bearingcore.files.facts import Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES
@@ -111,6 +112,14 @@ class FileContents:
         what the column of times says, where there is one.
     said
         everything else that the file names, in its own words.
+    frequencies
+        [Hz] of the bearing's parts that the file names, by `facts.BEARING_FREQUENCIES`.
+    collection
+        the public collection that it looks like; empty where it looks like none.
+    bearing
+        that of the collection, by its name in the catalogue or its designation.
+    orders
+        BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
     """
 
     columns: tuple[Column, ...]
@@ -121,6 +130,10 @@ class FileContents:
     load: Finding[float] | None
     sampling: Sampling | None
     said: Mapping[str, str]
+    frequencies: Mapping[str, float] = field(default_factory=dict)
+    collection: str = ""
+    bearing: Finding[str] | None = None
+    orders: Finding[tuple[float, float]] | None = None
 
 
 def contents_of(table: FileColumns) -> FileContents:
@@ -131,13 +144,13 @@ def contents_of(table: FileColumns) -> FileContents:
         *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
     ]
     clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
-    known = known_shape(table.names, len(table.columns), clock, named, table.headed)
+    known = known_look(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
     moving = [
         column.role == SIGNAL and _moves(table.columns[:, index])
         for index, column in enumerate(columns)
     ]
-    choice = choose(columns, moving, known.why or "as the headings say", table.name)
+    choice = choose(columns, moving, known.why or "as the headings say", table.name, known.place)
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     said = {**{one.name: _text(one) for one in named}, **table.texts}
@@ -146,10 +159,14 @@ def contents_of(table: FileColumns) -> FileContents:
         choice,
         _unit(table, columns, picked, known),
         rate,
-        _speed(table, columns, named),
+        _speed(table, columns, named) or known.shaft_speed,
         facts.load_in(named) or known.load,
         sampling,
         said,
+        facts.bearing_frequencies_in(named),
+        known.collection,
+        known.bearing,
+        known.orders,
     )
 
 
@@ -162,7 +179,12 @@ def _columns(
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [column_of(name) for name in table.names]
-    if known.places is not None:
+    if known.signals:
+        columns = [
+            column if re.fullmatch(known.signals, column.name) else Column(column.name, OTHER)
+            for column in columns
+        ]
+    if known.places:
         columns = [
             dataclasses.replace(column, place=place)
             for column, place in zip(columns, known.places, strict=True)

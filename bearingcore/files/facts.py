@@ -33,6 +33,9 @@ class Finding(Generic[T]):
         whether anything speaks for a guess; else the value is a default.
     unit
         the unit in which the file gives it, where that is known.
+    strong
+        whether a guess is good enough to be taken before it is confirmed, as those that follow
+        from a known collection.
     """
 
     value: T
@@ -40,6 +43,12 @@ class Finding(Generic[T]):
     stated: bool = True
     supported: bool = True
     unit: str = ""
+    strong: bool = False
+
+    @property
+    def taken(self) -> bool:
+        """Whether it is taken without a question."""
+        return self.stated or self.strong
 
 
 @dataclass(frozen=True)
@@ -75,6 +84,8 @@ _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
     "motorspeed", "drehzahl",
 }  # fmt: skip
+BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
+"""Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
 
 LEAST_RATE = 500.0
@@ -140,7 +151,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
-        return Finding(1e3 * float(match[1]), words, match[2] is not None)
+        return Finding(1e3 * float(match[1]), words, match[2] is not None, strong=True)
     return None
 
 
@@ -189,6 +200,17 @@ def load_in(named: Sequence[Named]) -> Finding[float] | None:
         if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(one.value):
             return Finding(one.value * FORCES[unit], f"“{one.name}” in the file")
     return None
+
+
+def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
+    """[Hz] by the names of BEARING_FREQUENCIES, those that are there."""
+    return {
+        key: one.value
+        for one in named
+        if (key := _key(one.name).removesuffix("hz")) in BEARING_FREQUENCIES
+        and math.isfinite(one.value)
+        and one.value > 0.0
+    }
 
 
 def unit_said(lines: Iterable[str], texts: Mapping[str, str]) -> str | None:

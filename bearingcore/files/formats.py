@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -188,6 +189,9 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
     if value.dtype.names:
         for index, element in enumerate(value.ravel(order="F")):
             of = f"{path}({index + 1})" if value.size > 1 else path
+            if label := _label(element, value.dtype.names):
+                _matlab(element["Data"], f"{path}.{label}", found, depth + 1)
+                continue
             for name in value.dtype.names:
                 _matlab(element[name], f"{of}.{name}", found, depth + 1)
     elif value.dtype == object:
@@ -195,6 +199,13 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
             _matlab(inside, f"{path}{{{index + 1}}}", found, depth + 1)
     else:
         found.add(path, value)
+
+
+def _label(element: Any, fields: Sequence[str]) -> str:
+    """The name of a channel whose struct has it in a field of its own, next to its data."""
+    if not {"Name", "Data"} <= set(fields) or element["Name"].dtype.kind not in "SU":
+        return ""
+    return str(element["Name"].ravel()[0]).strip() if element["Name"].size else ""
 
 
 # -- HDF5, MATLAB's version 7.3 among them ---------------------------------------------------------

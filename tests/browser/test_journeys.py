@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
-from scipy.io import wavfile
+from scipy.io import savemat, wavfile
 
-from bearingcore import Scene, equilibrium, modes, presets, simulate
+from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
 from tests.browser.helpers import ROOT, Server, Watch
 from tests.browser.visitor import FAN_RIG, Visitor
 
@@ -450,7 +450,11 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
     visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
     visitor.reads(re.compile("broken.csv cannot be used"))
     visitor.bring(visitor.main, "fan.wav", _recording(38.6))
-    visitor.reads(re.compile("fan.wav: 3 s"))
+    visitor.reads(re.compile(r"fan.wav · 3 s · 48 kHz · 420 rpm\? · unit\?"))
+    visitor.reads(re.compile("outer race is (probably )?damaged"))  # whatever the unit is
+    visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
+    visitor.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
+    visitor.press("Change")
     visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
     visitor.choose("Support is", "as in the scene")
@@ -461,6 +465,34 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
     assert "blank" not in visitor.figures()
     visitor.press(re.compile(r"38\.\d° into the scene"))
     visitor.wait(lambda: abs(visitor.number("Extent") - 38.6) < 0.3)
+
+
+def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen(
+    visitor: Visitor, explorer: Server
+) -> None:
+    """Unit, rate, speed and bearing of a made file in the layout of a collection are taken."""
+    bearing = catalogue()["NICE, MFPT"].bearing
+    motor = presets["6205"].replace(bearing=bearing, shaft_speed=math.tau * 25.0)
+    rate = 48_828.0
+    signal = simulate(motor, 3.2, rate).outer_acceleration[round(0.2 * rate) :, 1]
+    noise = np.random.default_rng(1).standard_normal(len(signal))
+    file = io.BytesIO()
+    run = {"gs": signal + 0.1 * signal.std() * noise, "sr": rate, "rate": 25.0, "load": 270.0}
+    savemat(file, {"bearing": run, "BPFO": 81.125, "BPFI": 118.875})
+    visitor.page.set_viewport_size({"width": 1366, "height": 768})
+    visitor.open(explorer, FAN_RIG + "diagnosis")
+    visitor.bring(visitor.main, "run.mat", file.getvalue())
+    visitor.reads(re.compile(r"^run.mat · 3 s · 48.83 kHz · 1500 rpm · g · NICE, MFPT$"))
+    answer = visitor.main.get_by_role("heading", name="The outer race is damaged")
+    expect(answer).to_be_in_viewport()
+    expect(visitor.main.get_by_text(re.compile("Probability .* long|not show"))).to_be_in_viewport()
+    expect(visitor.main.get_by_text(re.compile("Impacts at .* Hz")).first).to_be_in_viewport()
+    visitor.press("Change")
+    visitor.choose("Measured bearing", "that of the scene")
+    visitor.reads(re.compile("the scene's bearing$"))
+    visitor.reads(re.compile("Listed bearings that do"))
+    visitor.press(re.compile("^Take NICE, MFPT"))
+    visitor.reads("The outer race is damaged")
 
 
 def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explorer: Server) -> None:

@@ -8,8 +8,10 @@ everything is drawn again. Only the newest question is worked on.
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import logging
-from collections.abc import Awaitable, Callable
+import math
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
@@ -18,6 +20,7 @@ from bearing_explorer.results.executors import JOBS
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.state.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
+from bearingcore.diagnosis.part.listed import ListedBearing, explaining_bearings
 
 Found = TypeVar("Found")
 
@@ -55,7 +58,11 @@ class Question:
 
     @classmethod
     def about(cls, measured: Measured, bearing: Bearing, speed: str = "given") -> Question:
-        """The question about a recording and a bearing; `speed` is one of SPEEDS."""
+        """The question about a recording; `speed` is one of SPEEDS.
+
+        `bearing` is that of the scene, which counts where the recording has none of its own.
+        """
+        bearing = measured.bearing or bearing
         geometry = (
             float(bearing.n_balls),
             bearing.ball_diameter,
@@ -64,6 +71,11 @@ class Question:
             *(number for row in bearing.rows for number in row.own.values()),
         )
         return cls(measured, bearing, speed, geometry)
+
+    def is_like(self, other: Question) -> bool:
+        """Whether recording, bearing and knowledge of the speed are the same."""
+        mine, theirs = ((q.measured, q.speed, q.geometry) for q in (self, other))
+        return mine == theirs
 
     @property
     def shaft_speed(self) -> float | tuple[float, float] | None:
@@ -98,8 +110,9 @@ def answered(question: Question) -> Diagnosis | str:
 
 def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
     """The extent, or a sentence where there can be none. For any thread."""
-    return _or_why_not(
-        lambda: measure_extent(
+
+    def measure() -> MeasuredExtent:
+        found = measure_extent(
             question.measured.recording,
             question.bearing,
             question.shaft_speed,
@@ -107,7 +120,43 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
             load=question.load,
             diagnosis=question.diagnosis,
         )
-    )
+        unsized = question.measured.known_by_frequencies
+        return dataclasses.replace(found, length=math.nan) if unsized else found
+
+    return _or_why_not(measure)
+
+
+@dataclass(frozen=True)
+class ListQuestion(Question):
+    """A recording that its bearing does not explain, and listed bearings that may."""
+
+    bearings: Mapping[str, Bearing] = field(default_factory=dict, compare=False)
+    progress: Progress | None = field(default=None, compare=False)
+
+
+@dataclass
+class Progress:
+    """Progress of a search, and whether it is to end. `done` and `of` are written by its thread."""
+
+    done: int = 0
+    of: int = 0
+    cancelled: bool = False
+
+    def goes_on(self, done: int, of: int) -> bool:
+        """Note how far it is; False once it is to end."""
+        self.done, self.of = done, of
+        return not self.cancelled
+
+
+def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
+    """Listed bearings that explain the signal, or a sentence. For any thread."""
+    progress = question.progress or Progress()
+    return _or_why_not(
+        lambda: explaining_bearings(
+            question.measured.recording, question.bearings, question.shaft_speed, slip=SLIP,
+            goes_on=progress.goes_on,
+        )
+    )  # fmt: skip
 
 
 def _or_why_not(compute: Callable[[], Found]) -> Found | str:
@@ -149,6 +198,12 @@ class Answers(Generic[Found]):
     def of(self, question: Question) -> Found | str | None:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
+
+    def latest(self, about: Question) -> Found | str | None:
+        """The newest answer about a recording, its bearing and speed, whatever else was asked."""
+        known = reversed(self._known.items())
+        alike = (answer for question, answer in known if about.is_like(question))
+        return next(alike, None)
 
     def keep(self, question: Question, answer: Found | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""

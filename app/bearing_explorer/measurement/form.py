@@ -13,14 +13,17 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from bearing_explorer.measurement.signal import Origin
-from bearingcore import Recording, Table
+from bearing_explorer.state.bearing_list import BearingTable
+from bearing_explorer.state.sentences import sentence_of
+from bearingcore import Bearing, CatalogueBearing, Recording, Table
+from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common.numbers import number, span, with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.files.facts import Finding
@@ -32,14 +35,25 @@ from bearingcore.files.units import (
     level_doubt,
 )
 
-FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed")
+FIELDS = (
+    "x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed", "bearing",
+    *FREQUENCIES,
+)  # fmt: skip
 LONGEST_TEXT = 40
 NONE = ""
 """The choice of no column."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
+SCENE_BEARING, BY_FREQUENCIES = "", "frequencies"
+"""The bearing that was measured: that of the scene, or the one whose parts have the frequencies in
+the form; else it is the name of a listed one."""
+SAME_ORDERS = 0.01
+"""Relative difference up to which a bearing's frequencies are those of a file."""
 SIZES = ("unit", "sensitivity")
 """Fields that say how large the numbers of a file are."""
+
+find_published = BearingTable().find
+"""The published bearing of a name, or the one of a designation."""
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
@@ -52,21 +66,25 @@ _WORDS = {
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
     "shaft_speed": ("The shaft speed", "Hz", 1e-3, 1e4),
 }
+PITCH_DIAMETER = 39e-3
+"""[m] of bearings known by their frequencies, for their picture: no answer depends on it."""
 USUAL_SENSITIVITY = 100
 """[mV/g]"""
 
 
 @dataclass(frozen=True)
 class FormResult:
-    """A form as it is read: a recording, its shaft speed [rad/s], its origin.
+    """A form as it is read: a recording, its shaft speed [rad/s], its origin, its bearing.
 
-    Without `in_si` the recording holds the numbers of the file: their unit is not known.
+    Without `in_si` the recording holds the numbers of the file: their unit is not known. Without a
+    `bearing` it is that of the scene.
     """
 
     recording: Recording
     shaft_speed: float
     origin: Origin
     in_si: bool = True
+    bearing: Bearing | None = None
 
 
 class FormError(ValueError):
@@ -85,12 +103,52 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
     return {
         "x": str(chosen.get("x", NONE)),
         "y": str(chosen.get("y", NONE)),
-        "unit": contents.unit.value if contents.unit.stated else NOT_KNOWN,
+        "unit": contents.unit.value if contents.unit.taken else NOT_KNOWN,
         "full_scale": "1",
         "sensitivity": NOT_KNOWN,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed),
+        **_bearing(table),
     }
+
+
+def _bearing(table: Table) -> dict[str, str]:
+    """The first values of the bearing and of its frequencies.
+
+    What the file says of frequencies is taken before what its collection is known for.
+    """
+    contents = table.contents
+    texts = dict.fromkeys(FREQUENCIES, "")
+    said, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
+    if {"bpfo", "bpfi"} <= set(said):
+        texts |= {name: f"{value:.6g} Hz" for name, value in said.items()}
+        if listed is None or speed is None or not _agree(listed.value, said, speed.value):
+            return {"bearing": BY_FREQUENCIES, **texts}
+    if contents.orders is not None:
+        texts |= {
+            name: f"{order:.6g} x"
+            for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
+        }
+        return {"bearing": BY_FREQUENCIES, **texts}
+    return {"bearing": SCENE_BEARING if listed is None else listed.value, **texts}
+
+
+def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
+    """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
+    bearing = find_published(name).bearing
+    own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
+    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
+
+
+def bearings_of(table: Table | None, found: Sequence[str] = ()) -> list[list[str]]:
+    """[value, words] of the bearings to choose from: also those that were `found` to explain it."""
+    listed = None if table is None else table.contents.bearing
+    names = dict.fromkeys([*([] if listed is None else [listed.value]), *found])
+    return [
+        [SCENE_BEARING, "that of the scene"],
+        *([name, name] for name in names),
+        [BY_FREQUENCIES, "by its frequencies"],
+    ]
 
 
 def _written(speed: Finding[float]) -> str:
@@ -109,6 +167,10 @@ def reasons(table: Table) -> dict[str, str]:
         found["full_scale"] = "Full scale of the recorder, in the unit."
     found["sensitivity"] = "See the label of the sensor."
     found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    if contents.frequencies:
+        found["bearing"] = "Its frequencies are in the file."
+    elif (guessed := contents.bearing or contents.orders) is not None:
+        found["bearing"] = _because(guessed)
     found["shaft_speed"] = (
         "The file does not say it; this is the scene's." if speed is None else _because(speed)
     )
@@ -127,7 +189,7 @@ def questions(table: Table) -> dict[str, str]:
     if choice.question:
         asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
     rate = contents.sample_rate
-    if rate is not None and not rate.stated:
+    if rate is not None and not rate.taken:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
@@ -199,10 +261,16 @@ def usable(table: Table) -> bool:
     return False
 
 
-def read_form(table: Table, form: Mapping[str, Any], speed_known: bool = True) -> FormResult:
+def read_form(
+    table: Table,
+    form: Mapping[str, Any],
+    speed_known: bool = True,
+    find: Callable[[str], CatalogueBearing] = find_published,
+) -> FormResult:
     """The recording that a form describes; `FormError` with sentences where it describes none.
 
-    `speed_known` says whether the shaft speed is that of the measurement, or only the scene's.
+    `speed_known` says whether the shaft speed is that of the measurement, or only the scene's;
+    `find` gives the bearing of a name.
     """
     texts = {name: str(form.get(name, ""))[:LONGEST_TEXT].strip() for name in FIELDS}
     refused: dict[str, str] = {}
@@ -230,6 +298,12 @@ def read_form(table: Table, form: Mapping[str, Any], speed_known: bool = True) -
         refused |= _unfit(table, {name: int(text) for name, text in chosen.items()}, texts["unit"])
     if texts["unit"] not in UNITS and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
+    bearing = None
+    if "shaft_speed" in numbers:
+        try:
+            bearing = bearing_of(texts, numbers["shaft_speed"], find)
+        except ValueError as error:
+            refused["bearing"] = sentence_of(error)
     if refused:
         raise FormError(refused)
     columns = tuple(int(text) for text in chosen.values())
@@ -251,7 +325,31 @@ def read_form(table: Table, form: Mapping[str, Any], speed_known: bool = True) -
             {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
         ) from None
     origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
-    return FormResult(recording if in_si else _without_size(recording), speed, origin, in_si)
+    sized = recording if in_si else _without_size(recording)
+    return FormResult(sized, speed, origin, in_si, bearing)
+
+
+def bearing_of(
+    texts: Mapping[str, str], turns: float, find: Callable[[str], CatalogueBearing]
+) -> Bearing | None:
+    """The bearing of a form at so many `turns` of the shaft a second; None: that of the scene.
+
+    ValueError for frequencies that are those of no bearing, and for a name that is not known.
+    """
+    name = texts["bearing"]
+    if name != BY_FREQUENCIES:
+        return None if name == SCENE_BEARING else find(name).bearing
+    orders = {key: _order(key, texts[key], turns) for key in FREQUENCIES if texts[key]}
+    return bearing_of_frequencies(orders, PITCH_DIAMETER)
+
+
+def _order(name: str, text: str, turns: float) -> float:
+    """A frequency in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
+    bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
+    least, most = 1e-3, 1e5
+    if bare != text.lower():
+        return number_of(bare, name.upper(), "", least, most)
+    return number_of(bare, name.upper(), "Hz", least, most) / turns
 
 
 def _without_size(recording: Recording) -> Recording:

@@ -17,13 +17,25 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.measurement.background import noise_level, true_part
-from bearing_explorer.measurement.diagnoses import Answers, Question, answered, extent_of
+from bearing_explorer.measurement.diagnoses import (
+    Answers,
+    ListQuestion,
+    Progress,
+    Question,
+    answered,
+    extent_of,
+    listed_of,
+)
 from bearing_explorer.measurement.form import (
+    BY_FREQUENCIES,
+    FIELDS,
     LONGEST_TEXT,
     SIZES,
     FormError,
     FormResult,
+    bearings_of,
     columns_of,
+    find_published,
     guess,
     load_of,
     proposed_unit,
@@ -45,6 +57,7 @@ from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import (
     Bearing,
+    CatalogueBearing,
     Diagnosis,
     MeasuredExtent,
     Recording,
@@ -53,7 +66,9 @@ from bearingcore import (
     Table,
     read_table,
 )
-from bearingcore.common.numbers import thousands, with_prefix
+from bearingcore.bearings.frequencies import FREQUENCIES
+from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.diagnosis.part.listed import ListedBearing
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.errors import FieldError
 from bearingcore.scene.pit import pit
@@ -109,6 +124,14 @@ class MeasurementState:
     #: [N] in the file, None where it has none
     load: float | None = None
     scaled: bool = False
+    #: bearings to choose from, as [value, words]
+    bearings: list[list[str]] = field(default_factory=list)
+    #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
+    line: str = ""
+    #: what is odd about the signal; empty where nothing is
+    remarks: str = ""
+    #: number of the file or simulation that is shown
+    arrival: int = 0
 
 
 @dataclass(frozen=True)
@@ -155,6 +178,8 @@ class Measurement:
         self.diagnoses: Answers[Diagnosis] = Answers(assign, draw, answered)
         #: how long the spall is, when that is known
         self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
+        #: listed bearings, where the one that is given does not explain the signal
+        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""
@@ -171,6 +196,7 @@ class Measurement:
         self._upload = self._table = None
         self.diagnoses.stop()
         self.extents.stop()
+        self.listed.stop()
         for task in self._tasks:
             task.cancel()
 
@@ -186,6 +212,19 @@ class Measurement:
         question = self.question(bearing)
         found = None if question is None else self.diagnoses.of(question)
         return found if isinstance(found, Diagnosis) else None
+
+    def extent(self, bearing: Bearing) -> MeasuredExtent | None:
+        """The newest answer to how long the spall is, where there is one already."""
+        question = self.question(bearing)
+        found = None if question is None else self.extents.latest(question)
+        return found if isinstance(found, MeasuredExtent) else None
+
+    def listed_question(self, about: Question) -> ListQuestion:
+        """The question which of the presets and listed bearings explain a recording."""
+        named = {one.name: one.bearing for one, _ in self._editor.listed.all()}
+        return ListQuestion(
+            about.measured, about.bearing, about.speed, about.geometry, named, Progress()
+        )
 
     def redraw(self) -> None:
         """Draw again with what the views know now."""
@@ -205,8 +244,15 @@ class Measurement:
             self._upload = None
             self._refuse(str(error))
         else:
-            self._tell(words=f"{self._upload.name} is being uploaded.", bad=False, busy=True)
+            self._tell(words=f"Uploading {self._upload.name} …", bad=False, busy=True)
             self.want(0, self._uploads)
+
+    def cancel(self) -> None:
+        """Give up the file that is being uploaded or read; the signal before it stays."""
+        self._latest += 1
+        self._uploads += 1
+        self._upload = None
+        self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
 
     def take_piece(self, content: bytes, of: int) -> None:
         """A piece of the file of the upload with the number `of`."""
@@ -224,10 +270,10 @@ class Measurement:
             return
         self._upload = None
         self._tell(words=f"Reading {upload.name} …", bad=False, busy=True)
-        speed = self._editor.values["shaft_speed_hz"]
+        speed, find = self._editor.values["shaft_speed_hz"], self._editor.listed.find
 
         def read() -> _Read:
-            return read_file(upload.name, upload.content, speed)
+            return read_file(upload.name, upload.content, speed, find)
 
         self._in_background(read, self._take_read, upload.name)
 
@@ -240,7 +286,7 @@ class Measurement:
         self._table, self._cut, self._first = table, found.cut, found.form
         self.measured = self.sized = None
         if found.asked is not None:
-            self.measured = _measured(found.asked)
+            self.measured = _measured(found.asked, found.form)
             speed = "" if table.contents.shaft_speed is not None else _SPEED_OF_SCENE
             words, bad = self._summary(_about_size(found.sizes), speed), False
         else:
@@ -261,6 +307,9 @@ class Measurement:
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
+            bearings=bearings_of(table),
+            arrival=self.state.arrival + 1,
+            **self._in_short(found.form),
         )
         self._draw()
 
@@ -282,7 +331,7 @@ class Measurement:
         known = known or _speed_is_stated(table)
         self._latest += 1
         self._in_background(
-            lambda: _tried(table, texts, known),
+            lambda: _tried(table, texts, known, self._editor.listed.find),
             lambda found: self._take_tried(texts, found, left),
             table.name,
         )
@@ -308,9 +357,21 @@ class Measurement:
             words = " ".join(asks.get(name, "") for name in left)
             self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
-        self.measured = _measured(found)
-        self._tell(words=self._summary(_about_size(sizes)), bad=False, busy=False, **news)
+        self.measured = _measured(found, texts)
+        self._tell(
+            words=self._summary(_about_size(sizes)), bad=False, busy=False, **news,
+            **self._in_short(texts),
+        )  # fmt: skip
         self._draw()
+
+    def take_bearing(self, name: str) -> None:
+        """Take a listed bearing as the one that was measured."""
+        if self._table is None:
+            self.change_scene({"choose": {"bearing": name}})
+            return
+        found = [value for value, _ in self.state.bearings if value not in ("", BY_FREQUENCIES)]
+        self._tell(bearings=bearings_of(self._table, [*found, name]))
+        self.take_form({**self.state.values, "bearing": name}, True)
 
     def take_load(self) -> None:
         """Put the load of the file, downwards, into the scene."""
@@ -322,6 +383,25 @@ class Measurement:
         notes = self.measured.recording.notes if self.measured is not None else ()
         words = (summary(self.measured, self._editor.scene), self._cut, *notes, *more)
         return " ".join(filter(None, words))
+
+    def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
+        """The signal in a line, and what is odd about it."""
+        measured, table = self.measured, self._table
+        if measured is None:
+            return {"line": "", "remarks": ""}
+        recording = measured.recording
+        sure = set(FIELDS) if table is None else _sure(table, form, self._first)
+        unit = form.get("unit", "m/s²") or "unit"
+        facts = {
+            "": recording.name,
+            "duration": with_prefix(recording.duration, "s", 3),
+            "sample_rate": with_prefix(recording.sample_rate, "Hz", 4),
+            "shaft_speed": f"{number(30.0 / math.pi * measured.shaft_speed, 4)} rpm",
+            "unit": unit,
+            "bearing": measured.bearing_name or "the scene's bearing",
+        }
+        words = [text + "?" * (name in FIELDS and name not in sure) for name, text in facts.items()]
+        return {"line": " · ".join(words), "remarks": " ".join((self._cut, *recording.notes))}
 
     # Simulated ones
 
@@ -344,17 +424,24 @@ class Measurement:
 
     def _take_simulated(self, found: Measured) -> None:
         self._table, self._cut, self.measured, self.sized = None, "", found, None
-        self._tell(words=self._summary(), bad=False, busy=False, **_NO_FORM)
+        self._tell(
+            words=self._summary(),
+            bad=False,
+            busy=False,
+            arrival=self.state.arrival + 1,
+            **{**_NO_FORM, **self._in_short({})},
+        )
         self._draw()
 
     # Saying and doing
 
     def _refuse(self, sentence: str) -> None:
-        """Say what is wrong with a file; the signal before it leaves, as its name is gone."""
-        left = " The signal before it is put away." if self.measured is not None else ""
-        self._table = self.measured = self.sized = None
-        self._tell(words=f"{sentence}{left}", bad=True, busy=False, **_NO_FORM)
-        self._draw()
+        """Say what is wrong with a file; the signal before it stays."""
+        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False)
+
+    def _what_stays(self) -> str:
+        measured = self.measured
+        return "" if measured is None else f" {measured.recording.name} stays."
 
     def _tell(self, **news: Any) -> None:
         self.state = dataclasses.replace(self.state, **news)
@@ -390,7 +477,7 @@ class Measurement:
 
 _NO_FORM: Mapping[str, Any] = {
     "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "proposed": None,
-    "said": "", "load": None,
+    "said": "", "load": None, "bearings": [], "line": "", "remarks": "",
 }  # fmt: skip
 """Of a state without a file."""
 
@@ -413,7 +500,12 @@ class _Read:
     sizes: dict[str, str]
 
 
-def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
+def read_file(
+    name: str,
+    content: bytes,
+    shaft_speed_hz: float,
+    find: Callable[[str], CatalogueBearing] = find_published,
+) -> _Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
     try:
         table = read_table(name, content)
@@ -428,7 +520,7 @@ def read_file(name: str, content: bytes, shaft_speed_hz: float) -> _Read:
     table, cut = _shortened(table)
     form, asks = guess(table, shaft_speed_hz), questions(table)
     sizes = size_questions(table, form)
-    found = _tried(table, form, _speed_is_stated(table))
+    found = _tried(table, form, _speed_is_stated(table), find)
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
@@ -447,13 +539,42 @@ def _speed_is_stated(table: Table) -> bool:
     return speed is not None and speed.stated
 
 
-def _measured(asked: FormResult) -> Measured:
-    return Measured(asked.recording, asked.shaft_speed, origin=asked.origin, in_si=asked.in_si)
+def _measured(asked: FormResult, form: Mapping[str, str]) -> Measured:
+    by_frequencies = form["bearing"] == BY_FREQUENCIES
+    names = "frequencies " + ", ".join(form[name] for name in FREQUENCIES if form[name])
+    return Measured(
+        asked.recording,
+        asked.shaft_speed,
+        origin=asked.origin,
+        in_si=asked.in_si,
+        bearing=asked.bearing,
+        bearing_name=names if by_frequencies else form["bearing"],
+        known_by_frequencies=by_frequencies,
+    )
 
 
-def _tried(table: Table, form: Mapping[str, str], speed_known: bool) -> FormResult | FormError:
+def _sure(table: Table, form: Mapping[str, str], first: Mapping[str, str]) -> set[str]:
+    """Fields that the file says itself, or that a person has answered."""
+    contents = table.contents
+    said = {
+        "unit": contents.unit,
+        "sample_rate": contents.sample_rate,
+        "shaft_speed": contents.shaft_speed,
+    }
+    sure = {name for name, found in said.items() if found is not None and found.stated}
+    if contents.frequencies:
+        sure.add("bearing")
+    return sure | {name for name in form if form[name] != first.get(name)}
+
+
+def _tried(
+    table: Table,
+    form: Mapping[str, str],
+    speed_known: bool,
+    find: Callable[[str], CatalogueBearing],
+) -> FormResult | FormError:
     try:
-        return read_form(table, form, speed_known)
+        return read_form(table, form, speed_known, find)
     except FormError as refused:
         return refused
 

@@ -20,7 +20,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
 
 if TYPE_CHECKING:
-    from bearingcore import Kurtogram, Motion, Recording, Scene, Spectrum
+    from bearingcore import Bearing, Kurtogram, Motion, Recording, Scene, Spectrum
 
 SETTLING = 0.2
 """[s] of a simulated motion that are left out, when the start is forgotten."""
@@ -64,6 +64,10 @@ class Measured:
     in_si
         True for a recording in m/s². Else its unit or its sensor is not known, and its numbers are
         those of the file: everything that needs their size waits for the answer.
+    bearing, bearing_name
+        that was measured, where it is not the scene's, and its name on the page.
+    known_by_frequencies
+        whether that bearing is known by the frequencies of its parts alone: it has no size then.
     """
 
     recording: Recording
@@ -73,6 +77,9 @@ class Measured:
     true_part: str = ""
     noiseless: bool = False
     in_si: bool = True
+    bearing: Bearing | None = None
+    bearing_name: str = ""
+    known_by_frequencies: bool = False
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False
@@ -130,8 +137,14 @@ class Measured:
         return np.asarray(self.recording.acceleration.mean(axis=0))
 
     def scene(self, scene: Scene) -> Scene:
-        """The scene at the shaft speed of the measurement."""
-        return scene.replace(shaft_speed=self.shaft_speed)
+        """The scene at the shaft speed of the measurement, and with its bearing where it fits."""
+        at_speed = scene.replace(shaft_speed=self.shaft_speed)
+        if self.bearing is None:
+            return at_speed
+        try:
+            return at_speed.replace(bearing=self.bearing)
+        except ValueError:  # a defect that this bearing cannot have, say
+            return at_speed
 
 
 def _put(known: dict, key: object, value: object, most: int = 6) -> None:

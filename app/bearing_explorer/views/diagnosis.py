@@ -17,11 +17,12 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
 from bearing_explorer.widgets.look import LookField, LookPanel
-from bearing_explorer.widgets.part_panel import PartPanel, evidence_html
+from bearing_explorer.widgets.part_panel import ListedBearings, PartPanel, evidence_html
 from bearingcore import Bearing, Diagnosis
 from bearingcore.common.numbers import probability
 from bearingcore.diagnosis.part.combs import HARMONICS
-from bearingcore.diagnosis.part.parts import PARTS
+from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -50,6 +51,20 @@ FIELDS: list[LookField] = [
 """Choices above the figure."""
 
 
+RACES_NAMED = (OUTER, INNER)
+
+UNEXPLAINED = (DiagnosisStatus.OTHER_SOURCE, DiagnosisStatus.NOT_ALONE, DiagnosisStatus.ALIKE)
+"""Outcomes where another bearing may explain the lines."""
+
+MOST_LISTED = 4
+"""Listed bearings that are named."""
+
+MEASURING = "its length is being measured"
+LOOKING = "Looking for listed bearings that explain these lines …"
+FOUND_IN_LIST = "This bearing does not explain the signal. Listed bearings that do:"
+NONE_IN_LIST = "No listed bearing explains it either."
+
+
 class PartDiagnosis(MeasuredView):
     """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
 
@@ -75,7 +90,10 @@ class PartDiagnosis(MeasuredView):
         self._show_look()
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._seen = pn.Column(self.lines.plot, self.evidence, visible=False, **wide)
-        self.hidden = pn.Column(self.part, self.panel_of_look, self._seen, visible=False, **wide)
+        self.candidates = ListedBearings(self._take_listed)
+        self.hidden = pn.Column(
+            self.part, self.candidates, self.panel_of_look, self._seen, visible=False, **wide
+        )
         return self.hidden
 
     # What it is about
@@ -151,10 +169,40 @@ class PartDiagnosis(MeasuredView):
         self.measurement.diagnoses.want(question)
         found = answer if isinstance(answer, Diagnosis) else None
         self._seen.visible = found is not None and found.spectrum is not None
-        self.part.show(panel_state(question, answer))
+        self.part.show(panel_state(question, answer) | self._extent_state(bearing, found))
+        self._look_in_list(question, found)
         if found is not None:
             self.lines.show_orders(found.shaft_speed is not None)
             self.evidence.object = evidence_html(part_words.evidence_rows(found))
+
+    def _extent_state(self, bearing: Bearing, found: Diagnosis | None) -> dict[str, Any]:
+        """The length of the spall, once it is known; it is measured for a race alone."""
+        if found is None or self.measurement is None or found.fault not in RACES_NAMED:
+            return {}
+        extent = self.measurement.extent(bearing)
+        return {"extent": part_words.extent(extent) if extent is not None else MEASURING}
+
+    def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
+        """Listed bearings with which a part would be named, where with this one none is."""
+        listed = None if self.measurement is None else self.measurement.listed
+        if listed is None or found is None or found.status not in UNEXPLAINED:
+            self.candidates.show("", [])
+            return
+        answer = listed.latest(about)
+        if answer is None:
+            if listed.wanted is None or not listed.wanted.is_like(about):
+                assert self.measurement is not None
+                listed.want(self.measurement.listed_question(about))
+            self.candidates.show(LOOKING, [])
+        elif isinstance(answer, str):
+            self.candidates.show(answer, [])
+        else:
+            rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
+            self.candidates.show(FOUND_IN_LIST if rows else NONE_IN_LIST, rows)
+
+    def _take_listed(self, name: str) -> None:
+        if self.measurement is not None:
+            self.measurement.take_bearing(name)
 
     def sentence(self, results: Results) -> str:
         question = self.question(results.scene.bearing)

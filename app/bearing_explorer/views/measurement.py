@@ -51,7 +51,7 @@ class MeasuredSignal(MeasuredView):
     without_size = True
 
     def build(self, packed: PackedSource) -> Any:
-        self.form = MeasurementForm()
+        self.form = MeasurementForm(self._show_or_hide)
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._sized = [plot.yaxis[0] for plot in plots]
@@ -88,8 +88,22 @@ class MeasuredSignal(MeasuredView):
 
     # The picture
 
+    def _show_or_hide(self) -> None:
+        """The figures are behind the line to which the form folds."""
+        self.hidden.visible = self.drawn
+        self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
+
+    @property
+    def drawn(self) -> bool:
+        return self.measured is not None and not self.form.folded
+
+    @property
+    def is_empty(self) -> bool:
+        return self.measured is None
+
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
+        self._show_or_hide()
         measured = self.measured
         for axes, shown in (
             (self._sized, measured is None or measured.in_si),

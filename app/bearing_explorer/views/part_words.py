@@ -8,10 +8,11 @@ from typing import Any
 from bearing_explorer.measurement.diagnoses import SLIP, Question
 from bearing_explorer.plots import style
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
-from bearingcore import Diagnosis
+from bearingcore import Diagnosis, MeasuredExtent
 from bearingcore.common.numbers import percent_off, probability
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.listed import ListedBearing
 
 SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""
@@ -21,6 +22,8 @@ COUNTED = (
     "frequency and is missed. Count them, or read the frequencies off the maker's sheet."
 )
 """Follows "no damage seen" where the number of balls follows from a designation."""
+
+LENGTH_HIDDEN = "how long the spall is does not show"
 
 _FREQUENCY = {
     "outer race": "the outer-race frequency (BPFO)",
@@ -74,6 +77,22 @@ def _counted(question: Question) -> str:
     return COUNTED if "n_balls" in question.bearing.estimated else ""
 
 
+def extent(found: MeasuredExtent) -> str:
+    """The length of a spall in a few words."""
+    if found.measured:
+        return f"{found.answer.rpartition(', ')[0]} long"
+    return found.answer.partition(", ")[0] if math.isfinite(found.high) else LENGTH_HIDDEN
+
+
+def explained(one: ListedBearing) -> str:
+    """The quality with which a listed bearing explains a signal."""
+    found = one.diagnosis
+    return (
+        f"{found.fault}, probability {probability(found.probability)}, lines "
+        f"{decibels(one.level)} dB clear, {slip(one.slip)} against its geometry"
+    )
+
+
 def swing(depth: float) -> str:
     """A share of the envelope's mean."""
     return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
@@ -124,7 +143,7 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
             "Bearing",
             f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 5)} mm on "
             f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}"
-            f"{', estimated from the designation' if bearing.estimated else ''}",
+            f"{_origin(question)}",
         ],
     ]
     if not question.measured.in_si:
@@ -133,6 +152,15 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         low, high = found.spectrum.band
         rows.append(["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}"])
     return rows
+
+
+def _origin(question: Question) -> str:
+    """Where the bearing of an answer is from, after a comma."""
+    measured, estimated = question.measured, question.bearing.estimated
+    if measured.known_by_frequencies:
+        return f", from its {measured.bearing_name}; sizes are in proportion only"
+    known = f", {measured.bearing_name}" if measured.bearing_name else ", that of the scene"
+    return f"{known}{', estimated from the designation' if estimated else ''}"
 
 
 def band(low: float, high: float) -> str:

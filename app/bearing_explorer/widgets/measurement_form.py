@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import html
 import math
+from collections.abc import Callable
 from typing import Any
 
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.form import SIZES, USUAL_SENSITIVITY
+from bearing_explorer.measurement.form import BY_FREQUENCIES, SIZES, USUAL_SENSITIVITY
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.messages import UploadBegins, UploadPiece
@@ -17,6 +18,7 @@ from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.widgets.facts import Fact, facts_html
 from bearing_explorer.widgets.file_upload import FileUpload
 from bearing_explorer.widgets.form import Fields, button, choices, entry, row, select
+from bearingcore.bearings.frequencies import FREQUENCIES
 from bearingcore.common.numbers import number
 from bearingcore.files.units import UNITS, VOLTAGES
 
@@ -28,6 +30,11 @@ LABELS = {
     "sensitivity": "Sensor (mV/g)",
     "sample_rate": "Sample rate (Hz)",
     "shaft_speed": "Shaft speed (Hz or rpm)",
+    "bearing": "Measured bearing",
+    "bpfo": "BPFO (Hz, or orders: 3.1 x)",
+    "bpfi": "BPFI",
+    "ftf": "FTF",
+    "bsf": "BSF",
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
@@ -40,10 +47,13 @@ _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
-    The fields about a file are made when there is the first one.
+    Once there is a signal it folds to a line, and unfolds again by a button. The fields about a
+    file are made when there is the first one.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
+        self.folded = self._agreed = False
+        self._unfolded = unfolded
         self._measurement: Measurement | None = None
         self._fields: Fields | None = None
         self._shown = MeasurementState()
@@ -52,12 +62,19 @@ class MeasurementForm(pn.Column):
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", self._take_load, visible=False)
         self._words = _text("")
-        ways = row(
+        self._line = _text("", css_classes=["line"])
+        self._change = button("Change", self._turn, css_classes=["change"])
+        self._cancel = button("Cancel", self._give_up, visible=False, align="start")
+        self._in_short = row(self._line, self._change, visible=False)
+        self._ways = row(
             self._way("A file of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
             css_classes=["ways"],
         )
-        super().__init__(ways, self._about_file, row(self._facts, self._load), self._words, **_WIDE)
+        self._in_full = pn.Column(
+            self._ways, self._about_file, row(self._facts, self._load), **_WIDE
+        )
+        super().__init__(self._in_short, self._in_full, self._words, self._cancel, **_WIDE)
         self.show(MeasurementState())
 
     def attach(self, measurement: Measurement) -> None:
@@ -119,15 +136,16 @@ class MeasurementForm(pn.Column):
 
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
+            self._agreed = sure
             self._measurement.take_form(dict(self._fields.values), sure)
 
     # What there is to show
 
     def show(self, state: MeasurementState) -> None:
         """Show the state of the measurement."""
-        mood = "bad" if state.bad else "busy" if state.busy else "good"
-        said = f'<p class="words {mood}" role="status">{html.escape(state.words)}</p>'
-        self._words.object = said
+        if state.arrival != self._shown.arrival or (self._agreed and not state.bad):
+            self.folded, self._agreed = bool(state.line), False
+        self._fold(state)
         self._about_file.visible = bool(state.columns)
         if state.columns:
             self._show_fields(state)
@@ -139,10 +157,32 @@ class MeasurementForm(pn.Column):
         )
         self._shown = state
 
+    def _fold(self, state: MeasurementState) -> None:
+        """Show the line, or what is behind it, and the words that go with either."""
+        mood = "bad" if state.bad else "busy" if state.busy else "good"
+        words = state.words if mood != "good" or not self.folded else state.remarks
+        self._words.object = (
+            f'<p class="words {mood}" role="status">{html.escape(words)}</p>' if words else ""
+        )
+        self._line.object = f"<p>{html.escape(state.line)}</p>"
+        self._in_short.visible = bool(state.line)
+        self._in_full.visible = not self.folded
+        self._change.label = "Change" if self.folded else "Fold"
+        self._cancel.visible = state.busy
+
+    def _turn(self) -> None:
+        self.folded = not self.folded
+        self._fold(self._shown)
+        self._unfolded()
+
+    def _give_up(self) -> None:
+        if self._measurement is not None:
+            self._measurement.cancel()
+
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
         for name in LABELS:
-            if name in ("x", "y", "unit"):
+            if name in ("x", "y", "unit", "bearing"):
                 fields.add(name, select(LABELS[name], [["", ""]]))
             else:
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
@@ -162,12 +202,18 @@ class MeasurementForm(pn.Column):
                 fields.widgets[name].param.update(**choices(state.columns), value=values[name])
         if first or state.proposed != self._shown.proposed:
             fields.widgets["unit"].param.update(**choices(units(state)), value=values["unit"])
+        if first or state.bearings != self._shown.bearings:
+            fields.widgets["bearing"].param.update(
+                **choices(state.bearings), value=values["bearing"]
+            )
         fields.put(values)
         for name, widget in fields.widgets.items():
             marks = {"refused": name in state.refused, "open": name in state.open}
             widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
         fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
         fields.widgets["sensitivity"].visible = values["unit"] in VOLTAGES
+        for name in FREQUENCIES:
+            fields.widgets[name].visible = values["bearing"] == BY_FREQUENCIES
         self._agree.visible = not set(state.open) <= set(SIZES)
         shown = [name for name, widget in fields.widgets.items() if widget.visible]
         self._notes.object = notes_html(state, shown)

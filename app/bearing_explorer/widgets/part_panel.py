@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.widgets.facts import Fact, facts_html
-from bearing_explorer.widgets.form import button
+from bearing_explorer.widgets.form import button, row
 
 _PICTURES = {
     "busy": "Bearing; the signal is being analysed",
@@ -48,10 +49,45 @@ class PartPanel(pn.Column):
         self._copy.param.update(visible=bool(summary), label="Copy the summary")
 
 
+class ListedBearings(pn.Column):
+    """Listed bearings to take in place of the one that does not explain a signal.
+
+    Parameters
+    ----------
+    take
+        called with the name of the one that is chosen.
+    """
+
+    def __init__(self, take: Callable[[str], None]) -> None:
+        self._take = take
+        self._shown: object = None
+        super().__init__(visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
+
+    def show(self, words: str, bearings: Sequence[tuple[str, str]]) -> None:
+        """Show a sentence, and bearings with how well each explains the signal."""
+        if self._shown == (words, list(bearings)):
+            return
+        self._shown = (words, list(bearings))
+        self.visible = bool(words)
+        style = [asset_text("part.css")]
+        head = pn.pane.HTML(f"<p>{html.escape(words)}</p>", stylesheets=style, margin=0)
+        self[:] = [
+            head,
+            *(
+                row(
+                    button(f"Take {name}", partial(self._take, name)),
+                    pn.pane.HTML(f"<p>{html.escape(why)}</p>", stylesheets=style, margin=0),
+                )
+                for name, why in bearings
+            ),
+        ]
+
+
 def part_html(state: Mapping[str, Any]) -> str:
     """The answer as HTML: picture, headline, words, summary, assumptions."""
     said = {name: html.escape(str(state.get(name, ""))) for name in (
-        "headline", "probability", "plain", "pass_on", "color", "mood")}  # fmt: skip
+        "headline", "probability", "extent", "plain", "pass_on", "color", "mood")}  # fmt: skip
+    short = said["probability"], said["extent"]
     facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
         f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
@@ -65,7 +101,8 @@ def part_html(state: Mapping[str, Any]) -> str:
         f'<section class="part" aria-label="Which part is damaged" data-mood="{said["mood"]}" '
         f'style="--part: {said["color"] or "var(--accent)"}">'
         f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
-        f'<p class="probability">{said["probability"]}</p><p>{said["plain"]}</p>{summary}</div>'
+        f'<p class="probability">{" · ".join(filter(None, short))}</p>'
+        f"<p>{said['plain']}</p>{summary}</div>"
         f'<div class="rests">{assumptions}</div></section>'
     )
 

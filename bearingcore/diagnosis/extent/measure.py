@@ -138,10 +138,8 @@ class MeasuredExtent:
         """The answer in a few words: "5.0° (4.3-5.9°), 2.0 mm, outer race"."""
         extent, low, high = np.degrees([self.extent, self.low, self.high])
         if self.status == ExtentStatus.MEASURED:
-            return (
-                f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {1e3 * self.length:.1f} mm, "
-                f"{self.race} race"
-            )
+            long = f"{1e3 * self.length:.1f} mm, " if math.isfinite(self.length) else ""
+            return f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {long}{self.race} race"
         if self.status == ExtentStatus.EITHER:
             one, other = np.degrees(
                 [self.separation + self.offset, self.ball_spacing - self.separation + self.offset]

@@ -25,7 +25,7 @@ from bearing_explorer.messages import UploadBegins, UploadPiece, read
 from bearing_explorer.state.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
-from bearingcore import diagnose, presets, read_table
+from bearingcore import catalogue, diagnose, presets, read_table
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.recordings import file_from_elsewhere
@@ -153,7 +153,7 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
         (
             "a.mat",
             mat_of(X097_DE_time=NOISE[:, :1], X097RPM=np.array([[1797.0]]), fs=np.array([[12e3]])),
-            ("", "0", "", "12000", "1797 rpm"),
+            ("", "0", "g", "12000", "1797 rpm"),
         ),
         (
             "a.mat",
@@ -316,29 +316,75 @@ def case_western(**more: np.ndarray) -> bytes:
     return mat_of(**sides, X105RPM=np.array([[1797]], dtype="u2"), **more)
 
 
+def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
+    made = brought("105.mat", case_western(), signal())
+    assert made.measured is not None
+    assert made.state.open == []
+    assert made.measured.in_si
+    assert made.measured.bearing == catalogue()["6205-2RS, CWRU drive end"].bearing
+    assert made.state.line == (
+        "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
+    )
+    answer(made, sample_rate="48000", unit="m/s²", bearing="")
+    assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
+    assert made.measured.bearing is None
+    answer(made, x="1")
+    assert "two places (drive end and fan end)" in made.state.refused["x"]
+    assert made.state.line  # what is drawn stays
+
+
 def test_sensors_at_several_places_are_asked_about_and_never_mixed():
-    made = brought("12k_IR_105.mat", case_western(), signal())
+    sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
+    made = brought("12k_105.mat", mat_of(**sides))
     assert made.measured is None
     assert not made.state.bad
-    assert set(made.state.open) == {"y", "sample_rate", "unit"}
+    assert set(made.state.open) == {"y", "unit"}
     assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
-    assert "Is 12000 Hz the sample rate? A guess: “12k”" in made.state.reasons["sample_rate"]
-    assert "X105RPM" in made.state.reasons["shaft_speed"]
-    assert made.state.columns[1] == ["0", "X105_DE_time (drive end)"]
+    assert made.state.columns[1] == ["0", "DE (drive end)"]
     answer(made, x="1", y="0")
     assert made.measured is None
     assert "two places (drive end and fan end)" in made.state.refused["x"]
     answer(made, x="", y="0")
-    assert made.measured is None  # the rate is still only a guess
-    assert made.state.open == ["sample_rate", "unit"]
-    answer(made, y="0", unit="g", sure="yes")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_000.0
-    assert made.measured.recording.shaft_speed == pytest.approx(1797 * math.pi / 30.0)
-    np.testing.assert_allclose(
-        made.measured.recording.acceleration[:, 0], NOISE[:, 0] * 0.3 * 9.80665
-    )
-    assert not made.state.open
+    assert "12 kHz?" in made.state.line
+
+
+def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
+    made = brought("run.mat", mat_of(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
+    assert made.measured is not None
+    assert made.measured.bearing_name == "NICE, MFPT"  # which has these frequencies
+    turn = 2.0 * math.pi
+    made = brought("other.mat", mat_of(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
+    assert made.measured is not None
+    bearing = made.measured.bearing
+    assert bearing is not None
+    assert bearing.n_balls == 8
+    assert bearing.bpfo(25.0 * turn) == pytest.approx(76.3, rel=1e-3)
+    assert made.state.values["bpfi"] == "123.7 Hz"
+    answer(made, bpfo="3.585 x", bpfi="5.415x")
+    assert made.measured.bearing is not None
+    assert made.measured.bearing.n_balls == 9
+    before = made.measured
+    answer(made, bpfo="60")
+    assert "nearly a whole number" in made.state.refused["bearing"]
+    answer(made, bpfo="3.585 x", bpfi="", ftf="")
+    assert "BPFO and BPFI" in made.state.refused["bearing"]
+    assert made.measured is before
+
+
+def test_a_file_can_be_given_up():
+    made = measuring(signal())
+    made.begin_upload("long.csv", 5000)
+    made.take_piece(bytes(2000), 1)
+    assert made.state.busy
+    made.cancel()
+    assert not made.state.busy
+    assert made.state.words == f"Cancelled. {signal().recording.name} stays."
+    made.take_piece(bytes(3000), 1)
+    assert made.measured is signal()
+    assert not made._tasks
 
 
 def test_a_struct_says_all_and_its_load_can_be_taken_into_the_scene():
@@ -450,16 +496,14 @@ BAD = {
 
 
 @pytest.mark.parametrize(("name", "content", "told"), BAD.values(), ids=BAD)
-def test_a_bad_file_gets_a_sentence_and_no_old_figure_stays_under_its_name(name, content, told):
-    made = brought(name, content, signal())
-    assert made.measured is None
-    assert made.sized is None
+def test_a_bad_file_gets_a_sentence_and_the_signal_before_it_stays(name, content, told):
+    made = brought(name, content, before := signal())
+    assert made.measured is before
     assert made.state.bad
     assert not made.state.busy
     assert told in made.state.words
     assert name in made.state.words
-    assert made.state.words.endswith("The signal before it is put away.")
-    assert not made.state.columns
+    assert made.state.words.endswith(f"{before.recording.name} stays.")
 
 
 def test_a_huge_file_is_refused_before_it_is_sent():
@@ -522,7 +566,7 @@ def test_a_file_without_a_size_is_refused_in_a_sentence():
     made = measuring(signal())
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words
-    assert made.measured is None
+    assert made.measured is signal()
     assert not made._tasks
 
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from bearingcore import read_table
+from bearingcore import catalogue, read_designation, read_table
+from bearingcore.files.collections import COLLECTIONS
 from tests.helpers.reading import read_in_this_process
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
@@ -43,10 +44,11 @@ def test_case_western_variables_are_of_several_places() -> None:
     table = read_table("130.mat", matlab(**sides, X130RPM=np.array([[1796]], dtype="u2")))
     found = table.contents
     assert [column.place for column in found.columns] == ["drive end", "fan end", "base"]
-    assert not found.choice.columns
-    assert "Which is at this bearing?" in found.choice.question
-    assert found.unit.value == "g"
-    assert not found.unit.stated
+    assert found.choice.columns == {"y": 0}  # the faults of this number are at the drive end
+    assert not found.choice.question
+    assert found.bearing is not None
+    assert found.bearing.value == "6205-2RS, CWRU drive end"
+    assert (found.unit.value, found.unit.stated, found.unit.taken) == ("g", False, True)
     assert found.sample_rate is not None
     assert (found.sample_rate.value, found.sample_rate.stated) == (12_000.0, False)
     assert found.shaft_speed is not None
@@ -59,7 +61,7 @@ def test_case_western_variables_are_of_several_places() -> None:
     assert got.shaft_speed == found.shaft_speed.value
 
 
-def test_without_a_sensor_on_the_base_it_was_sampled_faster() -> None:
+def test_the_number_of_a_case_western_file_says_how_it_was_sampled() -> None:
     sides = {f"X097_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE")}
     found = read_table("a.mat", matlab(**sides)).contents
     assert found.sample_rate is not None
@@ -68,7 +70,6 @@ def test_without_a_sensor_on_the_base_it_was_sampled_faster() -> None:
     assert named.sample_rate is not None
     assert named.sample_rate.value == 12_000.0
     assert "12k" in named.sample_rate.reason
-    assert named.choice.question
     assert named.choice.columns == {"y": 0}
     assert "name says drive end" in named.choice.reason
 
@@ -123,6 +124,78 @@ def test_ims_tables_without_headings_or_extension(columns: int, places: list[int
     assert "several places" in found.choice.question
     assert found.sample_rate is not None
     assert (found.sample_rate.value, found.sample_rate.stated) == (20_480.0, False)
+
+
+def paderborn() -> dict[str, object]:
+    """Channels in an array of structs, each with its name."""
+    channels = np.zeros((1, 3), dtype=[("Name", "O"), ("Type", "O"), ("Data", "O")])
+    channels[0, 0] = ("force", "f", NOISE[None, :30, 0])
+    channels[0, 1] = ("phase_current_1", "c", NOISE[None, :, 0])
+    channels[0, 2] = ("vibration_1", "v", NOISE[None, :, 1])
+    return {"N09_M07_F10_KA01_1": {"Info": "rig", "Y": channels}}
+
+
+def columns(name: str, count: int, rows: int = 20_480) -> dict[str, object]:
+    return {name: np.resize(NOISE, (rows, count))}
+
+
+XJTU = "Horizontal_vibration_signals,Vertical_vibration_signals"
+HUST_TEXT = lines(
+    np.column_stack([np.arange(600) / 25_600, NOISE[:600, :3]]), "\t", "Time\tX\tY\tZ"
+)
+
+LOOKS = [
+    # file, content, collection, y and its column, rate, rpm, bearing
+    ("N09_M07_F10_KA01_1.mat", paderborn(), "Paderborn",
+     "N09_M07_F10_KA01_1.Y.vibration_1", 64e3, 900, "6203, Paderborn"),
+    ("I-A-1.mat", {"Channel_1": NOISE[:, :1], "Channel_2": NOISE[:, 1:2]},
+     "Ottawa (speeds that change)", "Channel_1", 2e5, None, "ER-16K, Ottawa"),
+    ("O_6_1.mat", columns("O_6_1", 5, 420_000), "Ottawa (UORED-VAFCLS)",
+     "O_6_1(:,1)", 42e3, 1750, None),
+    ("1.csv", lines(NOISE[:600, :2], ",", XJTU), "XJTU-SY",
+     "Vertical_vibration_signals", 25.6e3, None, "UER204, XJTU-SY"),
+    ("C4A_200_502_1.mat", columns("C4A_200_502_1", 6), "DIRG",
+     "C4A_200_502_1(:,3)", 51.2e3, 12_000, None),
+    ("IB604.mat", {"data": NOISE[:, :1], "fs": 51_200}, "HUST (Hanoi)",
+     "data", 51.2e3, None, "6206"),
+    ("0.5X_B_20Hz.xls", HUST_TEXT, "HUST (Huazhong)", "Y", 25.6e3, 1200, "ER-16K, Ottawa"),
+    ("ib600_2.csv", lines(NOISE[:600, :1]), "JNU", "column 1", 50e3, 600, "NU205"),
+    ("N_1000_3.mat", {"Data": NOISE[:, :1], "Datacount": 20_480, "SampleFrequency": 20_000},
+     "UESTC", "Data", 20e3, 1000, None),
+    ("OR5_900.mat", columns("z15_1", 1, 262_144), "HIT-SM", "z15_1", 51.2e3, 900, "6205"),
+    ("Bearing2_1_acc_00911.csv", None, "FEMTO-ST", "column 6", 25.6e3, 1650, "6804RS, FEMTO-ST"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("file", "held", "collection", "column", "rate", "turns", "bearing"), LOOKS
+)
+def test_files_of_public_collections_are_recognised(
+    file: str, held: object, collection: str, column: str, rate: float, turns: float | None,
+    bearing: str | None,
+) -> None:  # fmt: skip
+    """Made files in the layouts that the collections' documents describe."""
+    if held is None:
+        micro = np.arange(2560) / 25_600.0 * 1e6
+        clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
+        held = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
+    table = read_table(file, matlab(**held) if isinstance(held, dict) else held)
+    found = table.contents
+    assert found.collection == collection
+    assert table.names[found.choice.columns["y"]] == column
+    assert not found.choice.question
+    assert found.sample_rate is not None
+    assert found.sample_rate.taken
+    assert found.sample_rate.value == pytest.approx(rate)
+    speed = found.shaft_speed
+    assert (None if speed is None else round(rpm(speed.value))) == turns
+    assert (None if found.bearing is None else found.bearing.value) == bearing
+
+
+def test_every_bearing_of_a_collection_is_known() -> None:
+    for row in COLLECTIONS:
+        if row.bearing:
+            assert row.bearing in catalogue() or read_designation(row.bearing).entry.bearing
 
 
 def test_two_columns_without_a_name_are_a_guess_and_three_are_asked_about() -> None:

@@ -487,12 +487,6 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen(
     expect(answer).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Probability .* long|not show"))).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Impacts at .* Hz")).first).to_be_in_viewport()
-    visitor.press("Change")
-    visitor.choose("Measured bearing", "that of the scene")
-    visitor.reads(re.compile("the scene's bearing$"))
-    visitor.reads(re.compile("Listed bearings that do"))
-    visitor.press(re.compile("^Take NICE, MFPT"))
-    visitor.reads("The outer race is damaged")
 
 
 def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explorer: Server) -> None:

@@ -13,6 +13,10 @@ Cancelled = Callable[[], bool]
 """Asked between points; True ends the work with what was found so far."""
 
 
+class CancelledError(RuntimeError):
+    """Work was cancelled before it had anything to show."""
+
+
 def in_turn(
     tasks: Sequence[T],
     name: Callable[[T], str],

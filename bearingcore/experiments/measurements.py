@@ -16,6 +16,7 @@ from typing import Any, cast
 import msgspec
 
 from bearingcore.common.numbers import with_prefix
+from bearingcore.common.progress import CancelledError
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import usable_methods
@@ -29,7 +30,7 @@ from bearingcore.experiments.stability import (
     stability_chart,
 )
 from bearingcore.experiments.statics import angles_experiment, statics_experiment
-from bearingcore.scene.scene import Scene
+from bearingcore.scene.scene import MASSLESS, Scene
 
 PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
 
@@ -198,8 +199,11 @@ def measure(
     progress: Callable[[float, str], object] = lambda part, words: None,
     cancelled: Callable[[], bool] = lambda: False,
     shown: Callable[[Measurements], object] = lambda found: None,
+    words: Callable[[ValueError], str] = str,
 ) -> Measurements:
     """Measure a scene by experiments, one after the other.
+
+    Balls are taken without mass except where that is what is measured.
 
     Parameters
     ----------
@@ -214,9 +218,11 @@ def measure(
     progress
         called with the part done, 0 to 1, and what is being done.
     cancelled
-        called before each point; True ends with what there is.
+        called before each point, and within references; True ends with what there is.
     shown
         called with what there is, after each point.
+    words
+        of a refusal, for `Measurements.refused`.
     """
     found = Measurements(preset, this_machine(c_loop))
     for k, name in enumerate(names):
@@ -232,13 +238,16 @@ def measure(
         watch = Watch(report, cancelled, show)
         try:
             found = _with(found, name, scene, watch, slow)
+        except CancelledError:
+            break
         except ValueError as refused:
-            found = replace(found, refused={**found.refused, name: str(refused)})
+            found = replace(found, refused={**found.refused, name: words(refused)})
         shown(found)
     return found
 
 
 def _with(found: Measurements, name: str, scene: Scene, watch: Watch, slow: bool) -> Measurements:
+    scene = scene.replace(balls=MASSLESS)
     if name == STABILITY:
         return replace(found, stability=stability_chart(scene, duration=0.1, watch=watch))
     if name == ORBITS:

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from bearingcore.common.numbers import scientific
-from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
 
 T = TypeVar("T")
@@ -231,7 +231,8 @@ class Watch:
     progress
         called with the part done, 0 to 1, and what is being done.
     cancelled
-        called before each point; True ends with the points that are there.
+        called before each point; True ends with the points that are there. Called within
+        references too, where True raises CancelledError.
     shown
         called with the experiment as far as it is, after each point.
     """
@@ -246,9 +247,15 @@ class Watch:
             self.shown(experiment)
 
     def within(self, begin: float, end: float) -> Callable[[float], object]:
-        """Progress of references, which are the part from `begin` to `end` of the work."""
+        """Progress of references, which are the part from `begin` to `end` of the work.
+
+        What it returns raises CancelledError where the work is cancelled: an experiment without
+        its references has no points.
+        """
 
         def report(part: float) -> None:
+            if self.cancelled is not None and self.cancelled():
+                raise CancelledError
             if self.progress is not None:
                 self.progress(begin + (end - begin) * part, "references")
 

@@ -389,12 +389,16 @@ def statics_experiment(
     names = tuple(SOLVERS) if solvers is None else tuple(solvers)
     for name in names:
         checks.choice("solver", name, tuple(SOLVERS))
-    watch.within(0.0, 0.1)(0.0)
+    report = watch.within(0.0, 0.1)
+    report(0.0)
     problems = {
         "": static_problem(scene, default_cage_angles(scene, n_angles)),
         **hard_cases(scene),
     }
-    truths = {case: static_reference(problem) for case, problem in problems.items()}
+    truths = {}
+    for k, (case, problem) in enumerate(problems.items()):
+        report(k / len(problems))
+        truths[case] = static_reference(problem)
     for name in names:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
             SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken

@@ -1,11 +1,13 @@
 """Measure speed against accuracy for the page and the documents.
 
-    python -m tests.benchmarks.charts --ship [--preset NAME ...] [--only motion statics ...]
+    python -m tests.benchmarks.charts --ship --preset missing     # those that have no file yet
+    python -m tests.benchmarks.charts --ship [--preset all | NAME ...] [--only motion statics ...]
     python -m tests.benchmarks.charts            # only writes the documents anew
 
 `--ship` runs every experiment of `bearingcore.experiments.measurements` on presets, all of them
-unless some are named, and writes a file for each to assets/accuracy: one or two minutes a preset
-on a quiet machine. `--only` measures some experiments anew and keeps the others of the file. Then
+unless some are named, and writes a file for each to assets/accuracy as soon as it is measured: two
+to five minutes a preset on a quiet machine. What a scene cannot have is kept in its file with the
+reason, and printed. `--only` measures some experiments anew and keeps the others of the file. Then
 the tables of assets/docs/ACCURACY.md are written from the files.
 """
 
@@ -44,11 +46,22 @@ def ship(preset: str, names: tuple[str, ...]) -> None:
             experiments={**before.experiments, **found.experiments},
             stability=found.stability or before.stability,
             orbits=found.orbits or before.orbits,
-            refused={**before.refused, **found.refused},
+            refused={n: why for n, why in before.refused.items() if n not in names} | found.refused,
         )
     FILES.mkdir(exist_ok=True)
     path.write_text(found.as_json(), encoding="utf-8")
     print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
+    for name, why in found.refused.items():
+        print(f"  no {name}: {why}", flush=True)
+
+
+def wanted(given: list[str]) -> list[str]:
+    """Presets by their names, "all", or "missing": those without a file."""
+    groups = {
+        "all": list(presets),
+        "missing": [name for name in presets if not (FILES / f"{name}.json").exists()],
+    }
+    return list(dict.fromkeys(name for one in given for name in groups.get(one, [one])))
 
 
 def tables(found: Measurements) -> str:
@@ -114,10 +127,11 @@ def main() -> None:
     """Measure where that is wanted, and write the document."""
     parser = argparse.ArgumentParser(description="Speed against accuracy, measured.")
     parser.add_argument("--ship", action="store_true", help="measure and write the files")
-    parser.add_argument("--preset", nargs="*", choices=list(presets), default=list(presets))
-    parser.add_argument("--only", nargs="*", choices=NAMES, default=NAMES)
+    names = ["all", "missing", *presets]
+    parser.add_argument("--preset", nargs="+", choices=names, default=["all"])
+    parser.add_argument("--only", nargs="+", choices=NAMES, default=NAMES)
     given = parser.parse_args()
-    for preset in given.preset if given.ship else ():
+    for preset in wanted(given.preset) if given.ship else ():
         ship(preset, tuple(given.only))
     DOCUMENT.write_text(document(DOCUMENT.read_text(encoding="utf-8")), encoding="utf-8")
 

@@ -9,6 +9,7 @@ from functools import cache
 from bearing_explorer.assets import asset_path
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
+from bearing_explorer.state.sentences import words_of
 from bearingcore import Scene, presets
 from bearingcore.experiments import Measurements, measure, measurements_from
 from bearingcore.experiments.measurements import NAMES, ORBITS, STABILITY
@@ -46,11 +47,10 @@ def shipped(preset: str) -> Measurements | None:
 
 
 def preset_like(scene: Scene) -> str:
-    """The preset that is `scene`, or has its bearing, or else the first that is shipped."""
+    """Of the shipped presets the one that is `scene`, or has its bearing, or else the fan rig."""
     same = [name for name, preset in presets.items() if preset == scene]
     alike = [name for name, preset in presets.items() if preset.bearing == scene.bearing]
-    known = [name for name in (*same, *alike, "fan-rig") if shipped(name) is not None]
-    return known[0] if known else ""
+    return next(name for name in (*same, *alike, "fan-rig") if shipped(name) is not None)
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:
@@ -66,6 +66,7 @@ def compute(job: Work, scene: Scene, name: str) -> str:
         progress=job.progress,
         cancelled=job.cancelled,
         shown=lambda part: job.show(Found(scene, part)),
+        words=words_of,
     )
     if not found.count:
         if found.refused:

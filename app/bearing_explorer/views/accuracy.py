@@ -30,6 +30,7 @@ from bearingcore.experiments.references import MOTION_ERRORS
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
 from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
 from bearingcore.scene.presets import preset_labels
+from bearingcore.scene.scene import WITH_MASS
 
 
 class Chart(NamedTuple):
@@ -162,21 +163,22 @@ class Accuracy(JobView[Found]):
         return {**({} if base is None else base.experiments), **own}
 
     def sentence(self, results: Results) -> str:
-        found, preset = self.found, preset_like(results.scene)
-        words = (
-            f"Shipped: {preset_labels[preset]}." if preset else "Nothing is shipped for this scene."
-        )
-        if preset and presets[preset] != results.scene:
+        found, scene = self.found, results.scene
+        preset = preset_like(scene)
+        words = f"Shipped: {preset_labels[preset]}."
+        if presets[preset] != scene:
             words = (
-                f"Shipped numbers are of {preset_labels[preset]} as it comes, not of this scene: "
-                "“Measure on this machine” takes this one."
+                f"Nothing is shipped for this scene. Shipped points are those of "
+                f"{preset_labels[preset]} as it comes; “Measure on this machine” takes this scene."
             )
         if found is not None:
             words = f"Measured on this machine: {found.result.count} points. {words}"
             if self._same:
                 words += " Pale: shipped."
-            if found.scene != results.scene:
+            if found.scene != scene:
                 words += " The scene has changed since it was measured."
+        if scene.balls == WITH_MASS:
+            words += " Balls are massless in all charts but that of their mass."
         return words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -201,16 +203,19 @@ class Accuracy(JobView[Found]):
             self._show(self._results)
 
     def _show(self, results: Results) -> None:
-        base = shipped(preset_like(results.scene))
+        preset = preset_like(results.scene)
+        base = shipped(preset)
         own = None if self.found is None else self.found.result
+        reasons = {
+            **(base.refused if base is not None and presets[preset] == results.scene else {}),
+            **(own.refused if own is not None else {}),
+        }
         cost, steps = self._cost.values["cost"], results.settings.step_rate
         for one, chart in self._charts:
-            refused = next((m.refused[one.experiment] for m in (own, base)
-                            if m is not None and one.experiment in m.refused), "")  # fmt: skip
             part, pale = _part(own, one), _part(base, one)
             if part is not None and not self._same:
                 pale = None  # of another scene
-            chart.draw(part, pale, cost, steps, refused)
+            chart.draw(part, pale, cost, steps, reasons.get(one.experiment, ""))
         self._stability.draw(own, base, results.scene.shaft_speed)
         self._foot.object = foot(own, base, self._shown(results))
 

@@ -26,6 +26,7 @@ MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆"
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
 BEYOND = "the error is infinite"
+NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
 PALE = 0.3
@@ -135,10 +136,9 @@ class WorkPrecision:
         self._drawn = state
         main = found or shipped
         self.plot.visible = main is not None and bool(main.points)
+        not_here = f"Not for this scene: {refused}. " if refused else ""
         if main is None:
-            self._words.object = paragraph(
-                f"Not for this scene: {refused}." if refused else "Not measured yet."
-            )
+            self._words.object = paragraph(not_here or NOT_YET)
             return
         faint = shipped if found is not None else None
         parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
@@ -146,7 +146,7 @@ class WorkPrecision:
         own = [p for p in main.points if self._placed(p, cost) and is_used(p, step_rate)]
         self._used.data = self._at(own, cost)
         self._words.object = legend(methods_of(parts)) + paragraph(
-            sentence(main, self.error, step_rate)
+            not_here + sentence(main, self.error, step_rate)
         )
 
     def _known(self, point: Point) -> bool:

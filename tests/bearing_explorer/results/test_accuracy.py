@@ -13,12 +13,14 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.state.sentences import words_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence, steps_sentence
 from bearing_explorer.views.alternatives import OtherModels, price
 from bearing_explorer.views.work_precision import (
     COLORS,
     MARKERS,
+    NOT_YET,
     PALE,
     WorkPrecision,
     legend,
@@ -126,7 +128,7 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     assert base is not None
     for one, chart in view._charts:
         words = html.unescape(chart._words.object)
-        assert chart.plot.visible or base.refused[one.experiment] in words
+        assert chart.plot.visible or base.refused.get(one.experiment, NOT_YET) in words
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
     for name, experiment in base.experiments.items():
         assert {(name, case) for case in experiment.references} <= known
@@ -142,8 +144,27 @@ def test_of_another_scene_it_says_whose_numbers_these_are() -> None:
     view = Accuracy(PackedSource())
     other = RIG.replace(extent=0.3)
     assert preset_like(other) == "fan-rig"
-    assert "not of this scene" in view.sentence(Results(other))
-    assert "not of this scene" not in view.sentence(Results(RIG))
+    assert "Nothing is shipped for this scene" in view.sentence(Results(other))
+    assert "Nothing is shipped" not in view.sentence(Results(RIG))
+    unlike = Results(presets["30206-back-to-back"])
+    words = view.sentence(unlike)
+    assert "those of Fan rig, deep groove bearing as it comes" in words
+    view.say(unlike, words)
+    assert all(chart.plot.visible for _, chart in view._charts), "it opens with a finished chart"
+    assert "Balls are massless" in view.sentence(Results(RIG.replace(balls="with mass")))
+
+
+def test_what_a_scene_cannot_have_is_said_in_the_words_of_the_page() -> None:
+    view = Accuracy(PackedSource())
+    still = RIG.replace(shaft_speed=0.0)
+    found = measure(still, ["motion", "balls"], words=words_of)
+    view.found = Found(still, found)
+    view.say(Results(still), "")
+    for one, chart in view._charts:
+        reason = "Not for this scene: shaft speed is 0 Hz; allowed: above 0 rad/s for a motion"
+        assert (reason in chart._words.object) == (one.experiment in ("motion", "balls"))
+    rollers = measure(presets["30206-back-to-back"], ["balls"])
+    assert rollers.refused["balls"].startswith("there is no model with the mass of tapered rollers")
 
 
 def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:

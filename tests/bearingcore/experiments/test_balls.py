@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from bearingcore import presets
+from bearingcore.experiments import balls
 from bearingcore.experiments.balls import BALL_METHODS, NO_MASS, balls_experiment
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
@@ -27,6 +29,33 @@ def test_methods_for_balls_agree_and_too_long_steps_are_shown_as_failed() -> Non
     assert "heavier by a part in ten thousand" in found.references[""].sentence
 
 
-def test_contacts_must_stay_in_the_plane() -> None:
-    with pytest.raises(ValueError, match="contact angle 0"):
-        balls_experiment(presets["liew-lim"])
+def test_massless_balls_are_held_against_heavy_ones_in_five_directions_too() -> None:
+    found = balls_experiment(presets["liew-lim"], duration=0.05, steps=(10, 20))
+    reference = found.references[""]
+    assert reference.trusted, reference.sentence
+    (massless,) = found.of(NO_MASS)
+    assert massless.errors["5-10 kHz"] > 3.0, "the balls ring there"
+    default, finer = found.of("RK4")
+    assert default.in_use
+    assert default.errors["0.3-2.1 kHz"] < massless.errors["0.3-2.1 kHz"]
+    assert finer.errors["5-10 kHz"] < default.errors["5-10 kHz"] < 3.0
+
+
+def test_the_march_in_pieces_is_that_in_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, shares = FAN_RIG.replace(balls="with mass"), []
+    march = BALL_METHODS["RK4 in velocities"]
+    whole = march(scene, 4, 0.03, 65536.0, lambda part: None)
+    monkeypatch.setattr(balls, "PIECE", 1000)
+    pieces = march(scene, 4, 0.03, 65536.0, shares.append)
+    assert pieces.calls == whole.calls
+    assert len(shares) == 8
+    assert np.allclose(pieces.history, whole.history, rtol=1e-9, atol=1e-9)
+
+
+def test_what_has_no_heavy_balls_is_refused_in_words() -> None:
+    with pytest.raises(ValueError, match="no model with the mass of tapered rollers: a rib holds"):
+        balls_experiment(presets["30206-back-to-back"])
+    with pytest.raises(ValueError, match="x or y among them"):
+        balls_experiment(presets["liew-lim"].replace(dofs=("z",)))
+    with pytest.raises(ValueError, match="above 0 rad/s"):
+        balls_experiment(FAN_RIG.replace(shaft_speed=0.0))

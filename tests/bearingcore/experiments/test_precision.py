@@ -16,6 +16,7 @@ from bearingcore.experiments import (
     Watch,
     angles_experiment,
     linear_limits,
+    measure,
     models_experiment,
     motion_experiment,
     stability_chart,
@@ -220,7 +221,7 @@ def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     shares: list[float] = []
     found: list[Experiment] = []
-    answers = iter([False, False, True])
+    answers = iter([*[False] * 7, True])  # five of them within the references
     experiment = statics_experiment(
         FAN_RIG,
         n_angles=5,
@@ -231,6 +232,15 @@ def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     assert not experiment.completed
     assert shares == sorted(shares)
     assert 0.0 <= shares[0] <= shares[-1] < 1.0
+
+
+@pytest.mark.parametrize("calls", [2, 5_000, 40_000])
+def test_references_end_as_soon_as_they_are_cancelled(calls: int) -> None:
+    """LSODA, DOP853 and CVODE: within one evaluation of the forces."""
+    asked = itertools.count()
+    found = measure(FAN_RIG, ["models"], cancelled=lambda: next(asked) > calls)
+    assert found.count == 0
+    assert next(asked) <= calls + 3
 
 
 def test_refusals() -> None:

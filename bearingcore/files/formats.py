@@ -92,7 +92,8 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
     except MemoryError:
         raise
     except Exception as error:  # a damaged file raises almost anything in there
-        raise checks.refuse("file", name, f"a whole WAV file ({error})") from None
+        why = f" ({error})" if type(error) is ValueError else ""
+        raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
     _check_size(name, data.shape, most_numbers, most_columns)
     if rate <= 0 or data.size == 0:

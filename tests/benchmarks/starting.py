@@ -3,12 +3,16 @@
 All of them share one empty folder for kernels, compile what they need, and leave it there; then
 each draws the loads of the balls, which must be the same, bit for bit. Afterwards one more starts
 with the folder as they left it. Printed are seconds until each is ready and has drawn.
+
+With ``--kills 20`` one server at a time is killed at every tenth of the work of a first start, each
+with the kernels that those before it have left, and every tenth on an empty folder.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import shutil
 import sys
 import tempfile
 import time
@@ -16,11 +20,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.benchmarks.processor import worked
 from tests.browser.helpers import Server, explorer_server
 from tests.helpers.page_client import PageClient
 
 PATIENCE = 1800.0  # [s]
 SHOWN = "load_distribution_balls"
+LAST = "compiled: orbits"
 
 
 @dataclass(frozen=True)
@@ -65,16 +71,47 @@ def start(count: int, folder: Path) -> list[Start]:
             server.stop()
 
 
+def work_until(seconds: float, folder: Path) -> tuple[float, str]:
+    """Kill a server once it has worked so long or compiled all: what it worked [s], and its log."""
+    server = explorer_server(environment={"NUMBA_CACHE_DIR": str(folder)})
+    while worked(server.process.pid) < seconds and LAST not in server.log:
+        time.sleep(0.05)
+    took = worked(server.process.pid)
+    server.process.kill()
+    server.process.wait()
+    return took, server.log
+
+
+def kill(count: int, folder: Path) -> list[str]:
+    """Kill so many servers and leave the folder as the last of them left it; logs of all."""
+    whole, log = work_until(PATIENCE, folder)
+    logs = [log]
+    print(f"a first start works {whole:.1f} s; killed:")
+    for number in range(count):
+        tenth = number % 10 + 1
+        if tenth == 1:
+            shutil.rmtree(folder)
+            folder.mkdir()
+        took, log = work_until(0.1 * tenth * whole, folder)
+        kept = len(list(folder.rglob("*.kernel")))
+        partial = len(list(folder.rglob("*.kernel.*")))
+        print(f"  after {took:5.1f} s, {kept} kernels kept, {partial} partial", flush=True)
+        logs.append(log)
+    return logs
+
+
 def main() -> int:
     """Start, print, and say with the exit code whether all drew the same."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--servers", type=int, default=4)
+    parser.add_argument("--kills", type=int, default=0, help="first starts that are killed")
     chosen = parser.parse_args()
     from tests.benchmarks.machine import pace
 
     print(pace())
     with tempfile.TemporaryDirectory(prefix="kernels-") as name:
         folder = Path(name)
+        killed = kill(chosen.kills, folder) if chosen.kills else []
         first = start(chosen.servers, folder)
         print(f"{'':<24}{'ready after':>14}{'drawn after':>14}")
         for number, one in enumerate(first, 1):
@@ -86,7 +123,8 @@ def main() -> int:
         print(f"{'another, afterwards':<24}{again.ready:>12.1f} s{again.drawn:>12.1f} s")
     same = all(one.picture == again.picture for one in first) and bool(again.picture)
     print(f"kernels: {size / 1e6:.1f} MB; pictures {'all the same' if same else 'DIFFER'}")
-    troubled = [one.log for one in [*first, again] if "Traceback" in one.log]
+    logs = [*killed, *(one.log for one in [*first, again])]
+    troubled = [log for log in logs if "Traceback" in log]
     print(*troubled, pace(), sep="\n")
     return int(not same or bool(troubled))
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import panel as pn
 from bokeh.document import Document
+from panel.io.resources import LOCAL_DIST
 
 
 class PageTemplate(pn.Template):
@@ -19,6 +20,9 @@ class PageTemplate(pn.Template):
         """The document of a session."""
         if doc is None:
             return super().server_doc(doc, *arguments, **named)
+        # Panel sets this when it writes the page, which may be in another process than the session
+        # of its websocket: style sheets would come from Panel's public site then, or not at all.
+        doc.template_variables["dist_url"] = LOCAL_DIST
         with doc.models.freeze():
             return super().server_doc(doc, *arguments, **named)
 

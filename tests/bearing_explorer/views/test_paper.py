@@ -25,13 +25,13 @@ def test_all_figures_from_3_to_10_are_there() -> None:
     assert {one.tab for one in FIGURES} <= {section.name for section in SECTIONS}
 
 
-@pytest.mark.parametrize("figure", FIGURES, ids=str)
+@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
 def test_each_has_the_sentence_of_the_model_and_every_value(figure: PaperFigure) -> None:
     assert figure.slip.endswith(".")
     assert all(value and "no value" not in value for value in ours(figure.number).values())
 
 
-@pytest.mark.parametrize("figure", FIGURES, ids=str)
+@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
 def test_the_curves_lie_on_the_printed_axes(figure: PaperFigure) -> None:
     """At most a twentieth of a curve is cut off, where the paper's axes cut peaks off too."""
     for panel in figure.panels:

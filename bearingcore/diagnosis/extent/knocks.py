@@ -216,7 +216,7 @@ class Knocks:
     hidden: float = math.nan
 
 
-def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
+def find_knocks(recording: Recording, nominal: float, slip: float, turns: float = 0.0) -> Knocks:
     """The mean ball passes of a recording and the knocks in them.
 
     Parameters
@@ -224,6 +224,8 @@ def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
     nominal, slip
         ball passes a second [Hz] over the damaged race, and by how much they may differ, as a
         fraction.
+    turns
+        of the damage through the load zone in a ball pass: 0 on a race that stands still.
 
     Raises
     ------
@@ -235,7 +237,7 @@ def find_knocks(recording: Recording, nominal: float, slip: float) -> Knocks:
     left = envelopes
     for _ in range(MOST_CUTS):
         found = average_passes(
-            left, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True
+            left, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True, turns=turns
         )
         passes = _mean_passes(found, names)
         jump = _jump(found)

@@ -146,7 +146,7 @@ class MeasuredExtent:
             )
             return f"{one:.1f}° or {other:.1f}°, {self.race} race"
         if self.status == ExtentStatus.SHORTER:
-            return f"shorter than about {high:.0f}°, {self.race} race"
+            return f"shorter than about {high:.0f}° or near whole ball spacings, {self.race} race"
         return NO_ANSWER
 
     @property
@@ -155,10 +155,9 @@ class MeasuredExtent:
         if self.answer == NO_ANSWER:
             return self.status.sentence
         spacing = math.degrees(self.ball_spacing)
-        more = f"whole ball spacings of {spacing:.1f}°"
         if self.status == ExtentStatus.SHORTER:
-            return f"{self.answer}, or so near to {more}. {self.status.sentence}"
-        words = f"{self.answer}; or that and {more}."
+            return f"{self.answer} ({spacing:.1f}° each). {self.status.sentence}"
+        words = f"{self.answer}; or that and whole ball spacings of {spacing:.1f}°."
         return words if self.measured else f"{words} {self.status.sentence}"
 
     def table(self) -> ResultTable:
@@ -255,7 +254,9 @@ def measure_extent(
         return _without(race, bearing, ExtentStatus.TOO_SHORT)
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
         return _without(race, bearing, ExtentStatus.TOO_COARSE)
-    knocks = find_knocks(recording, nominal, slip)
+    # the inner race turns with the shaft
+    turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
+    knocks = find_knocks(recording, nominal, slip, turns)
     return _answer(knocks, bearing, race, load, clearance)
 
 

@@ -52,7 +52,7 @@ def mean_stiffness(scene: Scene) -> tuple[float, float, float]:
     return xx, yy, loaded
 
 
-def table() -> str:
+def rows_and_sentence() -> str:
     """Rows of bearings and loads as Markdown, stiffness in N/µm, and a sentence."""
     ratios = []
     rows = [
@@ -83,7 +83,7 @@ def _pair(across: float, along: float) -> str:
 
 def document(text: str) -> str:
     """The document with the table in it."""
-    return put(text, MARK, table())
+    return put(text, MARK, rows_and_sentence())
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ TABS = {
     "Maps": (1, 1, _now_stiff, "Extent"),
     "Explore": (1, 4, None, "Depth"),
     "Frequencies": (1, 1, _frequency, "Extent"),
-    "Vibration": (2, 2, _outer_race, "Extent"),
+    "Vibration": (3, 2, _outer_race, "Extent"),
     "Ball mass": (3, 2, None, "Extent"),
     "Orbits": (2, 1, None, "Extent"),
     "Speed run": (1, 1, None, None),

@@ -40,7 +40,7 @@ class MeasuredSpectrum(FrequencyView):
     prefix = "measured_spectrum"
     title = "Spectrum of the signal"
     about = (
-        "Amplitudes of the vibration up to half the sample rate. Dark: measured. Coloured: the "
+        "Amplitudes of vibration to half the sample rate. Dark: measured. Coloured: the "
         "scene. It is simulated once you switch it on, scaled to the measured root mean square, "
         "with the bands of its natural frequencies shaded: where measured resonances lie in "
         "them, the scene is like the machine. A click puts a cursor on a line."

@@ -42,7 +42,7 @@ class PaperFigures(View):
 
     name = "paper"
     title = "Figures of the paper"
-    about = "Figures 3 to 10 of Petersen, Howard and Prime (2014), computed anew."
+    about = "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014)."
     needs = frozenset()
     in_report = False
     computes = True

@@ -23,6 +23,7 @@ from bearingcore.scene.load import Load
 from bearingcore.scene.presets import preset_notes, presets
 from bearingcore.scene.scene import CONTACT_LAWS, DOF_NAMES, Scene
 from bearingcore.scene.support import Support
+from bearingcore.signals.indicators import Indicators, indicators
 from bearingcore.signals.kurtogram import Kurtogram, kurtogram
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
@@ -52,6 +53,7 @@ __all__ = [
     "Diagnosis",
     "Equilibrium",
     "Film",
+    "Indicators",
     "Kurtogram",
     "Life",
     "Limit",
@@ -81,6 +83,7 @@ __all__ = [
     "equilibrium",
     "film",
     "frequency_bands",
+    "indicators",
     "kurtogram",
     "life",
     "limits",

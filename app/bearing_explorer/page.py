@@ -34,6 +34,9 @@ from bearing_explorer.views.maps import StiffnessMaps
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
 from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
+from bearing_explorer.views.measured_indicators import MeasuredIndicators
+from bearing_explorer.views.measured_kurtogram import MeasuredKurtogram
+from bearing_explorer.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
 from bearing_explorer.views.mechanism import WhichMechanism
@@ -81,8 +84,11 @@ SECTIONS = (
             PartDiagnosis,
             SpallExtent,
             DefectSize,
+            MeasuredIndicators,
             MeasuredSpectrum,
             MeasuredEnvelope,
+            MeasuredKurtogram,
+            MeasuredSpectrogram,
             HowSure,
         ),
     ),

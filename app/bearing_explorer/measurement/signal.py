@@ -18,12 +18,16 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.state.settings import Settings
 from bearingcore.common.lazy import cached_property
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
+from bearingcore.signals.filter_bank import Band, squared_envelopes
 
 if TYPE_CHECKING:
     from bearingcore import Bearing, Kurtogram, Motion, Recording, Scene, Spectrum
 
 SETTLING = 0.2
 """[s] of a simulated motion that are left out, when the start is forgotten."""
+
+ENVELOPE_ORDERS = 40.0
+"""Turns of the shaft a second up to which an envelope over time is kept."""
 
 ENVELOPE_LINES = 1600
 """Frequencies of an envelope spectrum that are drawn, at most."""
@@ -131,6 +135,15 @@ class Measured:
             found = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
             _put(self._envelopes, key, found)
         return self._envelopes[key]
+
+    def envelope_signal(
+        self, direction: str, band: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], float]:
+        """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
+        signal = self.recording.acceleration[:, self.directions.index(direction)]
+        top = ENVELOPE_ORDERS * self.shaft_speed / (2.0 * math.pi)
+        (found,) = squared_envelopes(signal, self.recording.sample_rate, [Band(*band)], top)
+        return found.values, found.rate
 
     @cached_property
     def _middle(self) -> NDArray[np.float64]:

@@ -1,0 +1,154 @@
+"""Condition indicators of a measured signal, and its vibration severity, as facts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.measured_view import MeasuredView, shown_unit
+from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
+from bearing_explorer.widgets.look import LookField, LookPanel
+from bearingcore import indicators
+from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
+
+if TYPE_CHECKING:
+    from bearing_explorer.measurement.signal import Measured
+    from bearing_explorer.results.results import Results
+    from bearingcore import Indicators
+
+MEDIUM = "15 to 300 kW"
+LARGE = "over 300 kW"
+_WORDS = {
+    "medium": MEDIUM,
+    "large": LARGE,
+    "rigid": "rigid support",
+    "flexible": "flexible support",
+}
+MACHINE: LookField = {
+    "kind": "one",
+    "name": "machine",
+    "label": "Machine",
+    "options": [
+        ["", "choose for its zone"],
+        *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
+    ],
+}
+MEANING = {
+    "A": "as of new machines",
+    "B": "fit for long operation",
+    "C": "not for long operation",
+    "D": "may damage the machine",
+}
+"""Meaning of the zones of ISO 20816-3."""
+
+
+class MeasuredIndicators(MeasuredView):
+    """Root mean square, peak, crest factor, kurtosis, velocity and its zone."""
+
+    name = "measured-indicators"
+    title = "Condition indicators"
+    about = (
+        "Numbers of the whole signal. Crest factor and kurtosis rise with single knocks, which "
+        "early damage makes, and may fall again as it grows; the velocity speaks for unbalance, "
+        "misalignment and looseness. Its zones are those of ISO 20816-3, for machines above 15 kW "
+        "and sensors on the bearing's housing."
+    )
+    needs = frozenset()
+    without_size = True
+
+    def build(self, packed: PackedSource) -> Any:
+        self.machine = ""
+        self._facts = facts_pane(sizing_mode="stretch_width")
+        self.panel_of_look = LookPanel(self.look_changed, [MACHINE])
+        whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self.hidden = pn.Column(self.panel_of_look, self._facts, visible=False, **whole)
+        return self.hidden
+
+    def look_changed(self, name: str, value: str) -> None:
+        """Take the machine whose zones count."""
+        self.machine = value
+        if self.measurement is not None:
+            self.measurement.redraw()
+
+    def choices(self) -> dict[str, Any]:
+        return {"machine": self.machine} if self.machine else {}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        self.machine = choices.get("machine", self.machine)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if self.measured is not None:
+            self._facts.object = facts_html(facts(self.measured, self.machine))
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        if measured is None:
+            return self.why_nothing
+        found = indicators(measured.recording, measured.shaft_speed)
+        return severity(measured, found, self.machine)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        measured = self.measured
+        if measured is None:
+            return {}
+        columns = indicators(measured.recording, measured.shaft_speed).table().in_units().named()
+        if measured.in_si:
+            return columns
+        return {
+            name.replace("_m_per_s2", "_as_in_file"): values
+            for name, values in columns.items()
+            if not name.startswith("velocity")
+        }
+
+
+def facts(measured: Measured, machine: str) -> list[Fact]:
+    """The numbers of a signal, for all its directions."""
+    found = indicators(measured.recording, measured.shaft_speed)
+    unit, size = shown_unit(measured)
+
+    def each(values: np.ndarray, words: str = "", digits: int = 3) -> str:
+        several = len(found.directions) > 1
+        return ", ".join(
+            f"{style.number(float(value), digits)}{f' {words}' if words else ''}"
+            f"{f' along {along}' if several else ''}"
+            for value, along in zip(values, found.directions, strict=True)
+        )
+
+    listed = [
+        Fact("Root mean square", each(found.rms / size, unit)),
+        Fact("Peak", each(found.peak / size, unit)),
+        Fact("Crest factor", each(found.crest_factor), "Peak over root mean square; 1.41: a sine."),
+        Fact("Kurtosis", each(found.kurtosis), "1.5: a sine; 3: noise; more: knocks."),
+    ]
+    words = why_no_velocity(measured, found) or each(1e3 * found.velocity_rms, "mm/s")
+    low, high = found.band
+    listed.append(Fact(f"Velocity, {low:.0f} to {high:.0f} Hz, root mean square", words))
+    return [*listed, Fact("Zone of ISO 20816-3", severity(measured, found, machine))]
+
+
+def why_no_velocity(measured: Measured, found: Indicators) -> str:
+    """Why there is no velocity, or an empty text."""
+    if not measured.in_si:
+        return "Not known: the unit of the signal is not."
+    return f"Not known: {found.velocity_reason}." if found.velocity_reason else ""
+
+
+def severity(measured: Measured, found: Indicators, machine: str) -> str:
+    """The zone of the greatest velocity, or why there is none."""
+    if why := why_no_velocity(measured, found):
+        return why.replace("Not known", "No zone")
+    shaft = measured.shaft_speed / (2.0 * math.pi)
+    if not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
+        return "No zone: ISO 20816-3 is for 120 to 30 000 turns a minute."
+    if not machine:
+        return "No zone: choose power and support of the machine."
+    most = float(found.velocity_rms.max())
+    zone = severity_zone(most, machine)
+    return f"Zone {zone} with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}."

@@ -1,0 +1,114 @@
+"""The kurtogram of a measured signal as a picture, with the demodulation band."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import FixedTicker, LinearColorMapper
+from bokeh.palettes import Viridis256
+from numpy.typing import NDArray
+
+from bearing_explorer.plots import style
+from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, scale_by
+from bearing_explorer.plots.layers import draw, nothing, strips
+from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.measured_view import MeasuredView
+from bearingcore.signals.filter_bank import PARTS
+
+if TYPE_CHECKING:
+    from bearing_explorer.results.results import Results
+    from bearingcore import Kurtogram
+
+CELLS = 48
+"""Across the picture: the least common multiple of the parts into which the range is split."""
+_SIDES = (Side("", "Frequency", "f", "Hz"), Side("", "Level: parts of the range", "", ""))
+_SAY = "return isNaN(cell[0]) ? 'too narrow for this signal' : `kurtosis ${rounded(cell[0], 3)}`"
+_BAND = strips(
+    "kurtogram_band", style.LIGHT, 0.0, line_color=style.LIGHT, line_width=2.0, line_dash="dashed"
+)
+
+
+class MeasuredKurtogram(MeasuredView):
+    """Spectral kurtosis over frequency and width of the band."""
+
+    name = "measured-kurtogram"
+    title = "Kurtogram"
+    about = (
+        "How impulsive the signal is in bands of many widths. Dashed: the demodulation band. "
+        "Each row splits the range into as many equal bands as the number at its left; bright "
+        "bands hold knocks. The kurtosis is 0 for noise and -1 for a steady tone. The diagnosis "
+        "takes the band whose envelope shows the bearing's lines best, which need not be the most "
+        "impulsive one."
+    )
+    needs = frozenset()
+    without_size = True
+
+    def build(self, packed: PackedSource) -> Any:
+        plot = style.make_figure(
+            _SIDES[0].quantity,
+            _SIDES[1].quantity,
+            packed.range("kurtogram_frequency", 0.0, 1.0),
+            packed.range("kurtogram_level", -0.5, len(PARTS) - 0.5),
+            height=260,
+            name="kurtogram_drawing",
+        )
+        plot.grid.visible = False
+        plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(PARTS))), minor_ticks=[])
+        plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(PARTS)}
+        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
+        scale_by(packed.range("kurtogram_kurtosis", 0.0, 1.0), mapper)
+        self._image = GridImage(plot, packed, "kurtogram_cells", [mapper], _SIDES, _SAY)
+        plot.add_layout(color_bar(mapper, "Kurtosis", bar_line_color=None), "right")
+        draw(plot, packed, [_BAND])
+        self.hidden = pn.Column(plot, visible=False, sizing_mode="stretch_width", margin=0)
+        return self.hidden
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        measured = self.measured
+        if measured is None:
+            return {"kurtogram_cells": self._image.nothing(), **nothing([_BAND])}, {}
+        direction = self.direction_of(results, measured)
+        found = measured.kurtogram(direction)
+        nyquist = 0.5 * measured.recording.sample_rate
+        cells = picture(found, nyquist)
+        low, high = self.demodulation(results, measured, direction).band
+        middles = np.asarray((np.arange(CELLS) + 0.5) * (nyquist / CELLS), dtype=np.float64)
+        levels = np.arange(len(PARTS), dtype=float)
+        columns = self._image.columns((_SIDES[0], middles), (_SIDES[1], levels), [cells])
+        top = max(float(found.kurtosis.max()), 1.0)
+        return {
+            "kurtogram_cells": columns,
+            "kurtogram_band": {"low": np.array([low]), "high": np.array([high])},
+        }, {"kurtogram_frequency": (0.0, nyquist), "kurtogram_kurtosis": (0.0, top)}
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        if measured is None:
+            return self.why_nothing
+        direction = self.direction_of(results, measured)
+        found = measured.kurtogram(direction)
+        most = int(found.kurtosis.argmax())
+        band, chosen = found.bands[most], self.demodulation(results, measured, direction)
+        return (
+            f"Along {direction} the kurtosis is highest, {style.number(found.kurtosis[most], 3)}, "
+            f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
+            f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        measured = self.measured
+        if measured is None:
+            return {}
+        return measured.kurtogram(self.direction_of(results, measured)).table().in_units().named()
+
+
+def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:
+    """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is."""
+    cells = np.full((len(PARTS), CELLS), np.nan)
+    for band, parts, kurtosis in zip(found.bands, found.parts, found.kurtosis, strict=True):
+        last = round(band.high / nyquist * CELLS)
+        cells[PARTS.index(parts), last - CELLS // parts : last] = kurtosis
+    return cells

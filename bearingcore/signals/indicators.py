@@ -1,0 +1,192 @@
+"""Condition indicators of a measured signal, and vibration severity after ISO 20816-3."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.numbers import number
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.signals.recording import Recording
+
+SEVERITY_BAND = (10.0, 1000.0)
+"""[Hz] of the velocity whose root mean square ISO 20816-3 judges."""
+
+SLOW_SHAFT, SLOW_BAND = 10.0, 2.0
+"""[Hz] Below 600 turns a minute the band begins at 2 Hz."""
+
+SHAFT_SPEEDS = (2.0, 500.0)
+"""[Hz] of the machines that ISO 20816-3 is about: 120 to 30 000 turns a minute."""
+
+FEWEST_PERIODS = 5.0
+"""Of the lower end of the band that a signal has to hold."""
+
+OVERSAMPLING = 2.56
+"""Sample rate over the upper end of the band, at least: recorders filter above."""
+
+ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
+    {
+        "medium, rigid": (1.4e-3, 2.8e-3, 4.5e-3),
+        "medium, flexible": (2.3e-3, 4.5e-3, 7.1e-3),
+        "large, rigid": (2.3e-3, 4.5e-3, 7.1e-3),
+        "large, flexible": (3.5e-3, 7.1e-3, 11.0e-3),
+    }
+)
+"""Boundaries A/B, B/C and C/D [m/s] by machine and support (ISO 20816-3:2022, Annex A): medium
+machines have 15 to 300 kW or shaft heights of 160 to 315 mm (group 2), large ones more (group 1).
+"""
+
+
+@dataclass(frozen=True)
+class Indicators:
+    """Condition indicators of a recording, a number a direction; the mean is left out of all.
+
+    Attributes
+    ----------
+    directions
+        of the recording.
+    rms, peak : (d,) [m/s²]
+        root mean square, and the greatest size.
+    crest_factor : (d,)
+        peak over root mean square; √2 for a sine.
+    kurtosis : (d,)
+        fourth moment over the squared variance; 1.5 for a sine, 3 for noise, more for knocks.
+    velocity_rms : (d,) [m/s]
+        of the velocity between the ends of `band`; NaN where `velocity_reason` says why.
+    band
+        [Hz]
+    velocity_reason
+        why there is no velocity; empty where there is one.
+    """
+
+    directions: tuple[str, ...]
+    rms: NDArray[np.float64]
+    peak: NDArray[np.float64]
+    crest_factor: NDArray[np.float64]
+    kurtosis: NDArray[np.float64]
+    velocity_rms: NDArray[np.float64]
+    band: tuple[float, float]
+    velocity_reason: str
+
+    def table(self) -> ResultTable:
+        """A row a direction."""
+        return table_of(
+            ("direction", "", np.array(self.directions)),
+            ("rms", "m/s²", self.rms),
+            ("peak", "m/s²", self.peak),
+            ("crest_factor", "1", self.crest_factor),
+            ("kurtosis", "1", self.kurtosis),
+            ("velocity_rms", "m/s", self.velocity_rms, "10 to 1000 Hz; from 2 Hz if slow"),
+        )
+
+
+def indicators(recording: Recording, shaft_speed: float | None = None) -> Indicators:
+    """Condition indicators of a recording.
+
+    Parameters
+    ----------
+    shaft_speed
+        [rad/s] where the recording does not say it: a slow shaft widens the band of the velocity.
+
+    Raises
+    ------
+    ValueError
+        for a shaft speed that is not positive.
+    """
+    speed = recording.shaft_speed if shaft_speed is None else shaft_speed
+    if speed is not None:
+        speed = checks.number("shaft_speed", speed, above=0.0, unit="rad/s")
+    signal = recording.acceleration - recording.acceleration.mean(axis=0)
+    variance = (signal**2).mean(axis=0)
+    rms, peak = np.sqrt(variance), np.abs(signal).max(axis=0)
+    slow = speed is not None and speed / (2.0 * math.pi) < SLOW_SHAFT
+    band = (SLOW_BAND if slow else SEVERITY_BAND[0], SEVERITY_BAND[1])
+    why = _no_velocity(recording, band)
+    velocity = np.full(len(rms), math.nan)
+    if not why:
+        velocity = velocity_rms(signal, recording.sample_rate, band)
+    return Indicators(
+        recording.directions,
+        rms,
+        peak,
+        peak / rms,
+        (signal**4).mean(axis=0) / variance**2,
+        velocity,
+        band,
+        why,
+    )
+
+
+def velocity_rms(
+    acceleration: ArrayLike, sample_rate: float, band: tuple[float, float] = SEVERITY_BAND
+) -> NDArray[np.float64]:
+    """Root mean square of the velocity in a band [m/s], by integration in the frequency domain.
+
+    v² = ∫ S(f)/(2πf)² df with the power spectral density S of the whole signal in Hann's window.
+
+    Parameters
+    ----------
+    acceleration : (n,) or (n, d) [m/s²]
+    sample_rate
+        [Hz]
+    band
+        (from, to) [Hz]
+
+    Raises
+    ------
+    ValueError
+        for a band that does not lie between 0 and half the sample rate.
+    """
+    from scipy.signal import periodogram  # imported late: see `spectrum`
+
+    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    low = checks.number("lower end of the band", band[0], above=0.0, unit="Hz")
+    high = checks.number("upper end of the band", band[1], above=low, at_most=0.5 * rate, unit="Hz")
+    frequency, density = periodogram(
+        np.asarray(acceleration, dtype=float), rate, "hann", detrend="constant", axis=0
+    )
+    inside = (frequency >= low) & (frequency <= high)
+    weight = (2.0 * math.pi * frequency[inside]) ** -2
+    return np.asarray(np.sqrt(frequency[1] * np.tensordot(weight, density[inside], axes=1)))
+
+
+def severity_zone(velocity: float, machine: str) -> str:
+    """The zone of ISO 20816-3, "A" to "D", of a root mean square velocity [m/s].
+
+    A: as of new machines. B: fit for long operation. C: not for long. D: may do damage. The
+    standard takes the greatest of all directions at a bearing.
+
+    Parameters
+    ----------
+    machine
+        one of `ZONES`.
+
+    Raises
+    ------
+    ValueError
+        for another machine, or a velocity that is not a number from 0.
+    """
+    if machine not in ZONES:
+        raise checks.refuse("machine", machine, ", ".join(ZONES))
+    value = checks.number("velocity", velocity, at_least=0.0, unit="m/s")
+    return "ABCD"[sum(value > boundary for boundary in ZONES[machine])]
+
+
+def _no_velocity(recording: Recording, band: tuple[float, float]) -> str:
+    """Why the velocity in a band cannot be had, or an empty text."""
+    low, high = band
+    if recording.sample_rate < OVERSAMPLING * high:
+        rate, needed = number(recording.sample_rate, 4), number(OVERSAMPLING * high, 4)
+        return f"the sample rate is {rate} Hz, and {number(high, 4)} Hz need {needed} Hz"
+    if recording.duration < FEWEST_PERIODS / low:
+        needed = number(FEWEST_PERIODS / low, 2)
+        return (
+            f"the signal is {number(recording.duration, 2)} s long, and {low:g} Hz need {needed} s"
+        )
+    return ""

@@ -103,7 +103,8 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     if speed is not None:
         speed = checks.number("shaft_speed", speed, above=0.0, unit="rad/s")
     signal = recording.acceleration - recording.acceleration.mean(axis=0)
-    variance = (signal**2).mean(axis=0)
+    squared = signal**2
+    variance = squared.mean(axis=0)
     rms, peak = np.sqrt(variance), np.abs(signal).max(axis=0)
     slow = speed is not None and speed / (2.0 * math.pi) < SLOW_SHAFT
     band = (SLOW_BAND if slow else SEVERITY_BAND[0], SEVERITY_BAND[1])
@@ -116,7 +117,7 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
         rms,
         peak,
         peak / rms,
-        (signal**4).mean(axis=0) / variance**2,
+        (squared**2).mean(axis=0) / variance**2,
         velocity,
         band,
         why,

@@ -21,7 +21,7 @@ from bearingcore.diagnosis.part.listened_signal import NARROWEST
 from bearingcore.signals.filter_bank import Band, squared_envelopes
 
 if TYPE_CHECKING:
-    from bearingcore import Bearing, Kurtogram, Motion, Recording, Scene, Spectrum
+    from bearingcore import Bearing, Indicators, Kurtogram, Motion, Recording, Scene, Spectrum
 
 SETTLING = 0.2
 """[s] of a simulated motion that are left out, when the start is forgotten."""
@@ -136,13 +136,22 @@ class Measured:
             _put(self._envelopes, key, found)
         return self._envelopes[key]
 
+    def column(self, direction: str) -> NDArray[np.float64]:
+        """The signal (n,) along a direction."""
+        return self.recording.acceleration[:, self.directions.index(direction)]
+
+    @cached_property
+    def indicators(self) -> Indicators:
+        """Condition indicators of the recording."""
+        return core.indicators(self.recording, self.shaft_speed)
+
     def envelope_signal(
         self, direction: str, band: tuple[float, float]
     ) -> tuple[NDArray[np.float64], float]:
         """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
-        signal = self.recording.acceleration[:, self.directions.index(direction)]
         top = ENVELOPE_ORDERS * self.shaft_speed / (2.0 * math.pi)
-        (found,) = squared_envelopes(signal, self.recording.sample_rate, [Band(*band)], top)
+        rate = self.recording.sample_rate
+        (found,) = squared_envelopes(self.column(direction), rate, [Band(*band)], top)
         return found.values, found.rate
 
     @cached_property

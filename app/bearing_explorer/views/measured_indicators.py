@@ -14,13 +14,11 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.measured_view import MeasuredView, shown_unit
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.widgets.look import LookField, LookPanel
-from bearingcore import indicators
 from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
-    from bearingcore import Indicators
 
 MEDIUM = "15 to 300 kW"
 LARGE = "over 300 kW"
@@ -35,7 +33,7 @@ MACHINE: LookField = {
     "name": "machine",
     "label": "Machine",
     "options": [
-        ["", "choose for its zone"],
+        ["", "choose for a zone"],
         *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
     ],
 }
@@ -91,14 +89,13 @@ class MeasuredIndicators(MeasuredView):
         measured = self.measured
         if measured is None:
             return self.why_nothing
-        found = indicators(measured.recording, measured.shaft_speed)
-        return severity(measured, found, self.machine)
+        return severity(measured, self.machine)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         measured = self.measured
         if measured is None:
             return {}
-        columns = indicators(measured.recording, measured.shaft_speed).table().in_units().named()
+        columns = measured.indicators.table().in_units().named()
         if measured.in_si:
             return columns
         return {
@@ -110,7 +107,7 @@ class MeasuredIndicators(MeasuredView):
 
 def facts(measured: Measured, machine: str) -> list[Fact]:
     """The numbers of a signal, for all its directions."""
-    found = indicators(measured.recording, measured.shaft_speed)
+    found = measured.indicators
     unit, size = shown_unit(measured)
 
     def each(values: np.ndarray, words: str = "", digits: int = 3) -> str:
@@ -127,28 +124,29 @@ def facts(measured: Measured, machine: str) -> list[Fact]:
         Fact("Crest factor", each(found.crest_factor), "Peak over root mean square; 1.41: a sine."),
         Fact("Kurtosis", each(found.kurtosis), "1.5: a sine; 3: noise; more: knocks."),
     ]
-    words = why_no_velocity(measured, found) or each(1e3 * found.velocity_rms, "mm/s")
+    why = no_velocity(measured)
+    words = f"not known: {why}" if why else each(1e3 * found.velocity_rms, "mm/s")
     low, high = found.band
-    listed.append(Fact(f"Velocity, {low:.0f} to {high:.0f} Hz, root mean square", words))
-    return [*listed, Fact("Zone of ISO 20816-3", severity(measured, found, machine))]
+    return [*listed, Fact(f"Velocity, {low:.0f} to {high:.0f} Hz, root mean square", words)]
 
 
-def why_no_velocity(measured: Measured, found: Indicators) -> str:
+def no_velocity(measured: Measured) -> str:
     """Why there is no velocity, or an empty text."""
     if not measured.in_si:
-        return "Not known: the unit of the signal is not."
-    return f"Not known: {found.velocity_reason}." if found.velocity_reason else ""
+        return "the unit of the signal is not known"
+    return measured.indicators.velocity_reason
 
 
-def severity(measured: Measured, found: Indicators, machine: str) -> str:
+def severity(measured: Measured, machine: str) -> str:
     """The zone of the greatest velocity, or why there is none."""
-    if why := why_no_velocity(measured, found):
-        return why.replace("Not known", "No zone")
+    why = no_velocity(measured)
     shaft = measured.shaft_speed / (2.0 * math.pi)
-    if not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
-        return "No zone: ISO 20816-3 is for 120 to 30 000 turns a minute."
-    if not machine:
-        return "No zone: choose power and support of the machine."
-    most = float(found.velocity_rms.max())
+    if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
+        why = "the standard is for 120 to 30 000 turns a minute"
+    if not why and not machine:
+        why = "choose power and support of the machine"
+    if why:
+        return f"No zone of ISO 20816-3: {why}."
+    most = float(measured.indicators.velocity_rms.max())
     zone = severity_zone(most, machine)
-    return f"Zone {zone} with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}."
+    return f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}."

@@ -11,7 +11,7 @@ from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, scale_by
+from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
 from bearing_explorer.plots.layers import draw, nothing, strips
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 CELLS = 48
 """Across the picture: the least common multiple of the parts into which the range is split."""
-_SIDES = (Side("", "Frequency", "f", "Hz"), Side("", "Level: parts of the range", "", ""))
+_SIDES = (Side("", "Frequency", "f", "kHz"), Side("", "Bands in the range", "", ""))
 _SAY = "return isNaN(cell[0]) ? 'too narrow for this signal' : `kurtosis ${rounded(cell[0], 3)}`"
 _BAND = strips(
     "kurtogram_band", style.LIGHT, 0.0, line_color=style.LIGHT, line_width=2.0, line_dash="dashed"
@@ -75,14 +75,18 @@ class MeasuredKurtogram(MeasuredView):
         nyquist = 0.5 * measured.recording.sample_rate
         cells = picture(found, nyquist)
         low, high = self.demodulation(results, measured, direction).band
-        middles = np.asarray((np.arange(CELLS) + 0.5) * (nyquist / CELLS), dtype=np.float64)
-        levels = np.arange(len(PARTS), dtype=float)
+        middles = np.asarray((np.arange(CELLS) + 0.5) * (1e-3 * nyquist / CELLS))
+        levels = np.arange(len(cells), dtype=float)
         columns = self._image.columns((_SIDES[0], middles), (_SIDES[1], levels), [cells])
         top = max(float(found.kurtosis.max()), 1.0)
         return {
             "kurtogram_cells": columns,
-            "kurtogram_band": {"low": np.array([low]), "high": np.array([high])},
-        }, {"kurtogram_frequency": (0.0, nyquist), "kurtogram_kurtosis": (0.0, top)}
+            "kurtogram_band": {"low": np.array([1e-3 * low]), "high": np.array([1e-3 * high])},
+        }, {
+            "kurtogram_frequency": (0.0, 1e-3 * nyquist),
+            "kurtogram_level": ends(levels),
+            "kurtogram_kurtosis": (0.0, top),
+        }
 
     def sentence(self, results: Results) -> str:
         measured = self.measured
@@ -106,8 +110,12 @@ class MeasuredKurtogram(MeasuredView):
 
 
 def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:
-    """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is."""
-    cells = np.full((len(PARTS), CELLS), np.nan)
+    """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is.
+
+    Of the levels that the signal is long enough for, two at least.
+    """
+    count = max(PARTS.index(int(found.parts.max())) + 1, 2)
+    cells = np.full((count, CELLS), np.nan)
     for band, parts, kurtosis in zip(found.bands, found.parts, found.kurtosis, strict=True):
         last = round(band.high / nyquist * CELLS)
         cells[PARTS.index(parts), last - CELLS // parts : last] = kurtosis

@@ -13,6 +13,7 @@ from bokeh.models import LinearColorMapper
 from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
 
+from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
 from bearing_explorer.plots.layers import curve, draw, nothing
@@ -22,9 +23,8 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore.signals.spectrogram import (
-    ShaftTrack,
+    FEWEST_SEGMENTS,
     Spectrogram,
-    follow_shaft,
     order_map,
     spectrogram,
 )
@@ -33,14 +33,15 @@ if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
 
-FOLLOWED = (0.55, 1.6)
-"""Times the given shaft speed between which a speed is looked for."""
 MOST_COLUMNS, MOST_ROWS = 220, 320
 """Of the picture."""
 DEPTH_OF_VIEW = 50.0  # [dB]
 SEGMENTS = 60.0
 """Of a spectrogram, one after the other."""
+SEGMENT_LENGTHS = (64, 8192)
 TOP_ORDER, ORDER_STEP = 20.0, 0.1
+SPEED_TOP = 8.0
+"""Turns of the shaft up to which a spectrogram shows a speed that changes."""
 _SIDES = {
     "time": Side("", "Time", "t", "s"),
     "turns": Side("", "Turns of the shaft", "", ""),
@@ -53,19 +54,29 @@ FIELDS: list[LookField] = [
      "options": [["spectrogram", "spectrogram"], ["orders", "order map"]]},
     {"kind": "one", "name": "of", "label": "of",
      "options": [["signal", "the signal"], ["envelope", "its envelope"]]},
-    {"kind": "one", "name": "speed", "label": "Shaft speed",
-     "options": [["given", "as given"], ["followed", "followed by its lines"]]},
+    {"kind": "number", "name": "last", "label": "Shaft speed at the end (Hz)",
+     "hint": "as at first"},
 ]  # fmt: skip
-_TRACK = curve("spectrogram_track", "x", "y", "#FFFFFF", 1.6, (5, 4))
+_SPEED = curve("spectrogram_speed", "x", "y", "#FFFFFF", 1.6, (5, 4))
 
 
 @dataclass(frozen=True)
 class Look:
-    """Choices above the map."""
+    """Choices above the map; `last`: shaft speed at the end [Hz], None: it does not change."""
 
     map: str = "spectrogram"
     of: str = "signal"
-    speed: str = "given"
+    last: float | None = None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A map: levels (columns, rows) [dB below the highest] at x and y, up to `top`."""
+
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    level: NDArray[np.float64]
+    top: float
 
 
 class MeasuredSpectrogram(MeasuredView):
@@ -75,16 +86,16 @@ class MeasuredSpectrogram(MeasuredView):
     title = "Spectrogram and order map"
     about = (
         "Spectra over time, for speeds that change. Dashed: the shaft speed. An order map counts "
-        "in turns of the shaft: lines of shaft and bearing stay level there whatever the speed, "
-        "once it is known. It can be followed by the shaft's own lines; check in the spectrogram "
-        "that the dashed curve lies on a line."
+        "in turns of the shaft: lines of shaft and bearing stay level there at any speed. For a "
+        "steady run-up or run-down give the shaft speed at the end, and check in the spectrogram "
+        "that the dashed line lies on a line of the shaft."
     )
     needs = frozenset()
     without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         self.look = Look()
-        self._known: tuple[Any, tuple[ShaftTrack, Spectrogram, float]] | None = None
+        self._known: tuple[Any, Shown] | None = None
         plot = style.make_figure(
             _SIDES["time"].quantity,
             _SIDES["frequency"].quantity,
@@ -95,20 +106,27 @@ class MeasuredSpectrogram(MeasuredView):
         )
         plot.grid.visible = False
         mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-        scale_by(packed.range("spectrogram_level", -50.0, 0.0), mapper)
+        scale_by(packed.range("spectrogram_level", -DEPTH_OF_VIEW, 0.0), mapper)
         sides = list(_SIDES.values())
         self._image = GridImage(plot, packed, "spectrogram_cells", [mapper], sides, _SAY)
         title = "dB below the highest"
         plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
-        draw(plot, packed, [_TRACK])
+        draw(plot, packed, [_SPEED])
         self.panel_of_look = LookPanel(self.look_changed, FIELDS)
         whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self.hidden = pn.Column(self.panel_of_look, plot, visible=False, **whole)
         return self.hidden
 
+    # The look
+
     def look_changed(self, name: str, value: str) -> None:
-        """Show another map, or by another speed."""
-        self.look = replace(self.look, **{name: value})
+        """Show another map, or by another speed; a number that is refused changes nothing."""
+        try:
+            self.choose({name: value})
+        except ValueError as error:
+            self.panel_of_look.refuse(str(error))
+            return
+        self.panel_of_look.refuse("")
         if self.measurement is not None:
             self.measurement.redraw()
 
@@ -116,104 +134,111 @@ class MeasuredSpectrogram(MeasuredView):
         first = Look()
         return {k: v for k, v in vars(self.look).items() if v != getattr(first, k)}
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        self.look = replace(self.look, **choices)
+    def choose(self, choices: Mapping[str, Any], results: Results | None = None) -> None:
+        known = dict(choices)
+        if text := str(known.pop("last", "")).strip():
+            words = "The shaft speed at the end"
+            self.look = replace(self.look, last=number_of(text[:20], words, "Hz", 0.1, 2000.0))
+        elif "last" in choices:
+            self.look = replace(self.look, last=None)
+        self.look = replace(self.look, **known)
 
-    def shown(self, results: Results, measured: Measured) -> tuple[ShaftTrack, Spectrogram, float]:
-        """The speed, the map as the look has it, and the highest frequency [Hz] or order of it."""
-        band = self.demodulation(results, measured, self.direction_of(results, measured)).band
-        key = id(measured), self.look, band
-        if self._known is None or self._known[0] != key:
-            track = self.track(results, measured)
-            self._known = key, (track, *self._map(results, measured, track))
-        return self._known[1]
+    # The picture
 
-    def track(self, results: Results, measured: Measured) -> ShaftTrack:
-        """The shaft speed over time: followed where that is chosen and clear, or constant."""
-        given = measured.shaft_speed / (2.0 * math.pi)
-        ends_of_time = np.array([0.0, measured.recording.duration])
-        constant = ShaftTrack(ends_of_time, np.full(2, given), 0.0, clear=False)
-        if self.look.speed == "given":
-            return constant
-        signal, rate = self.signal(results, measured, "signal")
-        lowest, highest = (share * given for share in FOLLOWED)
-        try:
-            found = follow_shaft(signal, rate, lowest, highest)
-        except ValueError:  # too short, or sampled too slowly
-            return constant
-        return found if found.clear else constant
+    def speed(self, measured: Measured) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Times [s] and the shaft speed then [Hz]."""
+        first = measured.shaft_speed / (2.0 * math.pi)
+        last = first if self.look.last is None else self.look.last
+        return np.array([0.0, measured.recording.duration]), np.array([first, last])
 
-    def signal(
-        self, results: Results, measured: Measured, of: str
-    ) -> tuple[NDArray[np.float64], float]:
-        """The signal or its envelope, and its sample rate [Hz]."""
-        direction = self.direction_of(results, measured)
-        if of == "signal":
-            column = measured.directions.index(direction)
-            return measured.recording.acceleration[:, column], measured.recording.sample_rate
-        return measured.envelope_signal(
-            direction, self.demodulation(results, measured, direction).band
+    def too_short(self, measured: Measured) -> str:
+        """Why there is no map, or an empty text."""
+        time, speed = self.speed(measured)
+        turns, needed = float(speed.mean() * time[-1]), FEWEST_SEGMENTS / ORDER_STEP
+        if self.look.map == "spectrogram" or turns >= needed:
+            return ""
+        return (
+            f"An order map needs {needed:.0f} turns of the shaft, and the signal has "
+            f"{style.number(turns, 2)}."
         )
 
-    def _map(
-        self, results: Results, measured: Measured, track: ShaftTrack
-    ) -> tuple[Spectrogram, float]:
-        signal, rate = self.signal(results, measured, self.look.of)
-        turning = measured.shaft_speed / (2.0 * math.pi)
-        if self.look.map == "orders":
-            return order_map(signal, rate, track.time, track.speed, ORDER_STEP), TOP_ORDER
-        step = max(SEGMENTS / measured.recording.duration, rate / 8192.0)
-        top = 0.5 * rate
+    def shown(self, results: Results, measured: Measured) -> Shown:
+        """The map as the look has it."""
+        direction = self.direction_of(results, measured)
+        band = None
         if self.look.of == "envelope":
-            step, top = max(4.0 / measured.recording.duration, 0.25 * turning), TOP_ORDER * turning
-        return spectrogram(signal, rate, step), min(top, 0.5 * rate)
+            band = self.demodulation(results, measured, direction).band
+        key = measured, self.look, direction, band
+        if self._known is None or self._known[0] != key:
+            signal, rate = measured.column(direction), measured.recording.sample_rate
+            if band is not None:
+                signal, rate = measured.envelope_signal(direction, band)
+            found, top = self._map(measured, signal, rate)
+            kept = found.frequency <= top
+            level = thinned(decibels(found.density[:, kept]))
+            x, y = (
+                np.linspace(values[0], values[-1], count)
+                for values, count in zip(
+                    (found.time, found.frequency[kept]), level.shape, strict=True
+                )
+            )
+            self._known = key, Shown(x, y, level - level.max(), top)
+        return self._known[1]
+
+    def _map(
+        self, measured: Measured, signal: NDArray[np.float64], rate: float
+    ) -> tuple[Spectrogram, float]:
+        """The map, and the highest frequency [Hz] or order that is drawn of it."""
+        time, speed = self.speed(measured)
+        if self.look.map == "orders":
+            return order_map(signal, rate, time, speed, ORDER_STEP), TOP_ORDER
+        if self.look.of == "envelope":
+            step = max(5.0 / time[-1], 0.25 * speed[0])
+            return spectrogram(signal, rate, step), min(TOP_ORDER * speed.max(), 0.5 * rate)
+        least, most = SEGMENT_LENGTHS
+        length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
+        return spectrogram(signal, rate, rate / length), 0.5 * rate
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
-        if measured is None:
-            return {"spectrogram_cells": self._image.nothing(), **nothing([_TRACK])}, {}
-        track, found, top = self.shown(results, measured)
-        kept = found.frequency <= top
-        level = thinned(decibels(found.density[:, kept]))
-        level -= level.max()
-        x, y = (
-            np.linspace(values[0], values[-1], count)
-            for values, count in zip((found.time, found.frequency[kept]), level.shape, strict=True)
-        )
+        if measured is None or self.too_short(measured):
+            return {"spectrogram_cells": self._image.nothing(), **nothing([_SPEED])}, {}
+        shown = self.shown(results, measured)
         across, up = ("turns", "order") if self.look.map == "orders" else ("time", "frequency")
-        cells = self._image.columns((_SIDES[across], x), (_SIDES[up], y), [level.T])
-        drawn = self.look.map != "orders" and self.look.speed == "followed"
-        line = {"x": track.time, "y": track.speed} if drawn else nothing([_TRACK])[_TRACK.source]
-        ranges = {"spectrogram_x": ends(x), "spectrogram_y": (0.0, top)}
-        if drawn and self.look.of == "signal":
-            ranges["spectrogram_y"] = (0.0, min(top, 8.0 * float(track.speed.max())))
-        ranges["spectrogram_level"] = (-DEPTH_OF_VIEW, 0.0)
-        return {"spectrogram_cells": cells, "spectrogram_track": line}, ranges
+        cells = self._image.columns(
+            (_SIDES[across], shown.x), (_SIDES[up], shown.y), [shown.level.T]
+        )
+        line, top = nothing([_SPEED])[_SPEED.source], shown.top
+        if self.look.map == "spectrogram" and self.look.last is not None:
+            time, speed = self.speed(measured)
+            line, top = {"x": time, "y": speed}, min(top, SPEED_TOP * float(speed.max()))
+        ranges = {
+            "spectrogram_x": ends(shown.x),
+            "spectrogram_y": (0.0, top),
+            "spectrogram_level": (-DEPTH_OF_VIEW, 0.0),
+        }
+        return {"spectrogram_cells": cells, "spectrogram_speed": line}, ranges
 
     def sentence(self, results: Results) -> str:
         measured = self.measured
         if measured is None:
             return self.why_nothing
-        track, _, _ = self.shown(results, measured)
-        words = f"Shaft speed {style.number(float(track.speed[0]), 4)} Hz throughout, as given"
-        if track.clear:
-            low, high = (
-                style.number(float(end), 3) for end in (track.speed.min(), track.speed.max())
-            )
-            clear = style.number(track.prominence, 2)
-            words = (
-                f"Followed by its lines, {clear} dB clear, the shaft turns at {low} to {high} Hz"
-            )
-        elif self.look.speed == "followed":
-            words += ": its own lines do not stand out enough to follow them"
-        return f"{words}."
+        if why := self.too_short(measured):
+            return why
+        _, (first, last) = self.speed(measured)
+        words = f"{style.number(first, 4)} Hz throughout"
+        if self.look.last is not None:
+            words = f"{style.number(first, 4)} Hz at first and {style.number(last, 4)} Hz at last"
+        return f"Shaft speed {words}, as given."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         measured = self.measured
-        if measured is None:
+        if measured is None or self.too_short(measured):
             return {}
-        track, _, _ = self.shown(results, measured)
-        return {"time_s": track.time, "shaft_speed_hz": track.speed}
+        shown = self.shown(results, measured)
+        across, up = ("turns", "order") if self.look.map == "orders" else ("time_s", "frequency_hz")
+        x, y = np.meshgrid(shown.x, shown.y, indexing="ij")
+        return {across: x.ravel(), up: y.ravel(), "level_db": shown.level.ravel()}
 
 
 def thinned(level: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,11 +1,11 @@
-"""Spectra over time, speeds that change, and orders."""
+"""Spectra over time, and over the turns of a shaft."""
 
 import math
 
 import numpy as np
 import pytest
 
-from bearingcore.signals.spectrogram import follow_shaft, order_map, spectrogram
+from bearingcore.signals.spectrogram import order_map, spectrogram
 
 RATE = 6000.0
 TIME = np.arange(int(8 * RATE)) / RATE
@@ -18,9 +18,6 @@ def run_up(first: float, last: float, orders: dict[float, float], noise: float =
     return np.asarray(tones + noise * np.random.default_rng(2).standard_normal(TIME.size))
 
 
-SHAFT = {1.0: 1.0, 2.0: 0.6, 3.0: 0.4, 4.0: 0.3, 5.0: 0.2}
-
-
 def test_the_power_of_a_tone_is_at_its_frequency_all_the_time():
     found = spectrogram(3.0 * np.sin(2.0 * math.pi * 500.0 * TIME), RATE, 10.0)
     power = found.density.sum(axis=1) * found.frequency[1]
@@ -28,22 +25,6 @@ def test_the_power_of_a_tone_is_at_its_frequency_all_the_time():
     assert (found.frequency[found.density.argmax(axis=1)] == 500.0).all()
     assert found.time[0] == pytest.approx(0.05)
     assert found.time[-1] <= TIME[-1] - 0.04
-
-
-@pytest.mark.parametrize(("first", "last"), [(30.0, 30.0), (15.0, 35.0), (35.0, 18.0)])
-def test_a_shaft_is_followed_by_its_lines(first, last):
-    track = follow_shaft(run_up(first, last, SHAFT), RATE, 10.0, 45.0)
-    true = first + (last - first) * track.time / TIME[-1]
-    assert track.clear
-    assert np.median(np.abs(track.speed / true - 1.0)) < 0.012
-    assert np.abs(track.speed / true - 1.0).max() < 0.05
-
-
-def test_noise_and_lone_tones_are_no_shaft():
-    noise = np.random.default_rng(1).standard_normal(TIME.size)
-    assert not follow_shaft(noise, RATE, 10.0, 45.0).clear
-    lone = noise + np.sin(2.0 * math.pi * 25.0 * TIME)
-    assert not follow_shaft(lone, RATE, 10.0, 45.0).clear
 
 
 def test_orders_stay_where_they_are_while_the_speed_changes():
@@ -67,5 +48,3 @@ def test_what_cannot_be_is_refused():
         spectrogram(np.full(9000, math.nan), RATE, 10.0)
     with pytest.raises(ValueError, match="speeds above 0"):
         order_map(TIME, RATE, [0.0], [0.0])
-    with pytest.raises(ValueError, match="highest"):
-        follow_shaft(TIME, RATE, 10.0, 5.0)

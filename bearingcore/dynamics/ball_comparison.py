@@ -6,7 +6,6 @@ import math
 import time
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,16 +178,8 @@ def band_powers(motion: Motion, edges: Array) -> Array:
     """Power (m, d) [(m/s²)²] of the housing's settled acceleration along x and y between edges."""
     columns = [motion.dofs.index(name) for name in compared_directions(motion.dofs)]
     first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
-    frequency, density = spectrum(
-        motion.outer_acceleration[first:, columns], motion.sample_rate, 0.1 * LOWEST
-    )
-    step = frequency[1] - frequency[0]
-    return np.array(
-        [
-            step * density[(frequency >= low) & (frequency < high)].sum(axis=0)
-            for low, high in pairwise(edges)
-        ]
-    )
+    signal = motion.outer_acceleration[first:, columns]
+    return spectrum(signal, motion.sample_rate, 0.1 * LOWEST).powers(edges)
 
 
 def mass_share(scene: Scene, low: float, high: float, duration: float, sample_rate: float) -> float:

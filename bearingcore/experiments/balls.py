@@ -11,7 +11,6 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +32,7 @@ from bearingcore.experiments.points import (
 )
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
+from bearingcore.signals.spectrum_difference import third_octave_edges
 
 Array = NDArray[np.float64]
 
@@ -148,15 +148,11 @@ NO_MASS = "massless balls"
 
 def third_octaves(acceleration: Array, sample_rate: float) -> dict[str, Array]:
     """Power in third octaves [dB] of the housing's acceleration (samples, 2), by band."""
-    frequency, density = spectrum(acceleration, sample_rate)
-    levels = {}
-    for name, (low, high) in BANDS.items():
-        edges = np.geomspace(low, high, max(round(3.0 * math.log2(high / low)), 1) + 1)
-        inside = [
-            density[(frequency >= a) & (frequency < b)].sum(axis=0) for a, b in pairwise(edges)
-        ]
-        levels[name] = 10.0 * np.log10(np.array(inside))
-    return levels
+    found = spectrum(acceleration, sample_rate)
+    return {
+        name: 10.0 * np.log10(found.powers(third_octave_edges(low, high)))
+        for name, (low, high) in BANDS.items()
+    }
 
 
 def apart(one: dict[str, Array], other: dict[str, Array]) -> dict[str, float]:
@@ -225,7 +221,7 @@ def balls_experiment(
         agreement,
         all(agreement[name] <= max(2.0 * spread[name], REACH[name]) for name in BANDS),
         time.perf_counter() - began,
-        f"spread with balls heavier by a part in ten thousand: {spreads}",
+        f"Spread with balls heavier by a part in ten thousand: {spreads}",
     )
 
     def measure(task: tuple[str, int]) -> Point:

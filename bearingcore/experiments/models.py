@@ -18,7 +18,6 @@ from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import Array, motion_problem
-from bearingcore.experiments.motions import BAND
 from bearingcore.experiments.points import (
     NOT_WATCHED,
     Experiment,
@@ -28,15 +27,11 @@ from bearingcore.experiments.points import (
     least_time,
     measured_in_turn,
 )
-from bearingcore.experiments.references import (
-    MotionReference,
-    bins_that_count,
-    motion_reference,
-    spectrum_error,
-)
+from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.signals.spectrum import spectrum
+from bearingcore.signals.spectrum_difference import BAND, lines_that_count, spectrum_difference
 from bearingcore.statics.equilibrium import equilibrium
 
 MODEL_ERRORS = {
@@ -180,7 +175,7 @@ class _Models:
         truth, place = history[:, 5, :2], history[:, 0, :2]
         swing = float(np.abs(place - place.mean(axis=0)).max())
         return {
-            "spectrum": spectrum_error(acceleration, truth, self.sample_rate, self.band),
+            "spectrum": spectrum_difference(acceleration, truth, self.sample_rate, self.band),
             "level": _level_error(acceleration, truth),
             "displacement": float(np.abs(inner - place).max()) / swing,
         }
@@ -223,7 +218,7 @@ class _Models:
         )
         n = min(len(signal), len(truth))
         errors = {
-            "spectrum": spectrum_error(signal[:n], truth[:n], self.sample_rate, self.band),
+            "spectrum": spectrum_difference(signal[:n], truth[:n], self.sample_rate, self.band),
             "level": _level_error(signal[:n], truth[:n]),
         }
         return Point(
@@ -239,11 +234,11 @@ class _Models:
         if not found.stable:
             why = found.status + (f": {LOSSES[found.through]}" if found.through else "")
             return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
-        frequency, density = spectrum(truth, self.sample_rate)
+        true = spectrum(truth, self.sample_rate)
         mine = found.spectrum(self.sample_rate).density[:, :2]
-        level = 10.0 * math.log10(mine.sum() / density.sum())
-        counts = bins_that_count(frequency, density, self.band)
-        decibel = np.abs(10.0 * np.log10(mine[counts] / density[counts]))
+        level = 10.0 * math.log10(mine.sum() / true.density.sum())
+        counts = lines_that_count(true, self.band)
+        decibel = np.abs(10.0 * np.log10(mine[counts] / true.density[counts]))
         errors = {"spectrum": float(decibel.max()), "level": abs(level)}
         return Point(
             "orbit", words, float(found.ball_passes), errors, seconds, runs,

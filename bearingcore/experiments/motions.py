@@ -25,9 +25,7 @@ from bearingcore.experiments.points import (
 )
 from bearingcore.experiments.references import MOTION_ERRORS, MotionReference, motion_reference
 from bearingcore.scene.scene import Scene
-
-BAND = 1.25
-"""Spectra count up to this times the highest natural frequency."""
+from bearingcore.signals.spectrum_difference import BAND
 
 TOLERANCES = {
     "scipy RK45": (1e-2, 1e-4, 1e-6, 1e-9),

@@ -74,7 +74,9 @@ class Point:
         """The setting in a few letters: "10⁻⁶" for a tolerance, "65.5k" for 65,536 steps."""
         if self.value < 1.0:
             return scientific(self.value).removeprefix("1·")
-        return f"{self.value:.0f}" if self.value < 1e4 else f"{self.value / 1e3:.3g}k"
+        if self.value < 1e4:
+            return f"{self.value:.0f}"
+        return f"{self.value / 1e3:.3g}k" if self.value < 1e6 else f"{self.value / 1e6:.3g}M"
 
 
 @dataclass(frozen=True)

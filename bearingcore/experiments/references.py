@@ -15,13 +15,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common.numbers import scientific
 from bearingcore.dynamics.problem import Array, MotionProblem
 from bearingcore.experiments.integrators import HAS_CVODE, by_cvode, history_of, intervals
 from bearingcore.experiments.points import Reference
-from bearingcore.signals.spectrum import spectrum
+from bearingcore.signals.spectrum_difference import spectrum_difference
 
 TOLERANCE = 1e-13
 
@@ -31,22 +30,18 @@ KINK_SLIVER = 1e-13
 MOTION_ERRORS = {
     "spectrum": "greatest error of the housing's spectrum [dB], up to 1.25 times the highest "
     "natural frequency, where a direction is within 40 dB of its greatest level",
-    "spectrum, lower half": "the same in the lower half of the frequencies [dB]",
-    "spectrum, upper half": "the same in the upper half of the frequencies [dB]",
-    "acceleration": "root mean square error of the housing's acceleration over its root mean "
-    "square",
+    "third octaves": "greatest error of the housing's level in a third octave [dB], up to as high",
+    "series L2": "root mean square error of the housing's acceleration over its root mean square",
     "displacement": "greatest error of a displacement over the greatest swing about the mean",
     "final state": "greatest error of a displacement at the end, over the same swing",
 }
 """Errors of motions by name."""
 
-TRUSTED = {"spectrum": 1e-2, "acceleration": 1e-3, "displacement": 1e-4}
+TRUSTED = {"spectrum": 1e-2, "series L2": 1e-3, "displacement": 1e-4}
 """Greatest difference of the families [as MOTION_ERRORS]."""
 
 LEAST_RTOL = 2.3e-14
 """Relative tolerance, the least that SciPy takes."""
-
-RESOLUTION = 32.0
 
 
 @dataclass(frozen=True)
@@ -85,49 +80,14 @@ def motion_errors(
     size = math.sqrt(float(np.mean(signal**2)))
     with np.errstate(over="ignore"):
         off = np.abs(found[:, (0, 3)] - places) / swing
-        acceleration = math.sqrt(float(np.mean((mine - signal) ** 2))) / size
+        series = math.sqrt(float(np.mean((mine - signal) ** 2))) / size
     return {
-        "spectrum": spectrum_error(mine, signal, sample_rate, band),
-        "spectrum, lower half": spectrum_error(mine, signal, sample_rate, 0.5 * band),
-        "spectrum, upper half": spectrum_error(mine, signal, sample_rate, band, 0.5 * band),
-        "acceleration": acceleration,
+        "spectrum": spectrum_difference(mine, signal, sample_rate, band),
+        "third octaves": spectrum_difference(mine, signal, sample_rate, band, third_octaves=True),
+        "series L2": series,
         "displacement": float(off.max()),
         "final state": float(off[-1].max()),
     }
-
-
-def spectrum_error(
-    found: Array, expected: Array, sample_rate: float, band: float, lowest: float = 0.0
-) -> float:
-    """Greatest difference of two signals' spectra [dB] from `lowest` to `band` [Hz].
-
-    Only where it counts; NaN where nothing does.
-    """
-    segment = round(sample_rate / RESOLUTION)
-    resolution = RESOLUTION if len(expected) >= segment else sample_rate / len(expected) * 1.001
-    if float(np.abs(found).max()) > 1e100:
-        return math.inf
-    frequency, density = spectrum(expected, sample_rate, resolution)
-    other = spectrum(found, sample_rate, resolution).density
-    counts = bins_that_count(frequency, density, band) & (frequency >= lowest)[:, None]
-    if not counts.any():
-        return math.nan
-    with np.errstate(divide="ignore"):
-        return float(np.abs(10.0 * np.log10(other[counts] / density[counts])).max())
-
-
-def bins_that_count(frequency: Array, density: Array, band: float) -> NDArray[np.bool_]:
-    """(m, k) where k spectra are worth comparing: below `band` [Hz], within 40 dB of their best.
-
-    Directions that do not move have no spectrum to err in; of the first bins the mean of each
-    segment, which is taken away, leaves no more than a remnant.
-    """
-    level = density.max(axis=0)
-    strong = (density > 1e-4 * level) & (level > 1e-12 * level.max())
-    counts: NDArray[np.bool_] = (
-        strong & ((frequency > 2.5 * frequency[1]) & (frequency <= band))[:, None]
-    )
-    return counts
 
 
 def motion_reference(

@@ -26,10 +26,11 @@ from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import METHODS
-from bearingcore.experiments.motions import BAND, at_rate
+from bearingcore.experiments.motions import at_rate
 from bearingcore.experiments.points import NOT_WATCHED, Reference, Watch
 from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
+from bearingcore.signals.spectrum_difference import BAND
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 
 Array = NDArray[np.float64]

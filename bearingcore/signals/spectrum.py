@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,12 @@ class Spectrum(NamedTuple):
 
     frequency: NDArray[np.float64]
     density: NDArray[np.float64]
+
+    def powers(self, edges: ArrayLike) -> NDArray[np.float64]:
+        """Power (n,) or (n, k) [(unit of the signal)²] in bands between n + 1 edges [Hz]."""
+        ends = np.searchsorted(self.frequency, edges)
+        sums = [self.density[low:high].sum(axis=0) for low, high in pairwise(ends)]
+        return np.array(sums) * (self.frequency[1] - self.frequency[0])
 
     def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
         """A row a frequency: the density, of several signals named by their `directions`."""

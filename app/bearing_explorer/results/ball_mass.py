@@ -197,7 +197,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     finite = all(np.isfinite(signal).all() for signal in late)
     octaves = _octaves(rate)
     both = [core.spectrum(signal, rate) for signal in late] if finite and dofs else []
-    power = [_powers(*found, octaves) for found in both] or [
+    power = [found.powers(octaves).sum(axis=1) for found in both] or [
         np.full(len(octaves) - 1, math.nan)
     ] * 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -310,15 +310,6 @@ def _octaves(sample_rate: float) -> Array:
     return np.asarray(LOWEST_OCTAVE * 2.0 ** np.arange(count + 1), dtype=np.float64)
 
 
-def _powers(frequency: Array, density: Array, edges: Array) -> Array:
-    """Power (m,) [(m/s²)²] of all directions between edges."""
-    total = density.sum(axis=1)
-    at = np.searchsorted(edges, frequency, side="right") - 1
-    inside = (at >= 0) & (at < len(edges) - 1)
-    power = np.bincount(at[inside], total[inside], len(edges) - 1)
-    return np.asarray(power * (frequency[1] - frequency[0]))
-
-
 def _spread(late: list[Array], rate: float, edges: Array) -> Array:
     """Standard error (m,) of the share, from parts of the motion that are taken one by one."""
     length = len(late[0]) // PARTS
@@ -327,7 +318,7 @@ def _spread(late: list[Array], rate: float, edges: Array) -> Array:
     shares = []
     for part in range(PARTS):
         cut = slice(part * length, (part + 1) * length)
-        massless, heavy = (_powers(*core.spectrum(s[cut], rate), edges) for s in late)
+        massless, heavy = (core.spectrum(s[cut], rate).powers(edges).sum(axis=1) for s in late)
         with np.errstate(divide="ignore", invalid="ignore"):
             shares.append(1.0 - massless / heavy)
     scatter: Array = np.asarray(np.std(np.stack(shares), axis=0, ddof=1), dtype=np.float64)

@@ -20,7 +20,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.work_precision import SIDE_BY_SIDE, WorkPrecision, paragraph
+from bearing_explorer.views.work_precision import WorkPrecision, paragraph, prose
 from bearing_explorer.widgets.form import Fields, FieldSpec, row, select
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
@@ -39,20 +39,19 @@ class Chart(NamedTuple):
     experiment: str
     reference: str
     title: str
+    wide: bool = False
 
 
 CHARTS = {
-    "Motion": (
-        Chart("motion", "", "Steps and methods, against two families at 10⁻¹³"),
-        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
-    ),
+    "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
     "Models": (
         Chart("models", FULL, "Fewer directions, against all five"),
         Chart("models", EXACT, "Models of edges, against the exact edge"),
+        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
         Chart("models", SETTLED, "Periodic orbit and march, against the settled motion"),
     ),
     "Statics": (
-        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers"),
+        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
         *(Chart("statics", case, f"The same, {case}") for case in CASES),
         Chart("angles", "", "Cage angles of curves, against 16 001 and those of edges"),
     ),
@@ -84,7 +83,13 @@ _SIGNS = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "�
 _VERDICT_LEGEND = style.legend([(c, _SIGNS[m], name) for name, (c, m) in VERDICT_LOOKS.items()])
 _LOSS_LEGEND = style.legend([(c, "●", loss or "stable") for loss, c in LOSS_COLORS.items()])
 
-_GRID = ":host { flex-flow: row wrap; gap: 10px 26px; align-items: flex-start; }"
+
+def _grid(least: int) -> str:
+    """Style of charts side by side, each at least that many pixels wide."""
+    columns = f"repeat(auto-fit, minmax(min(100%, {least}px), 1fr))"
+    return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
+
+
 _WHOLE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 
 
@@ -116,24 +121,27 @@ class Accuracy(JobView[Found]):
     def build(self, packed: PackedSource) -> Any:
         self._cost = Fields(lambda _: self._redraw())
         self._cost.add("cost", select("Cost as", COSTS))
-        self._origin, self._foot = (pn.pane.HTML("", **_WHOLE) for _ in range(2))
+        self._origin, self._foot = prose(), prose()
         self._charts: list[tuple[Chart, WorkPrecision]] = []
         sections: list[Any] = []
         for heading, charts in CHARTS.items():
             made = [
-                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw))
+                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw, one.wide))
                 for one in charts
             ]
             self._charts += made
             parts = [chart.panel for _, chart in made]
-            sections += [_heading(heading), pn.Column(*parts, **_WHOLE, stylesheets=[_GRID])]
+            sections += [
+                prose(f"<h3>{heading}</h3>"),
+                pn.Column(*parts, **_WHOLE, stylesheets=[_grid(400)]),
+            ]
         self._stability = Stability()
         return pn.Column(
             self.job,
             self._origin,
             row(self._cost.widgets["cost"]),
             *sections,
-            _heading("Stability"),
+            prose("<h3>Stability</h3>"),
             self._stability.panel,
             self._foot,
             **_WHOLE,
@@ -220,11 +228,6 @@ class Accuracy(JobView[Found]):
         self._foot.object = foot(own, base, self._shown(results))
 
 
-def _heading(words: str) -> pn.pane.HTML:
-    head = f'<h3 style="margin:18px 0 2px;font-size:15px">{words}</h3>'
-    return pn.pane.HTML(head, **_WHOLE)
-
-
 def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
     """The part of measurements that a chart shows."""
     one = None if found is None else found.experiments.get(chart.experiment)
@@ -241,11 +244,11 @@ def foot(
         for name, one in shown.items()
         if one.left_out
     )
-    words = f"<b>What was left out, and why</b><ul>{left}</ul>" if left else ""
+    words = f"<h4>What was left out, and why</h4><ul>{left}</ul>" if left else ""
     for kind, found in (("Shipped", base), ("This machine", own)):
         if found is not None:
             words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
-    return f'<div style="font-size:12.5px;margin-top:14px">{words}</div>'
+    return words
 
 
 class Stability:
@@ -253,21 +256,20 @@ class Stability:
 
     def __init__(self) -> None:
         self._drawn: object = None
-        self._steps, self._step_words = self._step_figure(), pn.pane.HTML("", **_WHOLE)
+        self._steps, self._step_words = self._step_figure(), prose()
         self._speeds, self._circle = self._speed_figure(), self._circle_figure()
-        self._orbit_words = pn.pane.HTML("", **_WHOLE)
-        side = {**_WHOLE, "stylesheets": [SIDE_BY_SIDE]}
+        self._orbit_words = prose()
         self.panel = pn.Column(
-            pn.Column(self._steps, self._step_words, **side),
-            pn.Column(self._speeds, self._orbit_words, **side),
+            pn.Column(self._steps, self._step_words, **_WHOLE),
+            pn.Column(self._speeds, self._orbit_words, **_WHOLE),
             self._circle,
             **_WHOLE,
-            stylesheets=[_GRID],
+            stylesheets=[_grid(280)],
         )
 
     def _step_figure(self) -> figure:
         """Methods down, steps across."""
-        plot = _figure("Steps a period of the highest frequency", "", x_axis_type="log")
+        plot = _figure("Steps a period", "", x_axis_type="log")
         plot.x_range.update(start=0.8, end=80.0)
         plot.y_range.update(start=-0.6, end=len(FIXED_STEP) - 0.4)
         style.fixed_ticks(plot.xaxis[0], [1, 2, 5, 10, 20, 50])

@@ -8,15 +8,25 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import panel as pn
-from bokeh.models import ColumnDataSource, FixedTicker, HoverTool, LinearColorMapper, Range1d, Span
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJS,
+    FixedTicker,
+    HoverTool,
+    LinearColorMapper,
+    Range1d,
+    Span,
+)
 
+from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.widgets.form import Fields, row, select
 from bearingcore.common.numbers import decibels, scientific
 from bearingcore.experiments import Experiment, Point
 from bearingcore.experiments.integrators import METHODS
 
-HEIGHT = 300
+HEIGHT, TALL = 260, 430
+"""[px] of a chart, and of one that has a row for itself."""
 COLORS = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", style.INK,
 )  # fmt: skip
@@ -32,11 +42,42 @@ SHORTEST = 100.0
 PALE = 0.3
 """Opacity of shipped points beside those of this machine."""
 
-SIDE_BY_SIDE = ":host { flex: 1 1 300px !important; min-width: 0 !important; max-width: 640px; }"
-"""Style of a figure with its words among others."""
+_WIDE = ":host { grid-column: 1 / -1; }"
+_REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
 
 _POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
-           "evaluations", "status", "size", "angle")  # fmt: skip
+           "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
+
+_PLACE_LABELS = """
+const {x_range, y_range, inner_width, inner_height} = plot
+if (!(inner_width > 0)) return
+const larger = document.documentElement.hasAttribute("data-projector") ? 1.3 : 1
+const {cost, error, label, first, text, right, down} = source.data
+const part = (value, {start, end}) => Math.log(value/start)/Math.log(end/start)
+const points = Array.from(cost, (value, i) =>
+  [part(value, x_range)*inner_width, (1 - part(error[i], y_range))*inner_height])
+const taken = points.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
+const free = ([left, top, end, bottom]) => left >= 0 && end <= inner_width && top >= 0
+  && bottom <= inner_height && taken.every((other) =>
+    end <= other[0] || left >= other[2] || bottom <= other[1] || top >= other[3])
+const order = points.map((_, i) => i).sort((a, b) => first[b] - first[a])
+for (const i of order) {
+  text[i] = ""
+  const [x, y] = points[i]
+  const width = 6*larger*label[i].length, half = 6*larger
+  search: for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
+    for (const side of [9, -9 - width]) {
+      const box = [x + side, y + height - half, x + side + width, y + height + half]
+      if (!free(box)) continue
+      taken.push(box)
+      ;[text[i], right[i], down[i]] = [label[i], side, height]
+      break search
+    }
+  }
+}
+source.change.emit()
+"""
+"""Put each label where it covers neither a point nor another label, if there is such a place."""
 
 
 def look(slot: int) -> tuple[int, str]:
@@ -56,36 +97,43 @@ class WorkPrecision:
         meaning of each error that can be drawn, by name.
     redraw
         called when another error is chosen.
+    wide
+        whether it has a row for itself.
     """
 
-    def __init__(self, title: str, errors: Mapping[str, str], redraw: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        title: str,
+        errors: Mapping[str, str],
+        redraw: Callable[[], None],
+        wide: bool = False,
+    ) -> None:
         self.error = next(iter(errors))
         self._drawn: object = None
         self._fields = Fields(lambda _: self._chosen(redraw))
         options = [[name, name] for name in errors]
         self._fields.add("error", select("Error of", options))
-        self.plot = self._figure()
-        self._words = pn.pane.HTML("", sizing_mode="stretch_width", margin=0)
-        head = f'<h4 style="font-size:13px;margin:0;max-width:320px">{html.escape(title)}</h4>'
+        self.plot = self._figure(TALL if wide else HEIGHT)
+        self._words = prose()
         self.panel = pn.Column(
-            row(pn.pane.HTML(head, margin=0), self._fields.widgets["error"]),
+            row(prose(f"<h4>{html.escape(title)}</h4>", _REST), self._fields.widgets["error"]),
             self.plot,
             self._words,
             sizing_mode="stretch_width",
             margin=0,
-            stylesheets=[SIDE_BY_SIDE],
+            stylesheets=[_WIDE] if wide else [],
         )
 
     def _chosen(self, redraw: Callable[[], None]) -> None:
         self.error = self._fields.values["error"]
         redraw()
 
-    def _figure(self) -> Any:
+    def _figure(self, height: int) -> Any:
         # with words, or no room would be left for them
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
-            *sides, *ranges, height=HEIGHT, x_axis_type="log", y_axis_type="log"
+            *sides, *ranges, height=height, x_axis_type="log", y_axis_type="log"
         )
         ticks = [m * 10.0**e for e in range(-9, 13) for m in (1, 3)]
         plot.xaxis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
@@ -109,9 +157,15 @@ class WorkPrecision:
                               fill_color=colors, line_color=colors, alpha="alpha")  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        plot.text("cost", "error", text="label", source=self._points, text_alpha="alpha",
+        plot.text("cost", "error", text="text", source=self._points, text_alpha="alpha",
                   text_color=colors, text_font_size="10px", text_font={"value": style.FONT},
-                  x_offset=6, y_offset=-3, angle="angle")  # fmt: skip
+                  text_baseline="middle", x_offset="right", y_offset="down")  # fmt: skip
+        place = CustomJS(args={"plot": plot, "source": self._points}, code=_PLACE_LABELS)
+        self._points.js_on_change("data", place)
+        for change in ("inner_width", "inner_height"):
+            plot.js_on_change(change, place)
+        for side in ranges:
+            side.js_on_change("end", place)
         tips = [("method", "@method, @setting"), ("error", "@error"), ("time", "@seconds"),
                 ("evaluations", "@evaluations{0.[0]}"), ("status", "@status")]  # fmt: skip
         plot.add_tools(HoverTool(renderers=[points], visible=False, tooltips=tips))
@@ -200,7 +254,7 @@ class WorkPrecision:
                         marker if placed else "x", alpha, label, method, p.setting,
                         style.with_prefix(p.seconds, "s"), p.evaluations,
                         p.status if p.failed or placed else BEYOND, 8 if placed else 11,
-                        0.0 if placed else -0.5 * math.pi,
+                        alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
                     ))  # fmt: skip
         self._points.data = _columns(_POINTS, rows)
         self._lines.data = _columns(("costs", "errors", "slot", "alpha"), lines)
@@ -285,9 +339,15 @@ def legend(methods: Sequence[str]) -> str:
     )
 
 
+def prose(content: str = "", *more: str) -> pn.pane.HTML:
+    """Headings and paragraphs in the type of the page; `more` styles."""
+    styles = [asset_text("accuracy.css"), *more]
+    return pn.pane.HTML(content, stylesheets=styles, sizing_mode="stretch_width", margin=0)
+
+
 def paragraph(words: str) -> str:
     """Words under a chart as HTML."""
-    return f'<p style="margin:4px 0 10px;font-size:12.5px">{html.escape(words)}</p>'
+    return f"<p>{html.escape(words)}</p>"
 
 
 def _around(values: list[float], room: float) -> tuple[float, float]:

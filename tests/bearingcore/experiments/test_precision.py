@@ -196,7 +196,7 @@ def test_motion() -> None:
     assert all(a.errors["spectrum"] > b.errors["spectrum"] for a, b in itertools.pairwise(frontier))
     assert "RK4" in {point.method for point in frontier}
     assert [p.method for p in experiment.points if p.in_use] == ["RK4"]
-    assert experiment.order("RK4", "acceleration") > 2.0
+    assert experiment.order("RK4", "series L2") > 2.0
     assert len(experiment.references[""].families) == 2 + bool(cvode)
 
 

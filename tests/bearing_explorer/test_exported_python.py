@@ -220,12 +220,6 @@ def test_every_scene_can_be_written_in_python(scene: Scene) -> None:
     assert eval(code, {"math": math, "presets": presets, "Scene": Scene}) == scene
 
 
-def test_a_scene_close_to_a_preset_is_written_as_its_changes() -> None:
-    code = scene_code(FAN_RIG)
-    assert code.startswith('presets["fan-rig"].replace(')
-    assert "extent=math.radians(38.6)" in code
-
-
 def test_a_long_floor_comes_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     floor = MeasuredFloor(tuple(np.linspace(-1, 1, 500)), (0.5,) * 500)
     scene = presets["fan-rig"].replace(floor=floor)

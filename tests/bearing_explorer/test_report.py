@@ -1,7 +1,6 @@
 """The report: complete, from the same numbers as the page, and closed to what strangers write."""
 
 import dataclasses
-import gc
 import json
 from datetime import UTC, datetime
 from html.parser import HTMLParser
@@ -17,7 +16,6 @@ from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
-from bokeh.model import Model
 
 from bearingcore import Defect, presets
 from tests.helpers.stability import found_map
@@ -135,17 +133,3 @@ def test_a_link_is_one_of_the_web_or_none(link: str) -> None:
 def test_a_scene_without_an_answer_has_a_report() -> None:
     made = report(Results(presets["fan-rig"].replace(fy=0.0), 0.0), KINDS, {}, about())
     assert "No answer" in made["html"]
-
-
-def test_a_report_leaves_no_models_for_a_garbage_collection() -> None:
-    results = Results(presets["fan-rig"])
-    report(results, KINDS[:4], {}, about())  # what is made once a process
-    gc.collect()
-    before = {id(one) for one in gc.get_objects() if isinstance(one, Model)}
-    gc.disable()
-    try:
-        report(results, KINDS[:4], {}, about())
-        left = [one for one in gc.get_objects() if isinstance(one, Model) and id(one) not in before]
-    finally:
-        gc.enable()
-    assert not left, f"{len(left)} models are left, such as {left[:3]}"

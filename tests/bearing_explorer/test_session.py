@@ -4,12 +4,10 @@ import asyncio
 import math
 import threading
 from collections.abc import Callable
-from typing import Any
 
 import pytest
 from bearing_explorer.messages import SceneChange, take
 from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 
 from bearingcore import presets
@@ -81,49 +79,6 @@ def test_only_what_is_on_screen_is_made_and_drawn(news: list[dict]) -> None:
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
-def test_sources_are_introduced_with_their_figures(
-    news: list[dict], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Bokeh counts all models of the document for each message with new ones."""
-    found: list[bool] = []
-    send = PackedSource.send
-
-    def looked_at(self: PackedSource, *given: Any) -> int:
-        given_before = self._unpack.args
-        size = send(self, *given)
-        found.append(self._unpack.args is given_before)
-        return size
-
-    monkeypatch.setattr(PackedSource, "send", looked_at)
-    session(showing("two"))
-    assert len(found) > 1
-    assert all(found)
-
-
-def test_a_view_that_is_off_screen_lets_go_of_its_results(news: list[dict]) -> None:
-    """A motion is megabytes: a session that has seen all tabs held a hundred of them."""
-    away = session(showing("two"))
-    assert away._views["one"][0]._results is None
-    assert away._views["one"][0].csv() == ""
-    back = session(showing("two"), showing("one"))
-    assert back._views["one"][0].csv()
-
-
-def test_numbers_are_offered_again_after_a_way_back_and_only_where_there_are_any(
-    news: list[dict],
-) -> None:
-    there_and_back = [showing(name) for name in ("two", "one")]
-    view = session(*there_and_back)._views["one"][0]
-    assert view.csv() == "depth_m\n5e-05\n"
-    assert not view._caption.empty
-    away, back = there_and_back
-    refused = changing({"mark": 1, "set": {"depth_um": 400}})
-    view = session(away, refused, back)._views["one"][0]
-    assert "more than this view can show" in view._sentence.text
-    assert view.csv() == ""
-    assert view._caption.empty, "no empty file is offered"
-
-
 def test_the_tab_that_was_asked_for_last_is_shown(
     news: list[dict], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -185,25 +140,6 @@ def test_what_the_scene_refuses_stays_as_it_was(
     assert "allowed: less" in news[0]["refused"]["extent_deg"]
 
 
-def test_choosing_a_preset_brings_its_values_and_ranges(news: list[dict]) -> None:
-    explorer = session(changing({"mark": 1, "choose": {"preset": "liew-lim"}}))
-    assert explorer.scene.bearing == presets["liew-lim"].bearing
-    assert news[0]["state"]["values"]["fy_n"] == -2000
-    assert news[0]["state"]["limits"]["fy_n"]["most"] >= 2000
-    explorer = session(changing({"mark": 1, "choose": {"edge": "exact"}}))
-    assert explorer.scene.defect.edge == "exact"
-
-
-def test_reset_brings_the_preset_back(news: list[dict]) -> None:
-    def act(explorer: Explorer) -> None:
-        explorer.requests.change_scene({"mark": 1, "set": {"extent_deg": 90}})
-        explorer.requests.change_scene({"mark": 2, "reset": True})
-
-    explorer = session(act)
-    assert explorer.values["extent_deg"] == pytest.approx(12.9)
-    assert news[-1]["state"]["values"]["extent_deg"] == pytest.approx(12.9)
-
-
 @pytest.mark.parametrize(
     ("depth_um", "words"), [(400, "more than this view can show"), (5, "could not be computed")]
 )
@@ -252,26 +188,6 @@ def test_strangers_messages_change_nothing(news: list[dict], message: object) ->
 @pytest.mark.parametrize("message", [None, {}, {"show": "nowhere"}, {"show": ["one"]}, 5])
 def test_strangers_tabs_do_not_exist(news: list[dict], message: object) -> None:
     assert session(lambda e: e.show_tab(message))._shown == "one"
-
-
-def test_a_file_becomes_a_floor_and_a_bad_one_a_sentence(news: list[dict]) -> None:
-    text = "250 0\n265 60\n280 0\n"
-
-    async def live(text: str) -> Explorer:
-        explorer = Explorer(SECTIONS)
-        explorer.requests.change_scene({"mark": 2, "floor": {"name": "wear.txt", "text": text}})
-        while explorer._tasks or not explorer._loop.drawn:
-            await asyncio.sleep(0.002)
-        return explorer
-
-    explorer = run(live(text))
-    assert explorer.scene.defect.floor is not None
-    assert explorer.values["extent_deg"] == pytest.approx(30.0)
-    assert news[-1]["state"]["floor"]["words"].startswith("wear.txt: 3 points")
-    assert drawn(explorer, "one")[-1] == pytest.approx(60e-6)
-    explorer = run(live("nothing"))
-    assert explorer.scene == presets["fan-rig"]
-    assert news[-1]["state"]["floor"]["bad"]
 
 
 def test_what_is_shown_names_the_change_it_answers(news: list[dict]) -> None:

@@ -8,18 +8,6 @@ from bearing_explorer.results.executors import FILES, in_thread
 from tests.helpers.loops import run
 
 
-def test_work_in_a_thread_leaves_the_event_loop_free() -> None:
-
-    async def where() -> tuple[str, str]:
-        return threading.current_thread().name, await in_thread(
-            lambda: threading.current_thread().name
-        )
-
-    here, there = run(where())
-    assert here != there
-    assert there.startswith("compute")
-
-
 def test_two_files_are_read_at_a_time_and_pictures_do_not_wait_for_them() -> None:
     started, go_on = threading.Semaphore(0), threading.Event()
     at_work: list[str] = []

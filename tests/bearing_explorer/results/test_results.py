@@ -1,19 +1,18 @@
 """Each answer is computed once, whoever asks."""
 
 import math
-import threading
 
 import numpy as np
 import pytest
 from bearing_explorer.plots.levels import levels_of_compared
 from bearing_explorer.results import motions
-from bearing_explorer.results.cache import Overtaken, cached
+from bearing_explorer.results.cache import Overtaken
 from bearing_explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.settings import Settings
 
-from bearingcore import Scene, equilibrium, presets
+from bearingcore import equilibrium, presets
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.status import OrbitStatus
 
@@ -65,29 +64,6 @@ def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_thei
     assert sizes[0] == sizes[2] == sizes[3] == 0
     assert np.isfinite(list(drawn.values())[1]["y"]).all()
     assert sizes[1]
-
-
-def test_the_healthy_spectrum_is_begun_beside_the_other_and_computed_once(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    scenes: list[tuple[str, bool]] = []
-    together = threading.Barrier(2, timeout=30.0)
-
-    def slow(scene: Scene, how: object) -> dict:
-        scenes.append((threading.current_thread().name, bool(scene.defects)))
-        together.wait()
-        return {}
-
-    monkeypatch.setattr(motions, "late_spectra", cached(slow))
-    results = Results(presets["fan-rig"])
-    results.prefetch(frozenset({"late_spectra", "modes"}))
-    assert scenes == []
-    results.prefetch(frozenset({"late_spectra", "healthy_late_spectra"}))
-    assert results.late_spectra == results.healthy_late_spectra == {}
-    assert sorted(defects for _, defects in scenes) == [False, True]
-    results.prefetch(frozenset({"late_spectra", "healthy_late_spectra"}))
-    assert len(scenes) == 2
-    assert any(name.startswith("compute") and not defects for name, defects in scenes)
 
 
 def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import ast
-import asyncio
 import re
 import types
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import panel as pn
 import pytest
-from bearing_explorer.serve import fast, live, live_component, packed_source
+from bearing_explorer.serve import fast, live
 from bearing_explorer.serve.live_component import LiveComponent
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.serialization import Serializer
@@ -20,7 +18,6 @@ from bokeh.document import Document
 from bokeh.models import ColumnDataSource, Range1d, Spacer
 from bokeh.server import session as bokeh_session
 from bokeh.server.session import ServerSession
-from panel.models.esm import DataEvent
 from panel.viewable import Viewable
 
 from tests.helpers.loops import run
@@ -112,16 +109,6 @@ def test_without_a_lock_decorator_bokehs_own_way_is_taken(monkeypatch: pytest.Mo
     assert len(sent) == 1
 
 
-def test_where_sockets_cannot_be_found_bokeh_sends(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fast, "sockets_of", lambda session: [])
-    received: list[Any] = []
-    document, moved = Document(), Range1d(0, 1)
-    document.add_root(moved)
-    document.on_change(received.append)
-    run(fast.send_changes(None, document, lambda: moved.update(start=3)))
-    assert [event.attr for event in received] == ["start"]
-
-
 def test_without_known_new_models_bokeh_writes_the_message(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -135,21 +122,6 @@ def test_without_known_new_models_bokeh_writes_the_message(
     moved.start = 2
     message = fast._patch_of(document, list(document.callbacks._held_events))
     assert len(message.content["events"]) == 1
-
-
-def test_without_its_callbacks_a_model_gets_events_from_the_document() -> None:
-    document, source = Document(), ColumnDataSource()
-    document.add_root(source)
-    received: list[Any] = []
-    source.on_event(DataEvent, received.append)
-    event = DataEvent(source, {"a": 1})
-    fast.dispatch_event(source, event)
-    callbacks = source._event_callbacks
-    del source._event_callbacks
-    source._trigger_event = lambda event: [act(event) for act in callbacks[event.event_name]]  # type: ignore[method-assign]
-    document.callbacks.subscribe(DataEvent.event_name, source)
-    fast.dispatch_event(source, event)
-    assert received == [event, event]
 
 
 def test_models_are_looked_for_bokehs_way_where_a_name_is_gone(
@@ -172,36 +144,6 @@ def test_without_a_session_there_is_nothing_to_send_to() -> None:
     changes: list[int] = []
     run(live.one_message(None, lambda: changes.append(1)))
     assert changes == [1]
-
-
-@pytest.mark.parametrize("plain", [False, True])
-def test_a_component_gets_messages_either_way(monkeypatch: pytest.MonkeyPatch, plain: bool) -> None:
-    monkeypatch.setattr(live_component, "PLAIN", plain)
-    received: list[Any] = []
-
-    async def send() -> None:
-        component = Component()
-        component.on_msg(lambda event: received.append(event.data))
-        document = Document()
-        model = component.get_root(document)
-        document.add_root(model)
-        component._process_bokeh_event(document, DataEvent(model, {"a": 1}))
-        await asyncio.sleep(0.1)
-
-    run(send())
-    assert received == [{"a": 1}]
-
-
-def test_a_plain_packed_source_changes_its_sources(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(packed_source, "PLAIN", True)
-    made = packed_source.PackedSource()
-    source, moved = made.source("a", "x"), made.range("r", 0.0, 1.0)
-    assert source.syncable
-    made.send({"a": {"x": np.array([1.0, 2.0])}}, {"r": (3.0, 4.0)}, mark=7)
-    assert list(source.data["x"]) == [1.0, 2.0]
-    assert (moved.start, moved.reset_end) == (3.0, 4.0)
-    [packet] = made.anchor.tags
-    np.testing.assert_array_equal(packet.data["packed"], [7, 0, 0, 0])
 
 
 def test_private_names_of_others_stand_here_alone() -> None:

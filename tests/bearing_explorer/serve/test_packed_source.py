@@ -53,24 +53,3 @@ def test_names_are_one_per_session() -> None:
         made.range("r", 0, 1)
     with pytest.raises(ValueError, match="no columns"):
         made.source("c")
-
-
-def test_the_browser_never_echoes_what_it_is_sent() -> None:
-    made = PackedSource()
-    assert not made.source("a", "x").syncable
-    assert not made.range("r", 0, 1).syncable
-
-
-def test_what_was_introduced_with_its_figures_needs_no_second_message() -> None:
-    """Each time that models are given to a callback, Bokeh counts all of the document."""
-    made = packed_source()
-    given: list[int] = []
-    made._unpack.on_change("args", lambda attr, old, new: given.append(1))
-    made.introduce()
-    assert given == [1]
-    made.introduce()
-    made.send({"b": {"z": [1]}})
-    assert given == [1]
-    made.source("c", "x")
-    made.send({"b": {"z": [2]}})
-    assert given == [1, 1], "what nobody has introduced is introduced when something is sent"

@@ -6,7 +6,7 @@ import math
 
 import pytest
 from bearing_explorer.state.address import place_of, read, write
-from bearing_explorer.state.bearing_kinds import as_kind, hidden_of
+from bearing_explorer.state.bearing_kinds import hidden_of
 from bearing_explorer.state.choice_list import KIND
 from bearing_explorer.state.scene_editor import SceneEditor
 
@@ -69,13 +69,6 @@ def test_a_draft_does_not_stop_other_numbers(editor: SceneEditor) -> None:
     assert editor.draft == {"n_balls": 40.0}
 
 
-def test_what_is_undone_takes_its_draft_along(editor: SceneEditor) -> None:
-    kept = editor.snapshot()
-    editor.set({"n_balls": "40"})
-    editor.restore(kept)
-    assert editor.draft == {}
-
-
 @pytest.mark.parametrize("start", ["6205", "fan-rig", "7208-back-to-back", "1208", "nu208"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
@@ -97,12 +90,6 @@ def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
     assert place.scene == scene
 
 
-def test_a_kind_that_it_is_already_changes_nothing() -> None:
-    for name in presets:
-        bearing = presets[name].bearing
-        assert as_kind(bearing, bearing.kind.variant(bearing)) is bearing
-
-
 def test_rollers_take_axial_loads_and_rows_of_defects_out_of_the_scene() -> None:
     editor = SceneEditor("7208-back-to-back")
     assert editor.scene.load.fz != 0.0
@@ -115,20 +102,6 @@ def test_rollers_take_axial_loads_and_rows_of_defects_out_of_the_scene() -> None
     assert longer.load_deflection_factor == pytest.approx(
         Bearing.cylindrical(14, longer.ball_diameter, 20e-3, 60e-3).load_deflection_factor
     )
-
-
-def test_rows_of_a_pair_are_moved_and_preloaded() -> None:
-    editor = SceneEditor("7208-face-to-face")
-    refused, _ = editor.set({"row_distance_mm": "25", "preload_um": "5"})
-    assert refused == {}
-    pair = editor.scene.bearing
-    assert pair.arrangement == "face-to-face"
-    assert pair.row_distance == pytest.approx(25e-3)
-    assert pair.preload == pytest.approx(5e-6)
-    editor.choose({"kind": "back-to-back"})
-    assert editor.scene.bearing.preload == pytest.approx(5e-6)
-    editor.choose({"kind": "single"})
-    assert math.isnan(editor.values["row_distance_mm"])
 
 
 def test_the_second_row_of_a_pair_has_numbers_of_its_own() -> None:

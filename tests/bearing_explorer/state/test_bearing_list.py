@@ -6,7 +6,7 @@ import math
 
 import pytest
 from bearing_explorer.state import address
-from bearing_explorer.state.bearing_list import BearingTable, entry_words, read_table
+from bearing_explorer.state.bearing_list import BearingTable, read_table
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import catalogue, equilibrium, limits, presets
@@ -27,57 +27,12 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
     assert "Assumed: an inner groove of 0.52 ball diameters" in editor.note
 
 
-def test_a_table_of_ones_own_stands_first_and_can_be_used() -> None:
-    editor = SceneEditor("6205")
-    editor.listed.take("ours.csv", read_table(TABLE))
-    assert editor.listed.words == "ours.csv: 1 bearing added"
-    first, own = editor.listed.all()[0]
-    assert (first.name, own) == ("Pump 3", True)
-    assert entry_words(first).startswith("9 balls of 7.94 mm on 39.04 mm")
-    assert editor.choose({"bearing": "Pump 3"}) == {}
-    assert "From a table of your own." in editor.note
-
-
-def test_a_bearing_of_a_list_that_was_changed_says_so() -> None:
-    editor = SceneEditor("6205")
-    editor.choose({"bearing": "209, Harris"})
-    kept = editor.snapshot()
-    editor.set({"n_balls": 8})
-    assert editor.name == "209, Harris, changed"
-    assert editor.note.startswith("Edited from “209, Harris”")
-    editor.choose({"name": "My own"})
-    assert editor.name == "My own"
-    assert "Harris" not in editor.note.split("Edited from “209, Harris”")[1]
-    editor.restore(kept)
-    assert editor.name == "209, Harris"
-    assert "Harris, Rolling Bearing Analysis" in editor.note
-
-
 def test_a_bearing_of_the_same_name_replaces_the_published_one() -> None:
     table = BearingTable()
     table.take("a.csv", read_table(TABLE.replace("Pump 3", "209, Harris")))
     names = [one.name for one, _ in table.all()]
     assert names.count("209, Harris") == 1
     assert table.find("209, Harris").bearing.ball_diameter == pytest.approx(7.94e-3)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "a line of headings"),
-        ("name;balls\nx;9\n", "ball_diameter_mm"),
-        (TABLE.replace("39,04", "x"), "line 2, column pitch_diameter_mm"),
-        ("x" * 1_100_000, "longer than"),
-    ],
-)
-def test_what_is_no_table_is_refused_in_sentences(text: str, words: str) -> None:
-    found = read_table(text)
-    assert isinstance(found, str)
-    assert words in found
-    table = BearingTable()
-    table.take("a.csv", found)
-    assert table.bad
-    assert table.own == {}
 
 
 def test_what_is_not_on_the_list_is_refused() -> None:
@@ -108,13 +63,6 @@ def found(text: str) -> list[tuple[str, str]]:
 )
 def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
     assert found(text)[0] == first
-
-
-def test_designations_are_offered_besides_what_is_published() -> None:
-    assert ("7208 BEP", "estimated") in found("7208 BEP")
-    assert ("NU 208", "estimated") in found("NU 208")
-    assert ("6205, deep groove bearing", "") in found("6205-2Z")
-    assert ("6205-2RS, CWRU drive end", "") in found("6205-2Z")
 
 
 def test_an_empty_search_lists_presets_and_tables() -> None:

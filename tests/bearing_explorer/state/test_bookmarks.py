@@ -1,7 +1,6 @@
 """What a session remembers: steps, compared scenes, the address; and what strangers ask of it."""
 
 import pytest
-from bearing_explorer.state.address import read
 from bearing_explorer.state.bookmarks import (
     LONGEST_NAME,
     Bookmarks,
@@ -10,7 +9,7 @@ from bearing_explorer.state.bookmarks import (
     open_request_of,
     read_request,
 )
-from bearing_explorer.state.compared import MOST_COMPARED, Compared
+from bearing_explorer.state.compared import MOST_COMPARED
 from bearing_explorer.state.scene_editor import SceneEditor, read_file
 
 from bearingcore import Scene, presets
@@ -107,41 +106,6 @@ def test_looking_at_another_defect_is_no_step(editor: SceneEditor, bookmarks: Bo
     assert len(editor.defects) == 1
 
 
-def test_what_was_kept_opens_again(editor: SceneEditor, bookmarks: Bookmarks) -> None:
-    editor.set({"extent_deg": 33, "cage_angle_deg": 7})
-    kept = bookmarks.kept("  Monday\n<b>7 Hz</b>  ")
-    assert kept["name"] == "Monday <b>7 Hz</b>"
-    before = editor.snapshot()
-    editor.take_preset("liew-lim")
-    bookmarks.step()
-    request = open_request_of({"open": kept})
-    assert request is not None
-    assert bookmarks.take(request, read_request(request))
-    assert editor.snapshot() == before
-    assert bookmarks.state()["said"]["words"].endswith("is open.")
-    bookmarks.go({"undo": True})
-    assert editor.preset == "liew-lim"
-
-
-def test_scenes_are_compared_renamed_and_removed(editor: SceneEditor, bookmarks: Bookmarks) -> None:
-    bookmarks.change_compared({"compare_here": ""})
-    first = editor.scene
-    editor.set({"extent_deg": 33})
-    request = open_request_of({"compare": {"name": "other", "text": "v=1&preset=6205"}})
-    assert request is not None
-    assert bookmarks.take(request, read_request(request))
-    assert bookmarks.compared == (
-        Compared(first, "12.9°, 50 µm"),
-        Compared(presets["6205"], "other"),
-    )
-    assert editor.values["extent_deg"] == 33, "comparing moves nothing"
-    bookmarks.change_compared({"number": 0, "rename": " small\n"})
-    assert bookmarks.state()["compared"] == ["small", "other"]
-    bookmarks.change_compared({"number": 0, "remove": True})
-    bookmarks.change_compared({"number": 7, "remove": True})
-    assert bookmarks.state()["compared"] == ["other"]
-
-
 def test_no_more_scenes_are_compared_than_there_are_colours(bookmarks: Bookmarks) -> None:
     for _ in range(MOST_COMPARED + 1):
         bookmarks.change_compared({"compare_here": ""})
@@ -218,18 +182,3 @@ def test_what_no_scene_is_gets_a_sentence(text: str) -> None:
 )
 def test_names_are_short_and_on_one_line(text: str, name: str) -> None:
     assert name_of(text) == name
-
-
-def test_an_address_brings_its_scene_and_tab(editor: SceneEditor) -> None:
-    text = "v=1&preset=liew-lim&extent_deg=20&cage_angle_deg=4.5&tab=maps"
-    bookmarks = Bookmarks(editor, text)
-    assert bookmarks.tab == "maps"
-    assert bookmarks.state()["address"] == text
-    assert not bookmarks.state()["undo"]
-    place = read(text)
-    assert place is not None
-    assert editor.scene == place.scene
-    assert Bookmarks(SceneEditor("fan-rig"), "v=1&depth_um=60").tab == "load", "as it was written"
-    assert Bookmarks(SceneEditor("fan-rig"), "utm_source=mail").tab == ""
-    bad = Bookmarks(SceneEditor("fan-rig"), "v=1&extent_deg=nan")
-    assert "could not be opened" in bad.state()["said"]["words"]

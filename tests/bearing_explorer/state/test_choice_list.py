@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 from bearing_explorer.state.address import place_of, read, write
 from bearing_explorer.state.choice_list import (
@@ -16,10 +14,8 @@ from bearing_explorer.state.choice_list import (
 from bearing_explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import CONTACT_LAWS, EDGES, RACES, Defect, RoughFloor, presets
+from bearingcore import CONTACT_LAWS, EDGES, RACES
 from bearingcore.scene.scene import BALLS
-
-FAN_RIG = presets["fan-rig"]
 
 
 def test_every_option_of_the_core_can_be_chosen() -> None:
@@ -49,26 +45,3 @@ def test_what_is_chosen_is_in_the_scene_the_link_and_back(choice: Choice) -> Non
         place = read(write(place_of(editor)))
         assert place is not None
         assert place.scene == editor.scene
-
-
-def test_a_scene_has_what_it_was_made_with() -> None:
-    rough = Defect(
-        math.radians(10.0),
-        5e-5,
-        0.5 * math.pi,
-        race="inner",
-        edge="exact",
-        floor=RoughFloor(1e-6, 1e-4),
-    )
-    scene = FAN_RIG.replace(defect=(FAN_RIG.defects[0], rough), contact_law="no tension")
-    assert chosen_of(scene, 1) == {
-        "race": "inner",
-        "edge": "exact",
-        "floor": "rough",
-        "law": "no tension",
-        "balls": "massless",
-        "numbers": "direct",
-        "kind": "single",
-        "row": "all",
-    }
-    assert chosen_of(scene)["race"] == "outer"

@@ -569,41 +569,11 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
         assert not crossed or "page warns" in before, (message, crossed)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_a_prediction_is_asked_before_each_answer(path: Path) -> None:
-    asked = lesson_of(path).predict
-    assert asked is not None
-    if asked.choices:
-        assert 0 <= asked.right < len(asked.choices)
-    else:
-        assert asked.within > 0.0
-
-
 def test_the_page_for_teachers_can_be_shown() -> None:
     html = text_for_teachers(TABS)
     Judge().feed(html)
     assert "45 minutes" in html
     assert ".md" not in html, "links to files of the repository lead nowhere on the page"
-
-
-def test_an_address_names_a_lesson(tmp_path: Path) -> None:
-    """Alone it begins the lesson; with a scene it shows its words beside that scene."""
-    known = lessons_in(own_folder(), TABS)
-    begun = Explorer(SECTIONS, address="lesson=two-defects-alike", lessons=known)
-    assert begun.lesson.lesson["title"] == "Two defects that look alike"
-    assert begun.lesson.open_first
-    assert begun.scene == FAN
-    assert begun._shown == "vibration"
-    assert begun.share.state["address"].endswith("&lesson=two-defects-alike")
-    assert not begun.share.state["undo"]
-    own = Explorer(SECTIONS, address=begun.share.state["address"].replace("fan-rig", "6205"),
-                   lessons=known)  # fmt: skip
-    assert own.lesson.lesson["name"] == "two-defects-alike"
-    assert own.scene == presets["6205"]
-    none = Explorer(SECTIONS, address="lesson=of-the-past", lessons=known)
-    assert none.lesson.lesson == {}
-    assert "no lesson" in none.share.state["said"]["words"]
-    assert "lesson" not in none.share.state["address"]
 
 
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
@@ -633,6 +603,7 @@ def test_the_lessons_that_come_along_are_in_order() -> None:
         assert [part.heading for part in lesson.parts] == ["Question", "Drag", "Look", "Answer"]
         assert lesson.drag
         assert lesson.watch
+        assert lesson.predict is not None
         told = json.dumps(lesson.for_browser(0))
         assert len(told) < 20_000
         editor = SceneEditor("6205")
@@ -831,10 +802,6 @@ def test_nothing_a_stranger_writes_becomes_a_script(hostile: str) -> None:
     judge(GOOD.replace("Words", hostile))
     judge(GOOD.replace("Words", f"\n\n{hostile}\n\n"))
     judge(GOOD.replace("A title", hostile.replace('"', "'")))
-
-
-def test_headings_of_a_part_stand_below_it() -> None:
-    judge(GOOD.replace("Words", "\n\n# Loud\n\nWords\n\n"))
 
 
 @settings(max_examples=60, deadline=None)

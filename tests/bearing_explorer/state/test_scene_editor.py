@@ -4,12 +4,10 @@ import math
 import re
 from itertools import pairwise
 
-import numpy as np
 import pytest
 from bearing_explorer.state.scene_editor import LARGEST_FILE, MOST_DEFECTS, SceneEditor, read_file
 
-from bearingcore import MeasuredFloor, RoughFloor, presets
-from bearingcore.statics.passes import ball_drop
+from bearingcore import RoughFloor, presets
 
 
 @pytest.fixture
@@ -204,25 +202,6 @@ def test_a_floor_finer_than_can_be_computed_is_refused(editor: SceneEditor) -> N
     assert "correlation length" in refused["outer_raceway_radius_mm"]
 
 
-def test_a_floor_comes_from_a_file(editor: SceneEditor) -> None:
-    editor.choose({"floor": "measured"})
-    assert editor.scene.defect.floor is None
-    assert "No file yet" in editor.state()["floor"]["words"]
-    angles = np.linspace(250.0, 280.0, 61)
-    depths = 40.0 * np.sin(np.pi * (angles - 250.0) / 30.0)
-    text = "angle;depth\n" + "\n".join(f"{a};{d}" for a, d in zip(angles, depths, strict=True))
-    editor.take_floor("wear.csv", *read_file(text))
-    assert isinstance(editor.scene.defect.floor, MeasuredFloor)
-    assert editor.values["extent_deg"] == pytest.approx(30.0)
-    assert editor.values["depth_um"] == pytest.approx(40.0)
-    assert editor.values["center_deg"] == 270.0  # nobody asked to move it
-    floor = editor.state()["floor"]
-    assert (floor["shown"], floor["bad"]) == (True, False)
-    assert floor["words"].startswith("wear.csv: 61 points. Its middle is at 265° in the file")
-    drop = ball_drop(editor.scene, np.radians([270.0]))
-    assert 0.0 < drop[0] <= 40e-6
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -247,37 +226,6 @@ def test_a_file_that_is_no_floor_is_refused_in_words(
     assert floor["bad"]
     assert len(floor["words"]) < 300
     assert re.search(words, floor["words"]), floor["words"]
-
-
-def test_directions_are_forced_and_given_back(editor: SceneEditor) -> None:
-    editor.choose({"dofs": "y x z"})
-    assert editor.scene.active_dofs == ("x", "y", "z")
-    assert editor.state()["choices"]["dofs"] == "x y z"
-    assert "at least one" in editor.choose({"dofs": ""})["dofs"]
-    assert editor.scene.active_dofs == ("x", "y", "z")
-    editor.choose({"dofs": "auto"})
-    assert editor.scene == presets["fan-rig"]
-
-
-@pytest.mark.parametrize(
-    "choice",
-    [
-        {"race": "middle"},
-        {"edge": ["exact"]},
-        {"floor": {"rough": 1}},
-        {"law": None},
-        {"numbers": "guess"},
-        {"defect": "-1"},
-        {"defect": "7"},
-        {"defect": "9" * 5000},
-        {"defect": "²"},
-        {"preset": "../x"},
-    ],
-)
-def test_strangers_choices_change_nothing(editor: SceneEditor, choice: dict) -> None:
-    editor.choose(choice)
-    assert editor.scene == presets["fan-rig"]
-    assert editor.selected == 0
 
 
 def test_the_focus_passes_over_defects_that_are_none(editor: SceneEditor) -> None:

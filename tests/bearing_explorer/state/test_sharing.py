@@ -39,56 +39,6 @@ def session(*acts: Callable[[Explorer], None], address: str = "") -> Explorer:
     return run(live())
 
 
-def changing(message: dict) -> Callable[[Explorer], None]:
-    return lambda explorer: explorer.requests.change_scene(message)
-
-
-def asking(mark: int, **message: object) -> Callable[[Explorer], None]:
-    return lambda explorer: explorer.requests.change_links({"mark": mark, **message})
-
-
-def test_the_address_is_told_when_the_hand_lets_go(answers: list[dict]) -> None:
-    seen: list[str] = []
-
-    def look(explorer: Explorer) -> None:
-        seen.append(explorer.share.state["address"])
-
-    session(
-        changing({"mark": 1, "set": {"depth_um": 60}}),
-        look,
-        changing({"mark": 2, "set": {"depth_um": 70}}),
-        look,
-        changing({"mark": 3, "set": {}, "released": True}),
-        look,
-        lambda e: e.show_tab({"show": "two"}),
-        look,
-    )
-    assert seen == [
-        "v=1&preset=fan-rig&tab=one",
-        "v=1&preset=fan-rig&tab=one",
-        "v=1&preset=fan-rig&depth_um=70&tab=one",
-        "v=1&preset=fan-rig&depth_um=70&tab=two",
-    ]
-
-
-def test_undo_is_drawn_and_answered(answers: list[dict]) -> None:
-    explorer = session(
-        changing({"mark": 1, "typed": {"depth_um": 60}}),
-        asking(2, undo=True),
-    )
-    assert explorer.scene == presets["fan-rig"]
-    assert explorer._views["one"][0].drawn[-1] == presets["fan-rig"].defect.depth  # type: ignore
-    assert explorer._drawn_mark == 2
-    again = session(
-        changing({"mark": 1, "typed": {"depth_um": 60}}),
-        asking(2, undo=True),
-        asking(3, redo=True),
-    )
-    assert again.values["depth_um"] == 60
-    assert again.share.state["undo"]
-    assert not again.share.state["redo"]
-
-
 def test_one_report_at_a_time(answers: list[dict]) -> None:
     def ask_twice(explorer: Explorer) -> None:
         for _ in range(2):

@@ -7,8 +7,6 @@ import pytest
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.depth_profile import DepthProfile
-from bearing_explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.stiffness import Stiffness
 
 from bearingcore import Defect, RoughFloor, presets
@@ -48,22 +46,6 @@ def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
 def test_later_turns_are_not_the_first_one_again() -> None:
     first, second = (Results(INNER, 0.1 + turn * TURN).equilibrium for turn in (0, 1))
     assert np.abs(first.term("k_yy") - second.term("k_yy")).max() > 1e6
-
-
-def test_axes_say_what_they_are_over() -> None:
-    view = NaturalFrequencies(PackedSource())
-    for scene, words, end in ((INNER, "Shaft angle", 360.0), (OUTER, "Cage angle", 360.0 / 14)):
-        results = Results(scene, 0.2)
-        _, ranges = view.data(results)
-        assert ranges["modes_angle"] == pytest.approx((0.0, end))
-        view.say(results, "")
-        assert view._axis.axis_label.startswith(words)
-    assert "shaft" in view.sentence(Results(INNER))
-    assert "shaft" in Stiffness(PackedSource()).sentence(Results(INNER))
-    assert "shaft" not in Stiffness(PackedSource()).sentence(Results(OUTER))
-    assert "most at each angle" in LoadDistribution(PackedSource()).sentence(Results(INNER))
-    assert "shaft_angle_deg" in view.table(Results(INNER))
-    assert "shaft_angle_deg" not in view.table(Results(OUTER))
 
 
 def test_the_profile_is_that_of_the_defect_in_hand() -> None:

@@ -11,11 +11,9 @@ from bearing_explorer.views.bearing import (
     BAR_LENGTH,
     BearingDrawing,
     Shapes,
-    load_words,
-    round_down,
 )
 
-from bearingcore import Load, Scene, presets
+from bearingcore import Scene, presets
 
 FAN_RIG = presets["fan-rig"]
 
@@ -122,32 +120,6 @@ def test_the_arrow_points_along_the_radial_load() -> None:
     tip = np.argmax(np.hypot(arrow["x"], arrow["y"]))
     assert math.atan2(arrow["y"][tip], arrow["x"][tip]) == pytest.approx(math.atan2(40.0, 30.0))
     assert Shapes(FAN_RIG.replace(fy=0.0), 0.0).load_arrow()["x"].size == 0
-
-
-def test_words_name_the_loads_that_act() -> None:
-    rows = load_words(Load(fx=3.0, fy=-4.0, fz=-7.0, my=2.0))
-    assert rows["kind"].tolist() == [0, 1, 3]
-    assert rows["value"].tolist() == [5.0, -7.0, 2.0]
-    assert rows["angle"][0] == pytest.approx(306.8699)
-
-
-def test_scales_are_round() -> None:
-    assert [round_down(x) for x in (36.0, 1.99, 2.0, 7.0, 0.3)] == pytest.approx([20, 1, 2, 5, 0.2])
-
-
-def test_the_sentence_says_who_carries_most_and_who_is_in_the_defect() -> None:
-    results = Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing)
-    words = BearingDrawing(PackedSource()).sentence(results)
-    assert "ball 11 is in the defect" in words
-    assert f"{results.now.loaded_balls[0]} of 14 balls carry load" in words
-
-
-def test_the_table_has_a_row_for_each_ball() -> None:
-    table = BearingDrawing(PackedSource()).table(
-        Results(FAN_RIG, 0.5 * FAN_RIG.bearing.ball_spacing)
-    )
-    assert {column.size for column in table.values()} == {14}
-    assert table["drop_into_outer_race_um"].max() == pytest.approx(50.0)
 
 
 def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:

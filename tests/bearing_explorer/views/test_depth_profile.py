@@ -49,12 +49,6 @@ def test_balls_lie_on_the_path_of_their_centres() -> None:
     np.testing.assert_allclose(balls["drop"][seen], expected, atol=1e-6)
 
 
-def test_depth_grows_downwards_and_the_floor_is_in_the_picture() -> None:
-    _, ranges = DepthProfile(PackedSource()).data(Results(FAN_RIG))
-    bottom, top = ranges["depth_profile_depth"]
-    assert top < 0.0 < 50e-6 < bottom
-
-
 def test_a_healthy_race_is_flat() -> None:
     view, results = DepthProfile(PackedSource()), Results(FAN_RIG.healthy())
     sources, _ = view.data(results)

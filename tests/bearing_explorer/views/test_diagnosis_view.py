@@ -19,9 +19,8 @@ from bearing_explorer.page import SECTIONS
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
-from bearing_explorer.state.address import read
 from bearing_explorer.views import part_words
-from bearing_explorer.views.diagnosis import BUSY, PartDiagnosis, panel_state
+from bearing_explorer.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.views.part_lines import (
     FAINT,
     LOWEST,
@@ -34,7 +33,6 @@ from bearing_explorer.views.part_lines import (
 )
 
 from bearingcore import Diagnosis, Recording, Scene, presets
-from bearingcore.common.numbers import probability
 from tests.helpers.measuring import measuring
 
 MOTOR = presets["6205"]
@@ -122,13 +120,6 @@ def test_words_have_sensible_digits_and_nothing_is_certain(truth):
     assert "±" not in state["pass_on"]
 
 
-def test_a_healthy_machine_is_told_so_in_words_to_pass_on():
-    words = panel_state(asked("none"), diagnosed("none"))["pass_on"]
-    assert "no damage seen on outer race, inner race or balls" in words
-    assert "1797 turns a minute" in words
-    assert "Measure again at the usual time." in words
-
-
 def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
     question, found = asked("none"), diagnosed("none")
     bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
@@ -184,23 +175,6 @@ def test_too_quiet_a_simulation_is_called_so():
     assert "quiet" not in part_words.truth(asked("none"))
     measured = Measured(heard("none").recording, 1.0)
     assert part_words.truth(Question.about(measured, MOTOR.bearing)) == ""
-
-
-@pytest.mark.parametrize(
-    ("words", "value", "said"),
-    [
-        (probability, 0.98, "98 %"),
-        (probability, 0.93, "93 %"),
-        (probability, 0.001, "below 1 %"),
-        (part_words.slip, 0.0123, "+1.2 %"),
-        (part_words.slip, -0.0049, "−0.5 %"),
-        (part_words.slip, -0.0001, "0.0 %"),
-        (part_words.decibels, -0.4, "0"),
-        (part_words.decibels, -3.4, "−3"),
-    ],
-)
-def test_numbers_in_words(words, value, said):
-    assert words(value) == said
 
 
 # -- the lines -------------------------------------------------------------------------------------
@@ -310,17 +284,6 @@ def test_the_evidence_is_listed_for_each_part():
     assert rows[0]["sidebands"] == "none expected"
 
 
-def test_the_table_has_the_evidence_and_the_spectrum():
-    view = shown("outer race")
-    table = view.table(RESULTS)
-    assert list(table["part"]) == ["outer race", "inner race", "ball"]
-    found = diagnosed("outer race")
-    assert table["nominal_frequency_hz"][0] == pytest.approx(MOTOR.bearing.bpfo(MOTOR.shaft_speed))
-    assert table["harmonic_1_db"][0] == found.of("outer race").harmonics[0]
-    assert len(table["envelope_level_db"]) == len(found.spectrum.level)
-    assert view.csv().startswith("part,frequency_hz,nominal_frequency_hz,order,")
-
-
 def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():
     """Of an acceleration in any unit, nor of a velocity: what is whitened has no slope left."""
     truth = heard("inner race")
@@ -360,41 +323,6 @@ def test_a_question_depends_on_what_the_diagnosis_depends_on():
     ):
         assert other != same
     assert SLIP == 0.02
-
-
-def test_the_loop_goes_on_while_a_signal_is_looked_at_and_each_is_looked_at_once():
-    calls: list[Question] = []
-
-    def slow(question: Question) -> Diagnosis | str:
-        calls.append(question)
-        time.sleep(0.3)
-        return diagnosed("outer race")
-
-    drawn: list[int] = []
-
-    async def go():
-        async def assign(change):
-            change()
-
-        view = view_of(heard("outer race"))
-        view.measurement.diagnoses = Answers(assign, lambda: drawn.append(1), slow)
-        assert view.sentence(RESULTS) == BUSY
-        view.say(RESULTS, BUSY)
-        assert view.part.state["mood"] == "busy"
-        assert not view._seen.visible
-        ticks = 0
-        while not drawn:
-            await asyncio.sleep(0.01)
-            ticks += 1
-        view.say(RESULTS, view.sentence(RESULTS))
-        view.say(RESULTS, view.sentence(RESULTS))
-        await asyncio.sleep(0.05)
-        return view, ticks
-
-    view, ticks = asyncio.run(go())
-    assert ticks > 10
-    assert len(calls) == len(drawn) == 1
-    assert view.part.state["part"] == "outer race"
 
 
 def test_only_the_newest_question_is_drawn_and_none_after_the_end():
@@ -466,14 +394,6 @@ def test_what_is_damaged_is_known_of_a_simulated_signal():
 
 
 # -- the tab ---------------------------------------------------------------------------------------
-
-
-def test_old_links_open_the_tab():
-    place = read("v=1&preset=6205&tab=sizing")
-    assert place is not None
-    assert place.tab == "diagnosis"
-    explorer = Explorer(SECTIONS, address="v=1&preset=6205&tab=sizing")
-    assert explorer._shown == "diagnosis"
 
 
 def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from bearing_explorer.results.endurance import ESTIMATED, LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.bearing_editor import facts_of
-from bearing_explorer.views.life import FIELDS, LifeOfBearing, groups_of, read
+from bearing_explorer.views.life import FIELDS, groups_of, read
 from bearing_explorer.widgets.limits import rows_of
 
 from bearingcore import (
@@ -85,30 +84,6 @@ def number(text: str) -> float:
     return float(text.split(" ")[0].replace("\u202f", ""))
 
 
-def test_lives_are_told_to_three_digits_and_what_is_not_known_once() -> None:
-    results = Results(presets["6205"].replace(fy=-50.0))
-    rows = groups_of(results)[0].facts
-    told = next(row.value for row in rows if row.name.startswith("Life"))
-    assert number(told) > 1e6
-    assert number(told) == float(f"{number(told):.3g}")
-    assert list(facts("liew-lim")) == ["Life, greatest contact pressure and oil film"]
-
-
-def test_a_given_rating_is_taken_and_said() -> None:
-    said = facts("6205", LifeInputs(dynamic_load_rating=14_000.0))
-    assert (
-        said["Life of the healthy bearing"]["Dynamic load rating C<sub>r</sub>"] == "14 kN, given"
-    )
-
-
-def test_thin_oil_lets_surfaces_touch_and_thick_oil_does_not() -> None:
-    thin, thick = (
-        facts("6205", LifeInputs(viscosity=viscosity))["Oil film"] for viscosity in (1e-3, 1)
-    )
-    assert "below 1" in thin["film parameter Λ"]
-    assert "below 1" not in thick["film parameter Λ"]
-
-
 def film_limit(inputs: LifeInputs) -> Limit:
     limits = Results(presets["nu208"], life_inputs=inputs).limits
     return next(limit for limit in limits if limit.name == "film parameter")
@@ -150,19 +125,6 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
         assert rated.pressures is not None
 
 
-def test_self_aligning_bearings_ask_for_the_rating_of_the_catalogue() -> None:
-    found = endurance(presets["1208"], LifeInputs())
-    assert found.life is None
-    assert "enter that of the catalogue" in found.no_life
-
-
-def test_rollers_have_a_computed_rating_and_a_film() -> None:
-    found = endurance(presets["nu208"], LifeInputs())
-    assert found.life is not None
-    assert found.rating == dynamic_load_rating(presets["nu208"].bearing)
-    assert found.film is not None
-
-
 def test_numbers_are_read_as_people_write_them_and_refused_in_words() -> None:
     by_name = {field.name: field for field in FIELDS}
     assert read(by_name["dynamic_load_rating"], " 14,5 ") == pytest.approx(14_500.0)
@@ -172,23 +134,6 @@ def test_numbers_are_read_as_people_write_them_and_refused_in_words() -> None:
     for name, text in (("race_roughness", ""), ("viscosity", "0"), ("race_roughness", "nan")):
         with pytest.raises(ValueError, match="goes from"):
             read(by_name[name], text)
-
-
-def test_what_is_typed_changes_the_answer_and_a_refusal_does_not() -> None:
-    view = LifeOfBearing(PackedSource())
-    fields = view._fields.widgets
-    fields["dynamic_load_rating"].value = "14"
-    assert view.inputs.dynamic_load_rating == 14_000.0
-    fields["dynamic_load_rating"].value = "-3"
-    assert view._refusal.visible
-    assert "goes from" in view._refusal.object
-    fields["viscosity"].value = "50"
-    assert not view._refusal.visible
-    assert view.inputs.dynamic_load_rating == 14_000.0
-    assert view.inputs.viscosity == pytest.approx(0.05)
-    view.say(Results(presets["6205"]), "")
-    assert fields["dynamic_load_rating"].value == "14"
-    assert "Dynamic load rating C<sub>r</sub>" in view._answers.object
 
 
 def test_rows_that_are_not_alike_have_life_pressure_film_and_frequencies_of_their_own() -> None:

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.plots.element_words import with_elements_of
 from bearing_explorer.results.load_curve import load_curve
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -113,27 +112,6 @@ def test_a_healthy_bearing_has_no_shade_and_its_curve_is_the_grey_one() -> None:
     )
 
 
-def test_the_sentence_gives_the_greatest_load_and_how_many_carry() -> None:
-    results = Results(FAN_RIG)
-    words = LoadDistribution(PackedSource()).sentence(results)
-    assert f"{results.equilibrium.ball_load.max():.1f} N" in words
-    assert f"{results.now.loaded_balls[0]} of 14 balls" in words
-
-
-def test_a_bearing_without_load_is_told_not_drawn_as_a_number() -> None:
-    results = Results(FAN_RIG.replace(fy=0.0))
-    view = LoadDistribution(PackedSource())
-    view.data(results)
-    assert "nothing touches" in view.sentence(results)
-
-
-def test_the_table_has_as_many_rows_as_the_curve_and_no_row_twice() -> None:
-    table = LoadDistribution(PackedSource()).table(Results(FAN_RIG))
-    assert table["ball_angle_deg"].size == table["ball_load_n"].size
-    assert table["ball_angle_deg"].min() >= 0.0
-    assert table["ball_angle_deg"].max() < 360.0
-
-
 def test_balls_with_mass_show_both_races() -> None:
     """At the outer race comes what the ball's centrifugal load adds, here some newtons."""
     heavy = presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass")
@@ -157,17 +135,3 @@ def test_balls_with_mass_show_both_races() -> None:
     assert not view.data(massless)[0]["load_distribution_inner"]["angle"].size
     assert "inner race" not in view.sentence(massless)
     assert np.array_equal(massless.now.ball_load, results.massless_now.ball_load)
-
-
-def test_captions_of_a_roller_bearing_say_rollers() -> None:
-    view = LoadDistribution(PackedSource())
-    for name, element in (("nu208", "Roller"), ("fan-rig", "Ball")):
-        results = Results(presets[name])
-        view.say(results, view.sentence(results))
-        line = view._caption.line
-        assert line.startswith(f"{element} load against angular position. Blue: ")
-        assert line.endswith(f"Dots: {element.lower()}s now.")
-    rollers = with_elements_of(
-        presets["nu208"].bearing, "Balls at the ball-pass frequency of a ball"
-    )
-    assert rollers == "Rollers at the ball-pass frequency of a roller"

@@ -154,16 +154,6 @@ def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
     np.testing.assert_allclose(share, 0.25, atol=2e-3)
 
 
-def test_the_sentence_says_where_fewest_balls_carry_load() -> None:
-    words = StiffnessMaps(PackedSource()).sentence(Results(LIEW_LIM))
-    assert "Fewest balls carry load at an extent of 63°: 6.1 of 12" in words
-    assert "Marked: extent 40°, cage angle 0°, where 9 balls carry load" in words
-    shallow = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(depth=0.0)))
-    assert "Whatever the extent" in shallow
-    nothing = StiffnessMaps(PackedSource()).sentence(Results(FAN_RIG.replace(fy=0.0)))
-    assert nothing.startswith("There is nothing to map: nothing touches")
-
-
 def test_the_table_holds_every_point_in_si() -> None:
     results = Results(LIEW_LIM)
     table = StiffnessMaps(PackedSource()).table(results)

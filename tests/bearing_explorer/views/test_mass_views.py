@@ -6,18 +6,15 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.results import compiling
 from bearing_explorer.results.ball_mass import BallMass
-from bearing_explorer.results.motions import quick_duration
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
 from bearing_explorer.views.mass_time import MassInTime, event_rows
 from bearing_explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
-from bearingcore import presets, simulate
+from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.ball_motion import contact_resonance
 from bearingcore.scene.pit import pit
@@ -69,12 +66,6 @@ def test_shares_are_those_of_the_core(found: BallMass) -> None:
     assert (found.spread[loud] < 0.1).all()
 
 
-def test_with_next_to_no_mass_nothing_is_added() -> None:
-    light = Results(FAN_RIG.replace(density=500.0), moving=True).ball_mass
-    heavy = Results(FAN_RIG, moving=True).ball_mass
-    assert light.added[-2] < heavy.added[-2] - 3.0
-
-
 def test_the_verdict_says_from_where_on_mass_gives_most(found: BallMass) -> None:
     words = in_words(found)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
@@ -118,24 +109,6 @@ def test_entry_strike_and_exit_are_marked_with_their_times(found: BallMass) -> N
         assert (np.diff(left) > 0.0).all()
 
 
-def test_resonances_above_what_is_drawn_are_said_to_be() -> None:
-    results = Results(MOTOR, moving=True)
-    view = MassInSpectrum(PackedSource())
-    assert view.data(results)[0]["mass_spectrum_resonance"]["above"][0] == 1.0
-    assert "50.6 kHz, above this range" in view.sentence(results)
-
-
-def test_a_moving_hand_gets_less_time_not_longer_steps() -> None:
-    heavy = FAN_RIG.replace(balls="with mass")
-    how = Settings().coarse_marching
-    assert quick_duration(FAN_RIG, how) == how.duration
-    assert quick_duration(heavy, how) < how.duration
-    coarse = Results(heavy, moving=True)
-    assert coarse.motion.step_rate == simulate(heavy, 1e-3).step_rate
-    assert coarse.motion.completed
-    assert "s of motion" in coarse.coarse_words(frozenset({"excerpt"}))
-
-
 def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> None:
     view = VibrationSpectra(PackedSource())
     results = Results(FAN_RIG.replace(balls="with mass"), moving=True)
@@ -153,13 +126,3 @@ def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> No
     assert [plot.visible for plot in view._wide.plots] == [False, False]
     view.say(results, "")
     assert [plot.visible for plot in view._wide.plots] == [True, True]
-
-
-def test_until_all_is_compiled_mass_is_not_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Or the compiler would hold up every page for half a minute."""
-    compilation = compiling.Compilation()
-    compilation._left = (compiling.BALLS_WITH_MASS,)
-    monkeypatch.setattr(compiling, "need", compilation.need)
-    with pytest.raises(ValueError, match="still being compiled"):
-        _ = Results(FAN_RIG.replace(balls="with mass", fy=-101.0)).motion
-    assert Results(FAN_RIG.replace(fy=-101.0), moving=True).motion.completed

@@ -71,22 +71,3 @@ def test_labels_never_overlap_and_stay_in_order(places: list[float]) -> None:
 def test_labels_with_room_stay_where_they_belong() -> None:
     places = np.array([1800.0, 400.0, 650.0])
     np.testing.assert_array_equal(spread(places, 80.0, 0.0, 2000.0), places)
-
-
-def test_the_sentence_tells_the_bands_and_the_healthy_one() -> None:
-    words = NaturalFrequencies(PackedSource()).sentence(Results(FAN_RIG))
-    assert "x₁ from 365 to 480 Hz" in words
-    assert "without the defect x₁ from 365 to 436 Hz" in words
-
-
-def test_without_a_static_state_there_is_nothing_to_draw_and_it_is_said() -> None:
-    view, results = NaturalFrequencies(PackedSource()), Results(FAN_RIG.replace(fy=0.0))
-    sources, ranges = view.data(results)
-    assert sources["modes_bands"]["low"].size == 0
-    assert all(math.isfinite(x) for x in ranges["modes_frequency"])
-    assert "no static state" in view.sentence(results)
-
-
-def test_the_table_has_a_column_for_each_mode() -> None:
-    table = NaturalFrequencies(PackedSource()).table(Results(FAN_RIG))
-    assert {"cage_angle_deg", "x1_hz", "y1_hz", "x2_hz", "y2_hz", "healthy_x1_hz"} <= set(table)

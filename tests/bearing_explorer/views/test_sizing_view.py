@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.diagnoses import Question, answered
+from bearing_explorer.measurement.diagnoses import answered
 from bearing_explorer.measurement.form import read_form
 from bearing_explorer.measurement.session import Sized, read_file
 from bearing_explorer.measurement.signal import Measured, Origin, Simulated
@@ -26,7 +26,7 @@ from bearing_explorer.views.frequency_lines import (
     named,
     orders,
 )
-from bearing_explorer.views.frequency_view import MOST_LINES, Look, curves
+from bearing_explorer.views.frequency_view import MOST_LINES, curves
 from bearing_explorer.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
@@ -225,46 +225,6 @@ def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():
     assert "where the kurtogram is highest" in view.sentence(RESULTS)
 
 
-def test_a_look_is_taken_from_its_fields():
-    view = view_of(MeasuredSpectrum, signal())
-    fields = view.panel_of_look._fields.widgets
-    fields["direction"].value, fields["scale"].value = "x", "linear"
-    fields["resolution"].value, fields["lines"].value = "8", ["ftf", "bpfo"]
-    assert view.look == Look("x", "linear", "8", ("bpfo", "ftf"))
-    view.say(RESULTS, "")
-    assert [plot.visible for plot in view._plots.values()] == [False, True]
-    assert fields["direction"].value == "x"
-
-
-def test_a_single_direction_is_shown_whatever_was_chosen():
-    recording = signal().recording
-    single = Measured(
-        Recording(recording.acceleration[:, 0], recording.sample_rate, ("x",)), RIG.shaft_speed
-    )
-    view = view_of(MeasuredSpectrum, single)
-    view.look_changed("overlay", ["model"])
-    sources, _ = view.data(RESULTS)
-    assert sources["measured_spectrum_simulated_x"]["frequency"].size
-    view.say(RESULTS, view.sentence(RESULTS))
-    assert view.panel_of_look._fields.widgets["direction"].values == ["x"]
-
-
-@pytest.mark.parametrize("kind", [MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope, DefectSize])
-def test_figures_wait_for_a_signal(kind):
-    view = view_of(kind)
-    view.say(RESULTS, view.sentence(RESULTS))
-    assert not view.hidden.visible
-    assert not view._caption.figures
-    assert view.csv().strip() == ""
-    data, ranges = view.data(RESULTS)
-    assert not ranges
-    assert all(not column.size for columns in data.values() for column in columns.values())
-    view.measurement.measured = signal()
-    view.say(RESULTS, "")
-    assert view.hidden.visible
-    assert bool(view._caption.figures) == (kind is not DefectSize)  # which has no answer yet
-
-
 @pytest.mark.parametrize("rate", [400.0, 1e6])
 def test_odd_recordings_are_drawn_too(rate):
     """256 samples of noise, sampled far too slowly or too fast for this bearing."""
@@ -427,23 +387,6 @@ def test_the_outer_race_may_be_known_to_be_damaged():
         view.prepare({"fault": "cage"}, editor)
 
 
-@pytest.mark.parametrize(
-    ("fault", "said"),
-    [
-        ("outer race", "has not been looked for yet."),
-        ("inner race", "cannot be estimated this way: see step 3"),
-        ("none seen", "Choose the outer race here if it is known"),
-        ("cannot tell", "Choose the outer race here if it is known"),
-    ],
-)
-def test_before_a_size_is_looked_for_it_is_said_whether_there_can_be_one(fault, said):
-    view = view_of(DefectSize, signal())
-    question = Question.about(signal(), RIG.bearing)
-    found = answered(question)
-    view.measurement.diagnoses.keep(question, dataclasses.replace(found, fault=fault))
-    assert said in view.sentence(RESULTS)
-
-
 def test_a_sizing_can_be_given_up_and_refusals_are_sentences():
     work = worked()
     work.stop()
@@ -485,10 +428,6 @@ def test_a_single_direction_hides_the_other_s_figures():
 
 
 # -- before a signal, and before its unit is known -------------------------------------------------
-
-
-def test_without_a_signal_there_are_no_lines():
-    assert view_of(MeasuredSpectrum).python().startswith("# There is no signal yet")
 
 
 @pytest.mark.parametrize(

@@ -85,14 +85,6 @@ def test_marched_speeds_are_marked_and_told(found: Swept) -> None:
     assert {"shaft_speed_hz", "frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(table)
 
 
-def test_without_a_run_there_is_nothing_and_it_is_said() -> None:
-    packed = PackedSource()
-    view = SpeedRunSpectra(packed)
-    sources, ranges = view.data(Results(RIG))
-    packed.pack(sources, ranges)
-    assert view.sentence(Results(RIG)) == "There is no run yet."
-
-
 def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     job = Work()
     job.started = time.monotonic()

@@ -105,23 +105,6 @@ def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
     assert view.sentence(other).startswith("Faint, as the scene has changed")
 
 
-@pytest.mark.proof
-def test_coarse_pictures_come_before_fine_ones() -> None:
-    job = Work()
-    job.started = time.monotonic()
-    shown: list[Swept] = []
-    job.show = shown.append  # type: ignore[method-assign]
-    limits = limits_of(RIG)
-    x = sweep("shaft_speed_hz", "20", "40", 25, limits)
-    y = sweep("extent_deg", "5", "15", 25, limits)
-    words = compute(job, RIG, x, y, 25)
-    assert [found.result.outcome.shape for found in shown] == [(13, 13), (25, 25)]
-    assert words.startswith("25 × 25 points after")
-    assert job.part == 1.0
-    coarse, fine = (codes_of(found.result) for found in shown)
-    assert np.mean(coarse == fine[::2, ::2]) > 0.9  # begun from other neighbours
-
-
 def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     job = Work()
     job.started = time.monotonic()

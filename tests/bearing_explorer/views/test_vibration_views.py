@@ -78,27 +78,6 @@ def test_slow_motion_begins_where_a_ball_enters_and_holds_the_simulated_loads() 
     assert sources["slow_base_rings"]["turns"].min() == 0.0
 
 
-def test_a_packet_of_the_time_view_is_small(results: Results) -> None:
-    packed = PackedSource()
-    sources, ranges = VibrationInTime(packed).data(results)
-    assert packed.send(sources, ranges) < 64_000
-
-
-def test_each_ball_has_its_own_line_and_name(results: Results) -> None:
-    sources, _ = VibrationInTime(PackedSource()).data(results)
-    names, loads = sources["vibration_ball_names"], sources["vibration_loads"]
-    assert names["ball"].tolist() == [ball + 1 for ball in results.excerpt.balls]
-    for slot in names["slot"].astype(int):
-        assert np.isfinite(loads[f"load{slot}"]).all()
-    assert np.all(np.diff(names["from"]) > 0.15)
-    assert np.isnan(loads["load3"]).all()
-
-
-def test_the_sentence_says_how_long_the_defect_is_in_time(results: Results) -> None:
-    words = VibrationInTime(PackedSource()).sentence(results)
-    assert "12.45 ms later it leaves it" in words
-
-
 def test_levels_and_shifts_are_the_published_ones(results: Results) -> None:
     view = VibrationSpectra(PackedSource())
     small, _ = view.data(results)
@@ -189,13 +168,6 @@ def test_an_inner_race_defect_is_shown_where_it_meets_load() -> None:
 
 def test_silence_has_a_level() -> None:
     assert decibels(np.array([1.0, 1e-6, 0.0])).tolist() == [0.0, -60.0, -200.0]
-
-
-def test_tables_say_their_units(results: Results) -> None:
-    time = VibrationInTime(PackedSource()).table(results)
-    assert {"time_s", "acceleration_x_m_per_s2", "acceleration_y_m_per_s2"} <= set(time)
-    spectra = VibrationSpectra(PackedSource()).table(results)
-    assert {"frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(spectra)
 
 
 def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> None:

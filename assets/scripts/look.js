@@ -3,7 +3,7 @@
 // names the dark colour for each light one, and are changed in the browser alone, as they come.
 // Without a choice the page follows the system, also when that changes.
 {
-  const KEY = "bearing-explorer.theme", LARGER = 1.3
+  const KEY = "bearing-explorer.theme", LARGER = 1.64  // 11 px are 18
   const root = document.documentElement
   const system = matchMedia("(prefers-color-scheme: dark)")
   const kept = () => { try { return localStorage.getItem(KEY) } catch { return null } }
@@ -24,8 +24,9 @@
     return palettes.get(value.join()) ?? (items.length && items.every(Boolean) ? items : undefined)
   }
   const resized = (value, factor) => {
-    const [, size] = /^([\d.]+)px$/.exec(value) ?? []
-    return size && `${Math.round(factor * Number(size) * 100) / 100}px`
+    const [, size, unit] = /^([\d.]+)(px)?$/.exec(value) ?? []
+    const changed = size && Math.round(factor * Number(size) * 100) / 100
+    return size && (unit ? `${changed}px` : changed)
   }
   // What a property becomes; a value may stand inside of {value: ...}. Undefined where it stays.
   const changed = (value, change) => {
@@ -37,6 +38,7 @@
   let theme = wanted(), large = false
   const done = new WeakMap()  // the look of a model: it comes light, and not large
   const COLOR = /(^|_)(color|palette|colors)$/, SIZE = /text_font_size$/
+  const ROOM = /^(height|min_border_(left|right))$/  // of a figure, for its words
   const paint = (model) => {
     const was = done.get(model) ?? { theme: "light", large: false }
     if (was.theme === theme && was.large === large) return
@@ -46,7 +48,7 @@
       if (property.is_unset) continue
       let value
       if (was.theme !== theme && COLOR.test(property.attr)) value = changed(property.get_value(), recolored)
-      if (was.large !== large && SIZE.test(property.attr))
+      if (was.large !== large && (SIZE.test(property.attr) || (model.type === "Figure" && ROOM.test(property.attr))))
         value = changed(property.get_value(), (size) => resized(size, large ? LARGER : 1 / LARGER))
       if (value !== undefined) changes[property.attr] = value
     }

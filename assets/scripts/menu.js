@@ -1,3 +1,5 @@
+const scaled = ({ left, top, bottom }, by) => ({ left: left / by, top: top / by, bottom: bottom / by })
+
 // A popover that opens below its button, which is in the same shadow tree, and closes by Escape or a
 // click outside.
 function opens_below(opener, panel, widest) {
@@ -6,7 +8,8 @@ function opens_below(opener, panel, widest) {
   panel.addEventListener("beforetoggle", (event) => {
     opener.setAttribute("aria-expanded", String(event.newState === "open"))
     if (event.newState !== "open") return
-    const box = opener.getBoundingClientRect()
+    const by = panel.currentCSSZoom ?? 1  // lengths of the panel, for a projector
+    const [box, innerWidth, innerHeight] = [scaled(opener.getBoundingClientRect(), by), window.innerWidth / by, window.innerHeight / by]
     const width = Math.min(widest, innerWidth - 16)
     panel.style.width = `${width}px`
     panel.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`

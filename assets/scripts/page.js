@@ -9,7 +9,6 @@
   lessons.addEventListener("click", () => announce("lessons"))
   on_event("lesson", root, (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
-    if (lesson === null && root.hasAttribute("data-projector")) announce("projector", false)
     marked = lesson?.watch ?? []
     veiled = lesson?.veiled ?? false
     mark_as_they_come(show_marked)
@@ -31,7 +30,7 @@
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
   const room = () => {
-    const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.offsetHeight + 10)
+    const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
   }
   const show_welcome = () => {
@@ -49,6 +48,7 @@
   const doors = {
     lessons: () => announce("lessons", "first"),
     bearing: () => announce("show", "bearing"),
+    projector: () => announce("projector", !root.hasAttribute("data-projector")),
     introduction: () => { set_greet(true); announce("show", "overview") },
   }
   for (const door of help.querySelectorAll("[data-door]"))
@@ -119,6 +119,29 @@
       view.scrollIntoView({ block: box.height < room.height ? "nearest" : "start" })
   }
 
+  // For a projector all words are larger: parts without figures as a whole, while figures have type of
+  // their own (look.js), and views are below one another.
+  const LARGER = 1.64
+  const enlarge_words = () => {
+    const large = root.hasAttribute("data-projector")
+    const has_figure = (part) => {
+      if (part.localName === "canvas") return true
+      part.classList.toggle("one-column", large && part.classList.contains("section"))
+      const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style)
+      const drawn = new Set(parts.filter(has_figure))
+      for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
+      return drawn.size > 0
+    }
+    has_figure(document.body)
+  }
+  let coming = 0
+  const enlarge_soon = () => {
+    clearTimeout(coming)
+    if (root.hasAttribute("data-projector")) coming = setTimeout(enlarge_words, 120)
+  }
+  for (const event of ["tab", "drawn", "lesson"]) on_event(event, root, enlarge_soon)
+  on_event("projector", root, enlarge_words)
+
   // While the bearing turns by itself nothing is read out.
   on_event("turning", main, (idle) => main.setAttribute("aria-busy", String(idle)))
 
@@ -162,6 +185,7 @@
     keep_styles()
     pinch_with_fingers()
     announce("figures")
+    if (location.hash === "#projector") announce("projector", true)
     show_welcome()
     let shown = root.dataset.tab
     on_event("tab", root, (tab) => {

@@ -105,7 +105,7 @@ NARROW = 420
 """[px] width of a frame below which there is room for short words only."""
 _IS_NARROW = """
 let narrow = false
-const larger = document.documentElement.hasAttribute("data-projector") ? 1.3 : 1  // see look.js
+const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
 """
 

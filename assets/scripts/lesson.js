@@ -35,7 +35,7 @@ export function render({ model }) {
   const remember_answer = (answer) => remember({ [key()]: { ...answers(), ...answer } })
 
   // A teacher's link may keep answers back, for as long as this tab of the browser lasts.
-  if (location.hash === "#hide-answers") remember({ hides: true })
+  if (location.hash.includes("hide-answers")) remember({ hides: true })
   const hides = Boolean(remembered().hides)
 
   let open = false, listed = false  // whether the list is shown instead of a lesson
@@ -78,6 +78,7 @@ export function render({ model }) {
     const chosen = event.target.closest("[data-ask]")
     if (chosen) ask(model, JSON.parse(chosen.dataset.ask))
   })
+  words.addEventListener("wheel", ({ deltaY }) => { words.scrollLeft += deltaY }, { passive: true })  // columns
   const back = button("Back", () => go(next_of(model.lesson.number, -1)), { class: "step back" })
   const next = button("Next lesson", () => go(next_of(model.lesson.number, 1)), { class: "step next" })
   const again = button("Begin again", () => go(model.lesson.number),
@@ -88,7 +89,7 @@ export function render({ model }) {
 
   const fill = (...parts) => {
     words.replaceChildren(...parts)
-    place()?.scrollTo(0, 0)
+    for (const part of [place(), words]) part?.scrollTo(0, 0)
     send_event()
     if (open) words.querySelector("h2").focus({ preventScroll: true })
   }
@@ -152,7 +153,7 @@ export function render({ model }) {
       uncover()
       part.setAttribute("tabindex", "-1")
       part.focus({ preventScroll: true })
-      part.scrollIntoView()
+      part.scrollIntoView({ inline: "start" })
     }, { class: "reveal", "aria-expanded": "false", "data-after": `Show the ${what}` })
     const uncover = () => {
       part.hidden = false

@@ -24,20 +24,20 @@
     return palettes.get(value.join()) ?? (items.length && items.every(Boolean) ? items : undefined)
   }
   const resized = (value, factor) => {
-    const [, size, unit] = /^([\d.]+)(px)?$/.exec(value) ?? []
+    const [, size, unit] = /^(-?[\d.]+)(px)?$/.exec(value) ?? []
     const changed = size && Math.round(factor * Number(size) * 100) / 100
     return size && (unit ? `${changed}px` : changed)
   }
   // What a property becomes; a value may stand inside of {value: ...}. Undefined where it stays.
   const changed = (value, change) => {
-    if (typeof value?.value !== "string" || Object.getPrototypeOf(value) !== Object.prototype) return change(value)
+    if (value?.value === undefined || Object.getPrototypeOf(value) !== Object.prototype) return change(value)
     const inner = change(value.value)
     return inner === undefined ? undefined : { ...value, value: inner }
   }
 
   let theme = wanted(), large = false
   const done = new WeakMap()  // the look of a model: it comes light, and not large
-  const COLOR = /(^|_)(color|palette|colors)$/, SIZE = /text_font_size$/
+  const COLOR = /(^|_)(color|palette|colors)$/, SIZE = /text_font_size$|^[xy]_offset$/
   const ROOM = /^(height|min_border_(left|right))$/  // of a figure, for its words
   const paint = (model) => {
     const was = done.get(model) ?? { theme: "light", large: false }

@@ -185,7 +185,7 @@
     keep_styles()
     pinch_with_fingers()
     announce("figures")
-    if (location.hash === "#projector") announce("projector", true)
+    if (location.hash.includes("projector")) announce("projector", true)
     show_welcome()
     let shown = root.dataset.tab
     on_event("tab", root, (tab) => {

@@ -33,7 +33,8 @@ COUNTS = """() => {
   const words_of = (text) => text.match(/[\\p{L}\\p{N}.,−–]*\\p{L}[\\p{L}\\p{N}.,−–]*/gu) ?? []
   const add = (text, element) => {
     found.words.push(...words_of(text))
-    if (words_of(text).length) size(parseFloat(getComputedStyle(element).fontSize), text)
+    const { fontSize } = getComputedStyle(element)
+    if (words_of(text).length) size(parseFloat(fontSize) * element.currentCSSZoom, text)
   }
   const clipped = (element) => {
     for (let at = element; at; at = at.parentElement ?? at.getRootNode().host)

@@ -10,6 +10,7 @@ from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.explorer_page import export, place, rest, slider, source
 from tests.browser.helpers import Server, Watch
+from tests.browser.test_first_minute import COUNTS, SEEN
 
 SOUNDS = """
 window.sounds = []
@@ -169,3 +170,56 @@ def test_a_table_begins_where_values_do(watch: tuple[Page, Watch], explorer: Ser
     assert float(rows.nth(0).locator("td").nth(1).inner_text()) == 0.0
     assert float(rows.nth(1).locator("td").nth(1).inner_text()) > 0.0
     expect(view.get_by_text("before them all values are zero")).to_be_visible()
+
+
+#: sizes of type [px] in figures that are seen, and the share of the page's width that they have
+PROJECTED = """() => {
+  const sizes = {}, size = (px, of) => { sizes[px] = of }
+  let widest = 0
+  for (const { model, el } of Bokeh.index.query((view) => view.model.type === "Figure")) {
+    if (!seen(el)) continue
+    widest = Math.max(widest, el.getBoundingClientRect().width)
+    for (const part of model.references()) for (const property of part) {
+      if (!/text_font_size$/.test(property.attr) || property.is_unset) continue
+      const value = property.get_value()
+      size(parseFloat(value.value ?? value), `${part.type} ${property.attr}`)
+    }
+  }
+  for (const element of deep(document.body)) {
+    const { content, fontSize } = getComputedStyle(element, "::after")
+    if (seen(element) && /\\p{L}/u.test(content) && content !== "none" && content !== "normal")
+      size(parseFloat(fontSize) * element.currentCSSZoom, content)
+  }
+  return [sizes, widest / innerWidth]
+}"""
+
+
+@pytest.mark.parametrize("size", [(1920, 1080), (1366, 768)])
+@pytest.mark.parametrize(
+    "link", ["?v=1&tab=overview", "?v=1&tab=vibration", "?lesson=what-a-ball-carries"]
+)
+def test_a_projector_has_large_type_and_large_figures(
+    watch: tuple[Page, Watch], explorer: Server, link: str, size: tuple[int, int]
+) -> None:
+    page, _ = watch
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.add_init_script(SEEN)
+    page.goto(f"{explorer.url}{link}#projector")
+    page.wait_for_function("window.__frames >= 1")
+    rest(page)
+    page.wait_for_function("document.querySelector('.tools').currentCSSZoom > 1.6")
+    if "lesson" in link:
+        page.get_by_role("button", name="Skip to the answer").click()
+    rest(page)
+    drawn, share = page.evaluate(PROJECTED)
+    written = page.evaluate(COUNTS)["sizes"]
+    assert drawn
+    assert written
+    small = {px: of for px, of in [*drawn.items(), *written.items()] if float(px) < 18.0}
+    assert not small
+    assert share > 0.65
+    if "lesson" in link:  # all of its strip is seen
+        strip = page.locator(".lesson-place").bounding_box()
+        assert strip is not None
+        assert strip["width"] == size[0]
+        assert strip["height"] < 0.45 * size[1]

@@ -22,6 +22,7 @@ from bokeh.models import (
     CustomJS,
     CustomJSExpr,
     CustomJSTickFormatter,
+    CustomJSTransform,
     FixedTicker,
     LinearAxis,
     Range1d,
@@ -103,11 +104,22 @@ const si = (value, unit, digits = 3) => {
 
 NARROW = 420
 """[px] width of a frame below which there is room for short words only."""
-_IS_NARROW = """
-let narrow = false
+_LARGER = """
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
+"""
+_IS_NARROW = (
+    _LARGER
+    + """
+let narrow = false
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
 """
+)
+
+
+def text_offset(column: str) -> dict[str, Any]:
+    """Offset of texts by the pixels in a column; they grow with the type, on a projector too."""
+    code = _LARGER + "return xs.map(offset => larger*offset)"
+    return {"field": column, "transform": CustomJSTransform(v_func=code)}
 
 
 @dataclass(frozen=True)

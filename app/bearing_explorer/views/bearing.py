@@ -135,7 +135,7 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
             ("kind", "value", "angle", "down"),
             x_share=True,
             y_share=True,
-            look={**_LINE, "text_baseline": "top", "y_offset": {"field": "down"}},
+            look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
         ),
         words("row_words", _ROW_WORDS, ("row", "place"), {**_LINE, **_MIDDLE}),
     ]

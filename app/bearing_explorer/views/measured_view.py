@@ -42,7 +42,8 @@ def write_over(
     `row` is where, as a share of the frame's height.
     """
     share = {"center": 0.5}.get(look.get("text_align", ""), 1.0)
-    share = 0.0 if isinstance(look.get("x_offset"), str) else share  # on either side
+    if isinstance(shift := look.get("x_offset"), str):
+        share, look["x_offset"] = 0.0, style.text_offset(shift)  # on either side
     words = style.words_in_view(plot, source, code, x, share=share)
     plot.extra_y_ranges.setdefault("rows", Range1d(0.0, 1.0, syncable=False))
     plot.text(

@@ -69,7 +69,7 @@ def layers() -> list[Layer]:
             ("direction", "number", "high", "room", "line"),
             y_share=True,
             fitting=style.NARROW,
-            look={"text_color": of_band, "y_offset": {"field": "line"}},
+            look={"text_color": of_band, "y_offset": style.text_offset("line")},
         ),
         Words(
             "overview_names",

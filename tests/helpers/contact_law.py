@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import DOF_NAMES, Scene
+from bearingcore import DOF_NAMES, Bearing, Scene
+from bearingcore.statics.passes import drops_now
 
 Long = np.longdouble
 Array = NDArray[np.floating]
@@ -32,14 +33,18 @@ Array = NDArray[np.floating]
 GRAVITY = 9.80665
 
 
-def gradients(angle: Array) -> tuple[Array, Array]:
+def gradients(angle: Array, place: Array, reach: Array) -> tuple[Array, Array]:
     """Gradients (N_b, 5) of radial and axial displacement at angles [rad] (Eqs. 11, 12).
 
-    Tilts are lengths: the rotation times the radius of the groove centres.
+    Tilts are lengths: the rotation times the radius r_d of the groove centres. `place` along the
+    shaft and `reach`, the row's own radius of groove centres, are parts of it.
     """
     c, s = np.cos(angle), np.sin(angle)
     zero, one = np.zeros_like(c), np.ones_like(c)
-    return np.stack([c, s, zero, zero, zero], 1), np.stack([zero, zero, one, s, -c], 1)
+    return (
+        np.stack([c, s, zero, -place * s, place * c], 1),
+        np.stack([zero, zero, one, reach * s, -reach * c], 1),
+    )
 
 
 def straightened(vector: Array, line: Array) -> tuple[Array, Array]:
@@ -65,9 +70,42 @@ def remembered(method: Callable[..., Any]) -> Callable[..., Any]:
     return recall
 
 
+def rows_of(bearing: Bearing) -> list[dict[str, float]]:
+    """What the contacts of each row are made of, written out from its dimensions."""
+    b, found = bearing, []
+    for row in b.all_rows:
+        n = b.n_balls if row.n_balls is None else row.n_balls
+        angle = b.contact_angle if row.contact_angle is None else row.contact_angle
+        each = {
+            "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
+            "reach": b.groove_center_radius, "A0": b.groove_center_distance,
+            "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
+            "slack": b.radial_clearance + row.clearance,
+        }  # fmt: skip
+        found.append(each)
+        if not row.own:
+            continue
+        assert b.inner_groove_radius is not None
+        assert b.outer_groove_radius is not None
+        D, pitch = row.ball_diameter or b.ball_diameter, row.pitch_diameter or b.pitch_diameter
+        r_i = row.inner_groove_radius or b.inner_groove_radius * D / b.ball_diameter
+        r_o = row.outer_groove_radius or b.outer_groove_radius * D / b.ball_diameter
+        drawn = Bearing.from_drawing(n, D, pitch, r_i, r_o, contact_angle=angle)
+        base = Bearing.from_drawing(
+            b.n_balls, b.ball_diameter, b.pitch_diameter, b.inner_groove_radius,
+            b.outer_groove_radius, contact_angle=b.contact_angle,
+        )  # fmt: skip
+        each["K"] *= drawn.load_deflection_factor / base.load_deflection_factor
+        each["reach"] = 0.5 * pitch + (r_i - 0.5 * D) * math.cos(angle)
+        each["A0"] = r_i + r_o - D
+        slow = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+        each["pace"] = (1.0 - D * math.cos(angle) / pitch) / (1.0 - slow)
+    return found
+
+
 @dataclass(frozen=True)
 class Balls:
-    """The balls of a scene at one cage angle [rad], and the energy of the inner ring on them."""
+    """The balls or rollers of a scene at one cage angle [rad], and the inner ring's energy."""
 
     scene: Scene
     cage_angle: float
@@ -76,19 +114,44 @@ class Balls:
     memory: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
+    def rows(self) -> list[dict[str, float]]:
+        """See `rows_of`."""
+        return rows_of(self.scene.bearing)
+
+    def each(self, name: str) -> Array:
+        """(N_b,) a number of each ball's row."""
+        return np.concatenate([np.full(int(row["n"]), row[name], Long) for row in self.rows])
+
+    @cached_property
     def angle(self) -> NDArray[np.float64]:
         """(N_b,) [rad]"""
-        n = self.scene.bearing.n_balls
-        return self.cage_angle + 2.0 * math.pi / n * np.arange(n)
+        return np.concatenate(
+            [
+                row["pace"] * self.cage_angle
+                + (row["turn"] + 2.0 * math.pi / row["n"] * np.arange(row["n"]))
+                for row in self.rows
+            ]
+        )
 
     @cached_property
     def drop(self) -> Array:
         """(N_b,) [m] into all defects."""
-        bearing = self.scene.bearing
-        total = np.zeros(bearing.n_balls, dtype=Long)
-        for defect in self.scene.defects:
-            total += defect.path(self.angle, bearing, self.cage_angle)
-        return total
+        return drops_now(self.scene, self.cage_angle).astype(Long)
+
+    @cached_property
+    def distance(self) -> Array:
+        """(N_b,) A0 [m]."""
+        return self.each("A0")
+
+    @cached_property
+    def factor(self) -> Array:
+        """(N_b,) K [N/m^n]."""
+        return self.each("K")
+
+    @cached_property
+    def exponent(self) -> Long:
+        """The n of Eq. 13, of points or lines."""
+        return Long(10) / Long(9) if self.scene.bearing.kind.line_contact else Long(1.5)
 
     @cached_property
     def load(self) -> Array:
@@ -103,56 +166,61 @@ class Balls:
     @cached_property
     def radial_axial(self) -> tuple[Array, Array]:
         """Gradients (N_b, 5) of a ball's radial and axial displacement (Eqs. 11, 12)."""
-        return gradients(self.angle.astype(Long))
+        lever = Long(self.scene.bearing.groove_center_radius)
+        return gradients(
+            self.angle.astype(Long), self.each("place") / lever, self.each("reach") / lever
+        )
 
     @cached_property
     def along_across(self) -> tuple[Array, Array]:
         """Gradients (N_b, 5) of a ball's motion along and across the unloaded line of contact."""
         radial, axial = self.radial_axial
-        ca, sa = self._line
+        ca, sa = self._line.T[:, :, None]
         return radial * ca + axial * sa, axial * ca - radial * sa
 
-    @property
-    def _line(self) -> tuple[Array, Array]:
-        alpha = Long(self.scene.bearing.contact_angle)
-        return np.cos(alpha), np.sin(alpha)
+    @cached_property
+    def _line(self) -> Array:
+        """(N_b, 2) the unloaded line of contact, radial and axial."""
+        alpha = self.each("angle")
+        return np.stack([np.cos(alpha), self.each("facing") * np.sin(alpha)], 1)
 
     @remembered
     def vector(self, q: Array) -> tuple[Array, Array, Array]:
         """δr*, δz* (N_b,) [m] (Eqs. 9, 10) with a negative p taken off, and p over A0."""
-        bearing = self.scene.bearing
-        ca, sa = self._line
         radial, axial = self.radial_axial
-        A0, clearance = Long(bearing.groove_center_distance), Long(bearing.radial_clearance)
-        dr = A0 * ca + radial @ q.astype(Long) - clearance - self.drop * ca
-        dz = A0 * sa + axial @ q.astype(Long) - self.drop * sa
-        vector, line = np.stack([dr, dz], 1), np.array([ca, sa])
+        q, line, slack = q.astype(Long), self._line, self.each("slack")
+        vector = np.stack([radial @ q - slack, axial @ q + self.each("offset")], 1)
+        vector += (self.distance - self.drop)[:, None] * line
         if self.as_printed:
-            return dr, dz, np.full_like(dr, np.inf)
+            return vector[:, 0], vector[:, 1], np.full(len(vector), np.inf, Long)
         vector, p = straightened(vector, line)
-        return vector[:, 0], vector[:, 1], p / A0
+        return vector[:, 0], vector[:, 1], p / self.distance
 
     @remembered
     def compression(self, q: Array) -> Array:
         """δ (N_b,) [m], negative for gaps."""
         dr, dz, _ = self.vector(q)
-        return np.hypot(dr, dz) - Long(self.scene.bearing.groove_center_distance)
+        return np.hypot(dr, dz) - self.distance
 
     @remembered
     def ball_load(self, q: Array) -> Array:
         """Q (N_b,) [N] (Eq. 13)."""
-        K = Long(self.scene.bearing.load_deflection_factor)
-        return K * np.maximum(self.compression(q), 0.0) ** Long(1.5)
+        return self.factor * np.maximum(self.compression(q), 0.0) ** self.exponent
+
+    def contact_stiffness(self, load: Array) -> Array:
+        """Slopes n K^(1/n) Q^(1 − 1/n) (N_b,) [N/m] of the contacts under loads [N]."""
+        n = self.exponent
+        return n * self.factor ** (1 / n) * load ** (1 - 1 / n)
 
     def energy(self, q: Array) -> float:
         """V(q) [N·m]: what the contacts store, less the work of the load."""
-        K = Long(self.scene.bearing.load_deflection_factor)
-        stored = K / Long(2.5) * np.sum(np.maximum(self.compression(q), 0.0) ** Long(2.5))
+        more = self.exponent + 1
+        stored = np.sum(self.factor / more * np.maximum(self.compression(q), 0.0) ** more)
         return stored - self.load @ q.astype(Long)
 
     def rounding(self, q: Array) -> float:
         """What rounding does to the energy [N·m]: to its lengths, and to the work of the load."""
-        lengths = self.drop + self.scene.bearing.groove_center_distance + np.linalg.norm(q)
+        lengths = self.drop + self.distance + np.linalg.norm(q)
         size = float(self.ball_load(q) @ lengths + np.abs(self.load * q).sum())
         return float(np.finfo(Long).eps) * size
 
@@ -176,12 +244,11 @@ class Balls:
         `passed` is the p, over A0, up to which the centres of a ball count as passed, `faint` the
         load [N] from which on a ball counts.
         """
-        K = Long(self.scene.bearing.load_deflection_factor)
         dr, dz, p = self.vector(q)
         along, across = self.directions(q)
         load = self.ball_load(q)
         load = np.where(load > faint, load, 0.0)
-        push = Long(1.5) * np.cbrt(K) ** 2 * np.cbrt(load)
+        push = self.contact_stiffness(load)
         turn = np.where(p > passed, load / np.maximum(np.hypot(dr, dz), Long(1e-300)), 0.0)
         return (along.T * push) @ along + (across.T * turn) @ across
 
@@ -190,10 +257,13 @@ class Balls:
         return float(np.linalg.norm((self.contact_force(q) - self.load)[active].astype(float)))
 
     def whole_load(self, q: Array, active: list[int]) -> float:
-        """Size of the load along `active` and of what the other directions take [N]."""
+        """Size of the load along `active` and of what the other directions take [N].
+
+        That of the greatest ball load where there is none, as in a pair that is only preloaded.
+        """
         whole = self.contact_force(q).copy()
         whole[active] = self.load[active]
-        return float(np.linalg.norm(whole.astype(float)))
+        return float(np.linalg.norm(whole.astype(float))) or float(self.ball_load(q).max())
 
 
 class Attempt(NamedTuple):
@@ -218,6 +288,37 @@ def newton(balls: Balls, start: Array, steps: int = 100, tolerance: float = 1e-9
         except np.linalg.LinAlgError:
             return Attempt(q, "singular matrix")
     return Attempt(q, "does not settle")
+
+
+def motion_rates(
+    scene: Scene, damping: float, t: float, y: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """dy/dt (4 n,) of displacements and velocities of inner and outer ring (Eq. 18).
+
+    Rotations are carried times r_d; `damping` [N·s/m] is that of each contact. δ̇ is taken by
+    differences: along the motion, the turning of the cage and the slope of the path together.
+    """
+    dofs, cage, step = scene.active_dofs, scene.cage_speed * t, 1e-7
+    index = [DOF_NAMES.index(name) for name in dofs]
+    inner, inner_velocity, outer, outer_velocity = y.reshape(4, -1)
+    q, v = np.zeros((2, 5))
+    q[index], v[index] = inner - outer, inner_velocity - outer_velocity
+    balls = Balls(scene, cage)
+    behind, ahead = (
+        Balls(scene, cage + h * scene.cage_speed).compression(q + h * v) for h in (-step, step)
+    )
+    push = balls.ball_load(q) + damping * (ahead - behind) / (2.0 * step)
+    push = np.where(balls.compression(q) > 0.0, push, 0.0)
+    if scene.contact_law == "no tension":
+        push = np.maximum(push, 0.0)
+    contact = (push @ balls.directions(q)[0])[index].astype(float)
+    support, squared = scene.support, balls.units[index].astype(float) ** 2
+    ground = support.stiffness(dofs) * outer + support.damping(dofs) * outer_velocity
+    load = balls.load[index].astype(float)
+    return np.concatenate([
+        inner_velocity, squared / support.inertia("inner", dofs) * (load - contact),
+        outer_velocity, (squared * contact - ground) / support.inertia("outer", dofs),
+    ])  # fmt: skip
 
 
 @dataclass

@@ -34,8 +34,7 @@ def rounding_of_residual(balls: Balls, q: Array) -> float:
     A digit lost of q changes a compression by ε|q|, and the load by the contact's stiffness times
     that; a digit lost of a ball's angle counts where a loaded ball stands on a defect's edge.
     """
-    factor = Long(balls.scene.bearing.load_deflection_factor)
-    steepest = 1.5 * np.sum(np.cbrt(factor**2 * balls.ball_load(q)))
+    steepest = np.sum(balls.contact_stiffness(balls.ball_load(q)))
     return float(4.0 * np.finfo(float).eps * reach_of(balls, q) * steepest)
 
 
@@ -146,13 +145,13 @@ def _judge_equilibrium(
     least = balls.stiffness(q, ABOUT_TO_PASS, faint).astype(float)
     most = balls.stiffness(q, -ABOUT_TO_PASS).astype(float)
     # what rounding leaves of a load it leaves of a stiffness, more where a ball only just touches
-    factor = balls.scene.bearing.load_deflection_factor
     spoilt += 1e-12 * size
-    touched = loads[loads > 0.0]
+    touched = loads > 0.0
     close = np.abs(balls.compression(q)) <= 8.0 * np.finfo(float).eps * reach_of(balls, q)
-    push = 1.5 * np.cbrt(factor**2 * touched)
-    grace = np.minimum(push * spoilt / touched, 1.5 * np.cbrt(factor**2 * spoilt))
-    nearly = np.count_nonzero(close) * 1.5 * np.cbrt(factor**2 * spoilt)
+    push = balls.contact_stiffness(loads)[touched]
+    least_push = balls.contact_stiffness(np.full(loads.shape, spoilt))
+    grace = np.minimum(push * spoilt / loads[touched], least_push[touched])
+    nearly = np.sum(least_push[close])
     allowed = 1e-11 * values[-1] + 4.0 * float(np.sum(grace) + nearly)
     for below, above in ((least, K), (K, most)):
         off = -np.linalg.eigvalsh(above - below)[0]
@@ -245,7 +244,8 @@ def _costs_nothing(
         way = straight
         pressed = np.maximum(balls.compression(q + reach * way), 0.0).astype(float)
         faint = balls.ball_load(q) <= FAINT * balls.whole_load(q, active)
-        allowed += balls.scene.bearing.load_deflection_factor * float(np.sum(pressed[faint] ** 2.5))
+        stored = balls.factor * pressed ** (balls.exponent + 1)
+        allowed += float(np.sum(stored[faint]))
     return rise(way) <= allowed
 
 

@@ -134,8 +134,10 @@ def test_an_orbit_jumps_where_the_march_does() -> None:
         presets["liew-lim"],
         RIG.replace(contact_law="no tension"),
         presets["liew-lim"].replace(dofs=("x", "y", "z")),
+        presets["nu208"].replace(contact_damping=130.0),
+        presets["7208-face-to-face"].replace(contact_damping=130.0),
     ],
-    ids=["smooth", "tilt", "no tension", "three directions"],
+    ids=["smooth", "tilt", "no tension", "three directions", "rollers", "two rows"],
 )
 def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
     """Against central differences over an eighth of a ball pass.

@@ -7,9 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bearingcore import Defect, Scene, contact_damping, equilibrium, presets, simulate
-from bearingcore.dynamics.motion import moving_system, static_start
+from bearingcore.dynamics.motion import static_start
 from bearingcore.dynamics.orbit import common_ball_passes
-from tests.bearingcore.kernels.numpy_twin import rate_of_velocities
+from bearingcore.dynamics.problem import motion_problem
 
 SAMPLE_RATE = 65536.0
 SPEED = 2.0 * math.pi * 100.0
@@ -61,14 +61,14 @@ def test_a_damaged_bearing_with_unbalance_as_another_integrator_has_it(preset: s
     duration = 0.02
     found = simulate(scene, duration, SAMPLE_RATE, step_rate=8.0 * SAMPLE_RATE)
     dofs = scene.active_dofs
-    system = moving_system(scene, dofs, velocities=True)
+    balanced = motion_problem(scene.replace(unbalance=0.0))
     start = static_start(scene, dofs)
     assert start is not None
     force = scene.unbalance * scene.shaft_speed**2 / scene.support.inner_mass
     n = len(dofs)
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:
-        rates = rate_of_velocities(system, t, y)
+        rates = balanced.rate(t, y)
         rates[n : n + 2] += force * np.array(
             [math.cos(scene.shaft_speed * t), math.sin(scene.shaft_speed * t)]
         )

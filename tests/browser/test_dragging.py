@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from bearingcore import equilibrium, presets
 from tests.browser.explorer_page import (
     number,
     open_page,
     settle,
-    show,
     slider,
-    source,
     value,
 )
 from tests.browser.helpers import Server, Watch, drag, move, unfold
@@ -98,42 +92,6 @@ def test_a_repaint_writes_no_style_sheet_that_stays_the_same(
     settle(page)
     assert page.evaluate("window.__frames") > paints
     assert page.evaluate("window.__rewritten") == 1, "a style sheet was written anew as it was"
-
-
-@pytest.mark.proof
-@pytest.mark.parametrize("end", [0.83, 0.31])
-def test_the_last_position_of_the_slider_is_drawn(
-    watch: tuple[Page, Watch], explorer: Server, end: float
-) -> None:
-    page, _ = watch
-    open_page(page, explorer, "stiffness")
-    for goal in (0.2, 0.9, 0.4, end):
-        drag(page, slider(page, "extent_deg"), 0.1, goal, steps=25)
-    settle(page)
-    extent = value(page, "extent_deg")
-    assert number(page, "extent_deg").input_value() == f"{extent:g}"
-    scene = presets["fan-rig"].replace(extent=math.radians(extent))
-    expected = equilibrium(scene, [0.0])
-    drawn = source(page, "stiffness_cells")
-    diagonal = {"k_xx": 0, "k_yy": 5, "k_zz": 9}
-    for term, cell in diagonal.items():
-        np.testing.assert_allclose(drawn["now"][cell], expected.term(term)[0], rtol=1e-6)
-    assert drawn["now"][15] == expected.loaded_balls[0]
-
-
-@pytest.mark.proof
-def test_what_is_not_on_screen_is_not_sent_and_what_appears_is_up_to_date(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
-    open_page(page, explorer, "stiffness")
-    show(page, "load")
-    before = source(page, "stiffness_defective")
-    drag(page, slider(page, "extent_deg"), 0.1, 0.7)
-    settle(page)
-    assert source(page, "stiffness_defective") == before
-    show(page, "stiffness")
-    assert source(page, "stiffness_defective") != before
 
 
 def query(page: Page) -> str:

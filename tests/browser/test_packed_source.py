@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import export
 from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
 
 
@@ -41,15 +40,3 @@ def test_the_websocket_sends_at_once(watch: tuple[Page, Watch], packed_source_pa
     page, _ = watch
     page.goto(packed_source_page.url)
     expect(page.locator(".nodelay")).to_contain_text("1")
-
-
-def test_the_numbers_of_a_figure_can_be_saved(
-    watch: tuple[Page, Watch], packed_source_page: Server
-) -> None:
-    page, _ = watch
-    page.goto(packed_source_page.url)
-    page.wait_for_function("window.__mark == 40")
-    with page.expect_download() as saving:
-        export(page.locator(".view-line"), "csv").click()
-    assert saving.value.suggested_filename == "bearing-line.csv"
-    assert saving.value.path().read_text() == "height_m\n40\n2.5\n"

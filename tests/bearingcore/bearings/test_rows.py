@@ -11,7 +11,6 @@ import pytest
 from bearingcore import Bearing, Defect, Scene, equilibrium, modes, orbit, presets, simulate
 from bearingcore.bearings.hertz import spherical_contact
 from bearingcore.bearings.rows import Row
-from bearingcore.scene import packing
 from bearingcore.statics.passes import crossings
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
@@ -209,14 +208,6 @@ def test_rollers_carry_radial_loads_only_and_say_so() -> None:
     with pytest.raises(ValueError, match="x and y, as cylindrical rollers carry radial loads only"):
         scene.replace(dofs=("x", "y", "z"))
     assert Scene.from_toml(scene.to_toml()) == scene
-
-
-def test_contacts_are_packed_row_after_row() -> None:
-    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back")
-    every = packing.contacts(pair)
-    assert every.rows.tolist() == [[0, 12], [12, 12]]
-    assert np.all(every.line_z[:12] == -every.line_z[12:])
-    assert every.line_z[0] > 0.0 > every.arm[0]
 
 
 @pytest.mark.parametrize(

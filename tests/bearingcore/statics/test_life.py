@@ -24,8 +24,6 @@ from bearingcore.statics.race_loads import race_loads
 P, E = 3.0, 10.0 / 9.0
 RATING = 23_400.0
 
-ALL = ("x", "y", "z", "rx", "ry")
-
 
 def seven_balls(clearance: float, **load: float) -> Scene:
     """The bearing that the commercial code's results belong to."""
@@ -297,14 +295,6 @@ def test_hours() -> None:
     assert "stands still" in standing.sentence
 
 
-def test_a_damaged_race_is_no_promise() -> None:
-    found = life(presets["6206"], 19_500.0)
-    assert found.share_of_healthy < 1.0
-    for words in ("upper limit", "edges"):
-        assert words in found.sentence
-    assert "promise" not in life(presets["6206"].healthy(), 19_500.0).sentence
-
-
 def test_a_heavy_load_is_beyond_the_standard() -> None:
     assert "does not vouch" in life(presets["6205"].replace(fy=-9000.0), 14e3).sentence
     assert "does not vouch" not in life(presets["6205"], 14e3).sentence
@@ -334,15 +324,6 @@ def test_no_load_no_fatigue() -> None:
     assert found.equivalent_load == 0.0
     assert found.share_of_healthy == 1.0
     assert "nothing tires" in found.sentence
-
-
-def test_table_repeats_the_result() -> None:
-    found = life(presets["6206"], 19_500.0)
-    table = found.table()
-    for name in table:
-        assert table[name].size == 1
-        assert table[name][0] == getattr(found, "hours" if name == "life" else name)
-    assert table.unit("inner_load") == "N"
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
+from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
 from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
@@ -72,6 +73,8 @@ __all__ = [
     "Spectrum",
     "Support",
     "Table",
+    "Trend",
+    "TrendPoint",
     "ball_positions",
     "catalogue",
     "catalogue_text",
@@ -102,5 +105,7 @@ __all__ = [
     "static_state",
     "stiffness_maps",
     "to_ross",
+    "trend",
+    "trend_point",
     "warm",
 ]

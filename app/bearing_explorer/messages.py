@@ -145,10 +145,16 @@ class TabChange(msgspec.Struct):
 
 
 class UploadBegins(msgspec.Struct, tag="begin"):
-    """A file was chosen: its name and its size [bytes]."""
+    """A file was chosen: its name and its size [bytes].
+
+    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`.
+    """
 
     name: str
     size: int
+    number: int = 1
+    count: int = 1
+    chosen: int = 1
 
 
 class UploadPiece(msgspec.Struct, tag="piece"):

@@ -54,6 +54,7 @@ from bearing_explorer.views.speed_run import SpeedRunSpectra
 from bearing_explorer.views.stability_map import OrbitStability
 from bearing_explorer.views.stiffness import Stiffness
 from bearing_explorer.views.theme import dark_properties, themes
+from bearing_explorer.views.trend import TrendOfFiles
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.views.vibration_time import VibrationInTime
 
@@ -84,6 +85,7 @@ SECTIONS = (
             PartDiagnosis,
             SpallExtent,
             DefectSize,
+            TrendOfFiles,
             MeasuredIndicators,
             MeasuredSpectrum,
             MeasuredEnvelope,

@@ -1,20 +1,40 @@
-// A file, chosen or dropped, sent in pieces: the server asks for each by its first byte.
+// Files, chosen or dropped, sent one after the other in pieces: the server asks for each piece by its
+// first byte, and for the next file once it has read one.
 export function render({ model }) {
-  const file = element("input", { type: "file", id: "measurement-file", "aria-describedby": "measurement-note" })
-  const choose = element("label", { for: "measurement-file" }, "Choose a file …")
+  const input = (id, more) => element("input", { type: "file", id, "aria-describedby": "measurement-note", ...more })
+  const files = input("measurement-file", { multiple: "" })
+  const folder = input("measurement-folder", { webkitdirectory: "" })
   const bar = element("progress", { "aria-label": "Upload", max: "1", value: "0" })
   const root = element("div", { class: "upload" },
-    element("div", { class: "line" }, file, choose, bar),
+    element("div", { class: "line" },
+      files, element("label", { for: files.id }, "Choose a file …"),
+      folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), bar),
     element("p", { id: "measurement-note" }, model.note))
-  let source = null, upload = 0
-  const show = (share) => { bar.hidden = !source; bar.value = share }
-  const begin = (chosen) => {
-    if (!chosen) return
-    source = chosen.size <= model.largest ? chosen : null
-    show(0)
-    model.send_msg({ type: "begin", name: chosen.name, size: chosen.size })
+  const { compare } = new Intl.Collator(undefined, { numeric: true })
+  const place = (file) => file.webkitRelativePath || file.name
+  let queue = [], count = 0, chosen = 0, source = null, upload = 0
+  const show = (share) => {
+    bar.hidden = !source && !queue.length
+    bar.value = count ? (count - queue.length - 1 + share) / count : 0
   }
-  model.on("msg:custom", async ({ first, of }) => {
+  const next = () => {
+    const file = queue.shift()
+    if (!file) return
+    source = file.size <= model.largest ? file : null
+    show(0)
+    model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen })
+  }
+  const begin = (list) => {
+    const all = [...list ?? []].filter((file) => !file.name.startsWith("."))
+    all.sort((one, other) => compare(place(one), place(other)))
+    chosen = all.length
+    count = Math.min(chosen, model.most)
+    // of more files than are taken some from first to last
+    queue = all.filter((_, k) => count === chosen || Math.floor(k * (count - 1) / (chosen - 1)) !== Math.floor((k - 1) * (count - 1) / (chosen - 1)))
+    next()
+  }
+  model.on("msg:custom", async ({ first, of, more }) => {
+    if (more) return next()
     if (of < upload || !source) return  // about a file that was given up
     upload = of
     const sent = source
@@ -30,14 +50,14 @@ export function render({ model }) {
     show(last / sent.size)
     model.send_msg({ type: "piece", content: piece, of })
   })
-  file.addEventListener("change", () => {
-    begin(file.files[0])
-    file.value = ""  // so that the same file can be chosen again
+  for (const one of [files, folder]) one.addEventListener("change", () => {
+    begin(one.files)
+    one.value = ""  // so that the same can be chosen again
   })
   for (const kind of ["dragover", "dragleave", "drop"]) root.addEventListener(kind, (event) => {
     event.preventDefault()
     root.classList.toggle("over", kind === "dragover")
-    if (kind === "drop") begin(event.dataTransfer?.files[0])
+    if (kind === "drop") begin(event.dataTransfer?.files)
   })
   show(0)
   return root

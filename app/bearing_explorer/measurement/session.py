@@ -46,6 +46,12 @@ from bearing_explorer.measurement.form import (
     size_questions,
     usable,
 )
+from bearing_explorer.measurement.series import (
+    MOST_FILES,
+    Series,
+    SeriesRecordings,
+    recordings_of,
+)
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.measurement.upload import Upload
 from bearing_explorer.results.executors import FILES, in_thread
@@ -169,6 +175,10 @@ class Measurement:
         #: number `of` comes back with the piece, which tells the files apart
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.want: Callable[[int, int], None] = lambda begin, of: None
+        #: called when the next of several files may come
+        self.more: Callable[[], None] = lambda: None
+        #: the files that were read
+        self.series = Series()
         #: takes a message as the controls send it
         self.change_scene: Callable[[dict[str, Any]], None] = lambda _: None
         self._editor = editor
@@ -180,6 +190,7 @@ class Measurement:
         self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
         #: listed bearings, where the one that is given does not explain the signal
         self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
+        self._arrival: _Arrival | None = None
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._cut = ""
@@ -193,7 +204,8 @@ class Measurement:
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self._upload = self._table = None
+        self._upload = self._table = self._arrival = None
+        self.series = Series()
         self.diagnoses.stop()
         self.extents.stop()
         self.listed.stop()
@@ -232,50 +244,112 @@ class Measurement:
 
     # Files
 
-    def begin_upload(self, name: str, size: int) -> None:
-        """A file is about to come, so long [bytes]."""
+    def begin_upload(
+        self, name: str, size: int, number: int = 1, count: int = 1, chosen: int = 1
+    ) -> None:
+        """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
+
+        The last of several that can be read is the one that is shown.
+        """
         if self._ended:
             return
-        self._latest += 1
+        if number == 1:
+            self._latest += 1
+            several = 1 < count <= MOST_FILES
+            self._arrival = _Arrival(count, chosen) if several else None
+        elif self._arrival is None or number != self._arrival.number + 1:
+            return  # of files that were given up
         self._uploads += 1
+        if self._arrival is not None:
+            self._arrival.number = number
         try:
             self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
-            self._refuse(str(error))
+            if self._arrival is not None:
+                self._take_next(self._arrival, name, str(error))
+            else:
+                self._refuse(str(error))
         else:
-            self._tell(words=f"Uploading {self._upload.name} …", bad=False, busy=True)
+            self._tell(words=self._at_work("Uploading", self._upload.name), bad=False, busy=True)
             self.want(0, self._uploads)
 
+    def _at_work(self, doing: str, name: str) -> str:
+        """What is done to a file that comes."""
+        arrival = self._arrival
+        return f"{doing} {arrival.words if arrival else ''}{name} …"
+
     def cancel(self) -> None:
-        """Give up the file that is being uploaded or read; the signal before it stays."""
+        """Give up the files that are being uploaded or read; the signal before them stays."""
         self._latest += 1
         self._uploads += 1
-        self._upload = None
+        self._upload = self._arrival = None
         self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
 
     def take_piece(self, content: bytes, of: int) -> None:
         """A piece of the file of the upload with the number `of`."""
-        upload = self._upload
+        upload, arrival = self._upload, self._arrival
         if upload is None or of != self._uploads:
             return
         try:
             upload.take(content)
         except ValueError as error:
             self._upload = None
-            self._refuse(str(error))
+            if arrival is not None:
+                self._take_next(arrival, upload.name, str(error))
+            else:
+                self._refuse(str(error))
             return
         if not upload.whole:
             self.want(upload.length, self._uploads)
             return
         self._upload = None
-        self._tell(words=f"Reading {upload.name} …", bad=False, busy=True)
+        self._tell(words=self._at_work("Reading", upload.name), bad=False, busy=True)
         speed, find = self._editor.values["shaft_speed_hz"], self._editor.listed.find
 
         def read() -> _Read:
             return read_file(upload.name, upload.content, speed, find)
 
-        self._in_background(read, self._take_read, upload.name)
+        if arrival is None:
+            self._in_background(read, self._take_only, upload.name)
+            return
+
+        def read_or_why() -> _Read | str:
+            try:
+                return read()
+            except ValueError as error:
+                return str(error)
+            except Exception:
+                log.exception("a file of several could not be read")
+                return f"{upload.name} could not be read."
+
+        take = lambda found: self._take_next(arrival, upload.name, found)  # noqa: E731
+        self._in_background(read_or_why, take, upload.name)
+
+    def _take_only(self, found: _Read) -> None:
+        """Take a file that came alone; with those before it, it is a series too."""
+        series = dataclasses.replace(self.series, together=False)
+        self.series = series.with_table(found.table)
+        self._take_read(found)
+
+    def _take_next(self, arrival: _Arrival, name: str, found: _Read | str) -> None:
+        """Take one of several files, or a sentence on why it cannot be read."""
+        arrival.take(name, found)
+        if arrival.number < arrival.count:
+            self.more()
+            return
+        self._arrival = None
+        if arrival.newest is None:
+            self._refuse(f"None of {arrival.count} files can be read. {arrival.series.left_out[0]}")
+            return
+        self.series = arrival.series
+        self._take_read(arrival.newest)
+
+    def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
+        """The recordings of the series; for any thread."""
+        given = self.state.values
+        changed = {name: given[name] for name in given if given[name] != self._first.get(name)}
+        return recordings_of(self.series, shown, changed, direction, self._editor.listed.find)
 
     def _take_read(self, found: _Read) -> None:
         """Take a file that was read in place of the one before.
@@ -319,7 +393,7 @@ class Measurement:
         Open questions are settled by an answer or by agreement.
         """
         table = self._table
-        if table is None or self._ended:
+        if table is None or self._ended or self._arrival is not None:
             return
         texts = {name: form.get(name, "")[:LONGEST_TEXT] for name in self.state.values}
         first = self._first
@@ -409,7 +483,7 @@ class Measurement:
         """Simulate a measurement; the choices are keys of NOISES, MACHINES and PITS."""
         if self._ended or noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
             return
-        self._upload = None
+        self._upload = self._arrival = None
         self._latest += 1
         self._simulations += 1
         seed, scene = self._simulations, self._editor.scene
@@ -482,6 +556,30 @@ _NO_FORM: Mapping[str, Any] = {
 """Of a state without a file."""
 
 _WAITS = "Nothing is drawn yet:"
+
+
+@dataclass
+class _Arrival:
+    """Several files that come one after the other, and what was read of them."""
+
+    count: int
+    chosen: int
+    number: int = 1
+    series: Series = field(default_factory=lambda: Series(together=True))
+    newest: _Read | None = None
+
+    @property
+    def words(self) -> str:
+        """Which of how many it is."""
+        of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
+        return f"{self.number} of {self.count} files{of}: "
+
+    def take(self, name: str, found: _Read | str) -> None:
+        """Take what was read, or why nothing was."""
+        if isinstance(found, str):
+            self.series = self.series.without(found if name in found else f"{name}: {found}")
+        else:
+            self.series, self.newest = self.series.with_table(found.table, self.count), found
 
 
 @dataclass(frozen=True)

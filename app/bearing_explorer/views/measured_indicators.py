@@ -11,7 +11,7 @@ import panel as pn
 
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.measured_view import MeasuredView, shown_unit
+from bearing_explorer.views.measured_view import MeasuredView, named_columns, shown_unit
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
@@ -25,13 +25,13 @@ LARGE = "over 300 kW"
 _WORDS = {
     "medium": MEDIUM,
     "large": LARGE,
-    "rigid": "rigid support",
-    "flexible": "flexible support",
+    "rigid": "rigid",
+    "flexible": "flexible",
 }
 MACHINE: LookField = {
     "kind": "one",
     "name": "machine",
-    "label": "Machine",
+    "label": "Machine and its support",
     "options": [
         ["", "choose for a zone"],
         *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
@@ -95,14 +95,7 @@ class MeasuredIndicators(MeasuredView):
         measured = self.measured
         if measured is None:
             return {}
-        columns = measured.indicators.table().in_units().named()
-        if measured.in_si:
-            return columns
-        return {
-            name.replace("_m_per_s2", "_as_in_file"): values
-            for name, values in columns.items()
-            if not name.startswith("velocity")
-        }
+        return named_columns(measured.indicators.table(), measured.in_si)
 
 
 def facts(measured: Measured, machine: str) -> list[Fact]:

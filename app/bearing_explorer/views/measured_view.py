@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
     from bearingcore import Scene
+    from bearingcore.common.table import ResultTable
     from bearingcore.diagnosis.part.evidence import EnvelopeLines
 
 HIGHEST_SHARE = 0.49
@@ -190,6 +192,18 @@ class MeasuredView(View):
 def column_name(direction: str, in_si: bool) -> str:
     """Of the signal along a direction; without a unit where that is not known."""
     return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
+
+
+def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
+    """Columns of a table of a signal; without units, and velocities, where that is not known."""
+    columns = table.in_units().named()
+    if in_si:
+        return columns
+    return {
+        name.replace("_m_per_s2", "_as_in_file"): values
+        for name, values in columns.items()
+        if not name.startswith("velocity")
+    }
 
 
 def recording_lines(measured: Measured) -> list[str]:

@@ -1,4 +1,4 @@
-"""A file of the browser, sent in pieces that the server requests.
+"""Files of the browser, sent in pieces that the server requests.
 
 Panel's FileInput sends a file as one message: a large one would hold up all others or end the
 connection, and neither shows how much has arrived.
@@ -17,7 +17,7 @@ from bearing_explorer.messages import UploadBegins, UploadPiece, read
 
 
 class FileUpload(JSComponent):
-    """A button to choose a file, which can be dropped here too, and a bar.
+    """Buttons to choose files or a folder, a place to drop files, and a bar.
 
     Parameters
     ----------
@@ -27,6 +27,7 @@ class FileUpload(JSComponent):
 
     largest = param.Integer(doc="Size of a file that is sent [bytes].")
     piece = param.Integer(doc="Size of a piece [bytes].")
+    most = param.Integer(doc="Files that are taken; of more, as many from first to last.")
     note = param.String()
 
     _esm = scripts("element.js", "file_upload.js")
@@ -42,6 +43,10 @@ class FileUpload(JSComponent):
     def want(self, first: int, of: int) -> None:
         """Ask for the piece that begins at a byte, of the upload with a number."""
         self._send_msg({"first": first, "of": of})
+
+    def more(self) -> None:
+        """Ask for the next file."""
+        self._send_msg({"more": True})
 
     def _take(self, data: Any) -> None:
         message = read(UploadBegins | UploadPiece, data)  # type: ignore[arg-type]

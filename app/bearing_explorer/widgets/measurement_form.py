@@ -11,6 +11,7 @@ import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.form import BY_FREQUENCIES, SIZES, USUAL_SENSITIVITY
+from bearing_explorer.measurement.series import MOST_FILES
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
 from bearing_explorer.messages import UploadBegins, UploadPiece
@@ -38,7 +39,7 @@ LABELS = {
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
-    f"{MOST_BYTES // 2**20} MB. Or drop it here."
+    f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
 )
 _MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -57,7 +58,9 @@ class MeasurementForm(pn.Column):
         self._measurement: Measurement | None = None
         self._fields: Fields | None = None
         self._shown = MeasurementState()
-        self.upload = FileUpload(self._uploaded, largest=MOST_BYTES, piece=PIECE, note=FORMATS)
+        self.upload = FileUpload(
+            self._uploaded, largest=MOST_BYTES, piece=PIECE, most=MOST_FILES, note=FORMATS
+        )
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", self._take_load, visible=False)
@@ -67,7 +70,7 @@ class MeasurementForm(pn.Column):
         self._cancel = button("Cancel", self._give_up, visible=False, align="start")
         self._in_short = row(self._line, self._change, visible=False)
         self._ways = row(
-            self._way("A file of your own", self.upload, "5 1 260px"),
+            self._way("Files of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
             css_classes=["ways"],
         )
@@ -81,6 +84,7 @@ class MeasurementForm(pn.Column):
         """Show a measurement, which gets the choices made here."""
         self._measurement = measurement
         measurement.show, measurement.want = self.show, self.upload.want
+        measurement.more = self.upload.more
         self.show(measurement.state)
 
     def _way(self, title: str, content: pn.viewable.Viewable, flex: str) -> pn.Column:
@@ -126,7 +130,9 @@ class MeasurementForm(pn.Column):
         if self._measurement is None:
             return
         if isinstance(message, UploadBegins):
-            self._measurement.begin_upload(message.name, message.size)
+            self._measurement.begin_upload(
+                message.name, message.size, message.number, message.count, message.chosen
+            )
         else:
             self._measurement.take_piece(message.content, message.of)
 

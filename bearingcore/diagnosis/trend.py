@@ -1,0 +1,323 @@
+"""A machine over time: what is computed of one recording, of many, in their order."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
+from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.listened_signal import NARROWEST
+from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.signals.indicators import indicators
+from bearingcore.signals.kurtogram import kurtogram
+from bearingcore.signals.recording import Recording
+from bearingcore.signals.spectrum import envelope_spectrum
+from bearingcore.signals.whitening import local_median
+
+LINES = ("bpfo", "bpfi", "bsf_2", "ftf")
+"""Lines of outer race, inner race, ball (twice its spin) and cage."""
+
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
+LINES_A_TURN = 16.0
+"""Resolution of the envelope spectrum in parts of the shaft speed, if the signal is so long."""
+
+LOWEST_LINE = 3.0
+"""Times the resolution from which a line is looked for."""
+
+SURROUNDINGS, FEWEST_AROUND = 2.0, 9
+"""[shaft speeds] over which the median is the background of a line, and its lines at least."""
+
+CHANCE = 1e-3
+"""That noise alone reaches the level from which a line counts."""
+
+HANN_WIDTH = 1.5
+"""Noise bandwidth of Hann's window, in lines."""
+
+FIRST_BAND = 5.0
+"""Times BPFO from which the band of the envelope is looked for."""
+
+HIGHEST_SHARE = 0.49
+"""Of the sample rate up to which a band reaches."""
+
+
+_TIME = re.compile(
+    r"(?<!\d)((?:19|20)\d\d)([-_. ]?)(\d\d)\2(\d\d)[-_. T]?(\d\d)[-_.: ]?(\d\d)[-_.: ]?(\d\d)(?!\d)"
+)
+"""Year to second, as in "2004.02.12.10.32.39" or "20040212_103239"."""
+
+
+@dataclass(frozen=True)
+class TrendPoint:
+    """Numbers of one recording along one direction.
+
+    Attributes
+    ----------
+    name
+        of the recording.
+    shaft_speed
+        [rad/s]
+    rms, peak
+        [m/s²]
+    crest_factor, kurtosis
+        see `indicators`.
+    lines, noise : (4,) [m/s²]
+        amplitude of each of `LINES` in the envelope, and what noise reaches there once in a
+        thousand recordings; NaN where the recording is too short, or does not hold the band.
+    fault, probability
+        see `Diagnosis`.
+    extent
+        of the spall of a race that is named.
+    """
+
+    name: str
+    shaft_speed: float
+    rms: float
+    peak: float
+    crest_factor: float
+    kurtosis: float
+    lines: NDArray[np.float64]
+    noise: NDArray[np.float64]
+    fault: str
+    probability: float
+    extent: MeasuredExtent
+
+
+@dataclass(frozen=True)
+class Trend:
+    """Recordings of one machine in their order; k of them.
+
+    Attributes
+    ----------
+    points
+        their numbers.
+    direction
+        along which.
+    band
+        [Hz] of the envelope, the same for all.
+    baseline
+        number of the recording with which the others are compared.
+    """
+
+    points: tuple[TrendPoint, ...]
+    direction: str
+    band: tuple[float, float]
+    baseline: int = 0
+
+    def __post_init__(self) -> None:
+        last = max(len(self.points) - 1, 0)
+        checks.whole_number("baseline", self.baseline, at_least=0, at_most=last)
+
+    def column(self, name: str) -> NDArray[np.float64]:
+        """Attribute of all points (k,) or (k, 4)."""
+        return np.array([getattr(point, name) for point in self.points], dtype=float)
+
+    @property
+    def clear_lines(self) -> NDArray[np.float64]:
+        """Amplitudes (k, 4) [m/s²] of lines that are more than noise; NaN for the others."""
+        lines, noise = self.column("lines"), self.column("noise")
+        return np.where(lines > noise, lines, math.nan)
+
+    @property
+    def rms_change(self) -> NDArray[np.float64]:
+        """Root mean square (k,) over that of the baseline."""
+        rms = self.column("rms")
+        return np.asarray(rms / rms[self.baseline])
+
+    @property
+    def hours(self) -> NDArray[np.float64]:
+        """Time (k,) since the first recording [h], by dates in all names; NaN without."""
+        times = [_time_in(point.name) for point in self.points]
+        first = times[0] if times else None
+        if first is None:
+            return np.full(len(times), math.nan)
+        since = [math.nan if t is None else (t - first).total_seconds() / 3600.0 for t in times]
+        return np.array(since) if np.isfinite(since).all() else np.full(len(times), math.nan)
+
+    def table(self) -> ResultTable:
+        """A row a recording."""
+        points, clear = self.points, self.clear_lines
+        extents = [point.extent for point in points]
+        return table_of(
+            ("recording", "", [point.name for point in points]),
+            ("time", "s", 3600.0 * self.hours, "since the first, by dates in the names"),
+            ("shaft_speed", "rad/s", self.column("shaft_speed")),
+            ("rms", "m/s²", self.column("rms")),
+            ("rms_change", "1", self.rms_change, "over that of the baseline"),
+            ("peak", "m/s²", self.column("peak")),
+            ("crest_factor", "1", self.column("crest_factor")),
+            ("kurtosis", "1", self.column("kurtosis")),
+            *(
+                (f"{name}_line", "m/s²", clear[:, k], "in the envelope; NaN: no more than noise")
+                for k, name in enumerate(LINES)
+            ),
+            ("fault", "", [point.fault for point in points]),
+            ("probability", "1", self.column("probability")),
+            ("extent", "rad", [one.extent for one in extents]),
+            ("extent_low", "rad", [one.low for one in extents], "95 % from here"),
+            ("extent_high", "rad", [one.high for one in extents], "to here, or a bound"),
+            ("extent_status", "", [str(one.status.value) for one in extents]),
+        )
+
+
+def trend(
+    recordings: Sequence[Recording],
+    bearing: Bearing,
+    shaft_speed: float | None = None,
+    *,
+    direction: str | None = None,
+    band: tuple[float, float] | None = None,
+    baseline: int = 0,
+    goes_on: Callable[[Trend, int], bool] = lambda so_far, of: True,
+) -> Trend:
+    """Numbers of many recordings of one machine, in the order in which they are given.
+
+    Parameters
+    ----------
+    recordings
+        one at least.
+    bearing
+        that was measured.
+    shaft_speed
+        [rad/s] of recordings that carry none.
+    direction
+        "x" or "y"; None: the last of the last recording.
+    band
+        [Hz] of the envelope; None: where the kurtogram of the last recording is highest.
+    baseline
+        number of the recording with which the others are compared.
+    goes_on
+        called with what there is so far and the number of all; False ends it there.
+
+    Raises
+    ------
+    ValueError
+        for no recording, a recording without the direction or a shaft speed, a baseline that is
+        none of them, a band that cannot be, and for rows of balls that are not alike.
+    """
+    if not recordings:
+        raise checks.refuse("recordings", "none", "one at least")
+    checks.whole_number("baseline", baseline, at_least=0, at_most=len(recordings) - 1)
+    along = recordings[-1].directions[-1] if direction is None else direction
+    for one in recordings:
+        checks.choice(f"direction of {one.name}", along, one.directions)
+    last = recordings[-1]
+    chosen = _impulsive(last, bearing, _speed(last, shaft_speed), along) if band is None else band
+    low = checks.number("lower end of the band", chosen[0], above=0.0, unit="Hz")
+    high = checks.number("upper end of the band", chosen[1], above=low, unit="Hz")
+    points: list[TrendPoint] = []
+    for one in recordings:
+        speed = _speed(one, shaft_speed)
+        points.append(trend_point(one, bearing, speed, along, (low, high)))
+        done = tuple(points)
+        so_far = Trend(done, along, (low, high), baseline if baseline < len(done) else 0)
+        if not goes_on(so_far, len(recordings)):
+            break
+    return so_far
+
+
+def trend_point(
+    recording: Recording,
+    bearing: Bearing,
+    shaft_speed: float,
+    direction: str,
+    band: tuple[float, float],
+) -> TrendPoint:
+    """Numbers of one recording; the arguments are those of `trend`, all of them given."""
+    column = recording.directions.index(direction)
+    seen = indicators(recording, shaft_speed)
+    answer = diagnose(recording, bearing, shaft_speed, slip=SLIP)
+    extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
+    lines, noise = _line_amplitudes(recording, bearing, shaft_speed, column, band)
+    return TrendPoint(
+        recording.name,
+        shaft_speed,
+        float(seen.rms[column]),
+        float(seen.peak[column]),
+        float(seen.crest_factor[column]),
+        float(seen.kurtosis[column]),
+        lines,
+        noise,
+        answer.fault,
+        answer.probability,
+        extent,
+    )
+
+
+def _time_in(name: str) -> datetime | None:
+    """Date and time in a name, if there is exactly one."""
+    found = _TIME.findall(name)
+    if len(found) != 1:
+        return None
+    digits = "".join(part for part in found[0] if part.isdigit())
+    try:
+        return datetime.strptime(digits, "%Y%m%d%H%M%S")
+    except ValueError:
+        return None
+
+
+def _speed(recording: Recording, shaft_speed: float | None) -> float:
+    """Shaft speed [rad/s] of a recording."""
+    own = recording.shaft_speed if recording.shaft_speed is not None else shaft_speed
+    if own is None:
+        raise checks.refuse("shaft_speed", None, f"one, as {recording.name!r} carries none")
+    return checks.number("shaft_speed", own, above=0.0, unit="rad/s")
+
+
+def _impulsive(
+    recording: Recording, bearing: Bearing, shaft_speed: float, direction: str
+) -> tuple[float, float]:
+    """The band [Hz] where the kurtogram of a recording is highest."""
+    signal = recording.acceleration[:, recording.directions.index(direction)]
+    highest = HIGHEST_SHARE * recording.sample_rate
+    lowest = min(FIRST_BAND * bearing.bpfo(shaft_speed), 0.25 * highest)
+    narrowest = NARROWEST * shaft_speed / (2.0 * math.pi)
+    low, high = kurtogram(signal, recording.sample_rate, narrowest).best(lowest)
+    return low, min(high, highest)
+
+
+def _line_amplitudes(
+    recording: Recording,
+    bearing: Bearing,
+    shaft_speed: float,
+    column: int,
+    band: tuple[float, float],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²]."""
+    from scipy.special import gammaincinv  # imported late: see `spectrum`
+
+    turn = shaft_speed / (2.0 * math.pi)
+    orders = [*(line.order for line in part_lines(bearing)), bearing.ftf(2.0 * math.pi)]
+    unknown = np.full(len(LINES), math.nan)
+    if band[1] > HIGHEST_SHARE * recording.sample_rate:
+        return unknown, unknown
+    step = max(1.0 / recording.duration, turn / LINES_A_TURN)
+    signal = recording.acceleration[:, column]
+    frequency, density = envelope_spectrum(signal, recording.sample_rate, band, step)
+    step = float(frequency[1] - frequency[0])
+    averages = max(1, math.floor(recording.duration * step))
+    around = max(round(SURROUNDINGS * turn / step), FEWEST_AROUND) | 1
+    if len(frequency) < around:
+        return unknown, unknown
+    background = local_median(density, around) / float(gammaincinv(averages, 0.5))
+    lines, noise = unknown.copy(), unknown.copy()
+    for k, order in enumerate(orders):
+        middle, reach = order * turn / step, order * turn * SLIP / step + 1.0
+        first, last = math.floor(middle - reach), math.ceil(middle + reach) + 1
+        if middle < LOWEST_LINE or last > len(density):
+            continue
+        limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
+        power = density[first:last].max(), limit * background[first:last].max()
+        lines[k], noise[k] = np.sqrt(2.0 * HANN_WIDTH * step * np.array(power))
+    return lines, noise

@@ -280,8 +280,7 @@ def simulate(
     """
     duration = checks.number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    if scene.shaft_speed == 0.0:
-        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a simulated motion")
+    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     packing.body_numbers(scene, dofs)  # refuses a support that lacks a number
     highest = highest_natural_frequency(scene)

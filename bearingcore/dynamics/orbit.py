@@ -235,8 +235,7 @@ def orbit(
     ValueError
         for a shaft that stands still or a support that lacks a number.
     """
-    if scene.shaft_speed == 0.0:
-        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for an orbit")
+    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     shortest = common_ball_passes(scene)
     if ball_passes is None:

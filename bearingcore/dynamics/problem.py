@@ -93,8 +93,9 @@ def motion_problem(
     Raises
     ------
     ValueError
-        where there is no static state to start from.
+        for a shaft that stands still, or where there is no static state to start from.
     """
+    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     rest = static_start(scene, dofs)
     if rest is None:

@@ -13,7 +13,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from bearingcore.common import checks
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import LOSSES, orbit
@@ -88,8 +87,6 @@ def models_experiment(
     ValueError
         for a shaft that stands still or a scene without a static state.
     """
-    if scene.shaft_speed == 0.0:
-        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
     runner = _Models(scene, duration, sample_rate, watch)
     experiment = Experiment(
         "models",

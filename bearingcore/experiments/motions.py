@@ -118,8 +118,6 @@ def motion_experiment(
     """
     duration = checks.number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    if scene.shaft_speed == 0.0:
-        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
     names = usable_methods() if methods is None else tuple(methods)
     for name in names:
         checks.choice("method", name, tuple(METHODS))

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import checks
 from bearingcore.common.progress import in_turn
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.modes import (
@@ -205,8 +204,6 @@ def stability_chart(
     ValueError
         for a shaft that stands still or a scene without a static state.
     """
-    if scene.shaft_speed == 0.0:
-        raise checks.refuse("shaft_speed", 0.0, "above 0 rad/s for a motion")
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
     usual = default_step_rate(scene, 65536.0, highest)

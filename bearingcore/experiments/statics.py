@@ -123,11 +123,14 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), one.reach * s, -one.reach * c], axis=-1)
     radial = np.einsum("mjd,md->mj", R, q) - one.clearance  # Equation (11)
     axial = np.einsum("mjd,md->mj", Z, q) + one.offset  # Equation (12)
-    along = A0 + radial * ca + axial * sa - d
+    longer = radial * ca + axial * sa - d
+    along = A0 + longer
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
     A = np.sqrt(guarded**2 + across**2)  # Equation (7)
-    delta = np.maximum(A - A0, 0.0)
+    # A - A0 without the difference: lines of centres of rollers are a million compressions long
+    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / (A + A0), A - A0)
+    delta = np.maximum(apart, 0.0)
     length = np.maximum(A, 1e-300)
     eu, ew = guarded / length, across / length
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
@@ -157,7 +160,7 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
     angles whose unbalanced load is below 1e-15 of the load: the energy is convex, so that this
     bounds the error by as much over the least stiffness.
     """
-    active, load = problem.active, problem.load or 1.0
+    active = problem.active
     precise = np.where(np.isfinite(q), q, 0.0).astype(np.longdouble)
     force = problem.force.astype(np.longdouble)
     for _ in range(steps):
@@ -166,9 +169,15 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
         stiffness = state.stiffness[:, active][:, :, active].astype(float)
         back = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
         precise[:, active] -= np.einsum("mij,mj->mi", back, unbalanced)
-    unbalanced = (contacts(problem, precise).force - force)[:, active].astype(float)
-    residual = np.linalg.norm(unbalanced, axis=1) / load
-    return Found(precise, np.isfinite(q).all(axis=1) & (residual <= 1e-15), steps * len(q))
+    exact = np.isfinite(q).all(axis=1) & (residuals(problem, precise) <= 1e-15)
+    return Found(precise, exact, steps * len(q))
+
+
+def residuals(problem: StaticProblem, q: Any) -> Array:
+    """Unbalanced load (m,) at displacements (m, 5) [m] of any precision, over the load."""
+    unbalanced = (contacts(problem, q).force - problem.force)[:, problem.active].astype(float)
+    sizes: Array = np.linalg.norm(unbalanced, axis=1)
+    return sizes / (problem.load or 1.0)
 
 
 class _OneByOne:
@@ -321,6 +330,8 @@ def static_reference(problem: StaticProblem) -> StaticReference:
         lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
     )
     other = _by_scipy(problem, 1e-12, "hybr", warm=False)
+    # it calls answers solved that are none
+    other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
     alone = int((exact.solved & ~other.solved).sum())
     if alone:
         near = _by_scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
@@ -385,6 +396,11 @@ def statics_experiment(
         names out of SOLVERS; None takes all.
     watch
         progress, points as they come, and cancelling.
+
+    Raises
+    ------
+    ValueError
+        for unknown solvers, or a scene without a static state.
     """
     names = tuple(SOLVERS) if solvers is None else tuple(solvers)
     for name in names:
@@ -399,6 +415,7 @@ def statics_experiment(
     for k, (case, problem) in enumerate(problems.items()):
         report(k / len(problems))
         truths[case] = static_reference(problem)
+    _refuse_without(truths[""].known, scene)
     for name in names:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
             SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
@@ -428,6 +445,12 @@ def statics_experiment(
         watch,
         begin=0.1,
     )
+
+
+def _refuse_without(known: NDArray[np.bool_], scene: Scene) -> None:
+    """Raise ValueError where no cage angle has an equilibrium."""
+    if not known.any():
+        raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
 
 
 CASES = ("all balls just touching", "a ball at an edge", "clearance closed")
@@ -497,6 +520,11 @@ def angles_experiment(
         same curves.
     watch
         progress, points as they come, and cancelling.
+
+    Raises
+    ------
+    ValueError
+        for unknown curves, or a scene without a static state.
     """
     checks.choice("curves", curves, CURVES)
     watch.within(0.0, 0.2)(0.0)
@@ -554,10 +582,11 @@ class _DenseTruth:
         began = default_cage_angles(scene, 1001)
         self.angles = np.union1d(np.linspace(first, last, 16001), path_kinks(scene, first, last))
         self.values = curves_of(equilibrium(scene, self.angles), curves)
+        known = np.asarray(np.isfinite(self.values).all(axis=1))
+        _refuse_without(known, scene)
         self.scale = swings(self.values)
         self.size = np.nanmax(np.abs(self.values), axis=0)
         self.size = np.maximum(self.size, self.scale)
-        known = np.isfinite(self.values).all(axis=1)
         self.complete = bool(known.all())
         self.mean = trapezoid(self.values, self.angles, axis=0) / (last - first)
         # midpoints of equal intervals, never at an edge: another rule, other angles

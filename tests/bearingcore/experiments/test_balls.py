@@ -57,5 +57,5 @@ def test_what_has_no_heavy_balls_is_refused_in_words() -> None:
         balls_experiment(presets["30206-back-to-back"])
     with pytest.raises(ValueError, match="x or y among them"):
         balls_experiment(presets["liew-lim"].replace(dofs=("z",)))
-    with pytest.raises(ValueError, match="above 0 rad/s"):
+    with pytest.raises(ValueError, match="above 0"):
         balls_experiment(FAN_RIG.replace(shaft_speed=0.0))

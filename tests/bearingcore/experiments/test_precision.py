@@ -26,7 +26,12 @@ from bearingcore.experiments.integrators import HAS_CVODE, METHODS
 from bearingcore.experiments.points import Experiment
 from bearingcore.experiments.references import motion_reference
 from bearingcore.experiments.stability import DIVERGED, amplification
-from bearingcore.experiments.statics import contacts, static_problem
+from bearingcore.experiments.statics import (
+    contacts,
+    hard_cases,
+    static_problem,
+    static_reference,
+)
 from bearingcore.statics.equilibrium import default_cage_angles
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -172,6 +177,18 @@ def test_statics() -> None:
     assert any(p.failed for p in touching.points)
 
 
+@pytest.mark.parametrize("preset", ["30206-back-to-back", "1208"])
+def test_statics_have_trusted_references(preset: str) -> None:
+    """Rollers, whose lines of centres are long, and a balance that MINPACK takes for solved."""
+    scene = presets[preset]
+    for problem in (static_problem(scene, default_cage_angles(scene, 7)),
+                    hard_cases(scene)["all balls just touching"]):  # fmt: skip
+        found = static_reference(problem)
+        assert found.known.all()
+        assert found.reference.trusted
+        assert found.reference.agreement["stiffness"] < 1e-7
+
+
 def test_angles() -> None:
     experiment = angles_experiment(FAN_RIG)
     check_that_all_is_given(experiment)
@@ -250,3 +267,6 @@ def test_refusals() -> None:
         motion_experiment(FAN_RIG.replace(shaft_speed=0.0))
     with pytest.raises(ValueError, match="static state"):
         motion_problem(FAN_RIG.replace(fy=0.0))
+    for experiment in (angles_experiment, statics_experiment):
+        with pytest.raises(ValueError, match="static state"):
+            experiment(FAN_RIG.replace(fy=0.0))

@@ -63,6 +63,18 @@ function write_note(note, sentence, bad = false) {
   note.classList.toggle("bad", bad)
 }
 
+// The most quotation marks of a text that is sent: a server takes 20,000.
+const MOST_QUOTES = 15_000
+
+// Why a text cannot be sent, or nothing: written as JSON it has to fit into a message, and a server
+// closes the connection of whoever sends it more.
+function unfit(text, largest) {
+  if (/[\0\ufffd]/.test(text)) return "is no text file"
+  if (text.split('"').length > MOST_QUOTES || JSON.stringify(text).length > 1.5 * largest)
+    return "holds more than a file for this place does"
+  return ""
+}
+
 // Reads the text file that is chosen in `input` and sends its name and text.
 function sends_text(input, largest, say, send) {
   input.addEventListener("change", async () => {
@@ -71,7 +83,10 @@ function sends_text(input, largest, say, send) {
     if (chosen.size > largest) say(`${chosen.name} is larger than ${largest / 1e6} MB.`, true)
     else {
       say(`Reading ${chosen.name} …`)
-      send({ name: chosen.name, text: await chosen.text() })
+      const text = await chosen.text()
+      const why = unfit(text, largest)
+      if (why) say(`${chosen.name} ${why}. Nothing has changed.`, true)
+      else send({ name: chosen.name, text })
     }
     input.value = ""  // so that the same file can be chosen again
   })

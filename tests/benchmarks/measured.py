@@ -3,6 +3,7 @@
     python -m tests.benchmarks.measured DIR [--sizes] [--by-hand]
     python -m tests.benchmarks.measured DIR --extents
     python -m tests.benchmarks.measured DIR --scoreboard
+    python -m tests.benchmarks.measured DIR --other-bearings
 
 DIR holds records and perhaps a table of what is true of them (see `measured_records`). For each
 record and in sum: right, cannot tell, wrong. A conclusive answer that is wrong makes the command
@@ -11,6 +12,8 @@ told that the outer race is damaged.
 --extents measures spalls from entry to exit, the race being known, and nothing else; an interval
 that the truth is not in makes it fail. --scoreboard writes every answer, with what came of it, into
 the file that the page and the documents take their numbers from (see `scoreboard`).
+--other-bearings judges each record with bearings that are not the machine's; a wrong part that is
+named with 90 % or more makes it fail.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bearingcore import (
+    Bearing,
     Load,
     Scene,
     Sizing,
@@ -34,7 +38,8 @@ from bearingcore import (
     presets,
     size_defect,
 )
-from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
+from bearingcore.diagnosis.part.evidence import LIKELY
+from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS, part_lines
 from bearingcore.diagnosis.size.answer import AT_MOST
 from tests.benchmarks.machine import pace
 from tests.benchmarks.measured_records import HEALTHY, UNKNOWN, Record, records
@@ -57,6 +62,10 @@ SUPPORTS = tuple(
 
 LOADS = (100.0, 400.0)
 """[N]"""
+
+
+OTHERS = ("fan-rig", "liew-lim", "6203", "6205", "seven-ball", "3208")
+"""Presets with which records of other machines are judged."""
 
 
 class Sized(NamedTuple):
@@ -154,6 +163,37 @@ def _sum_up(counts: Counter[tuple[str, str]]) -> int:
     return wrong
 
 
+def _other_bearings(found: list[Record]) -> int:
+    """Parts named with bearings that are not the machine's; how many are surely wrong."""
+    wrong = 0
+    print(f"{'bearing':<12}{'judged':>8}{'named':>8}{'>= 90 %':>9}{'of these wrong':>16}")
+    for name in OTHERS:
+        counts: Counter[str] = Counter()
+        bearing = presets[name].bearing
+        for record in found:
+            if _has_lines_of(bearing, record.bearing):
+                continue
+            answer = diagnose(record.recording, bearing, record.shaft_speed)
+            sure = answer.names_a_part and answer.probability >= LIKELY
+            counts["judged"] += 1
+            counts["named"] += answer.names_a_part
+            counts["sure"] += sure
+            counts["wrong"] += sure and verdict(record, answer) == WRONG
+            if sure:
+                print(f"    {record.name[-40:]:<40} {record.truth:<11} {answer.sentence}")
+        print(
+            f"{name:<12}{counts['judged']:8d}{counts['named']:8d}{counts['sure']:9d}"
+            f"{counts['wrong']:16d}"
+        )
+        wrong += counts["wrong"]
+    return wrong
+
+
+def _has_lines_of(bearing: Bearing, other: Bearing) -> bool:
+    pairs = zip(part_lines(bearing), part_lines(other), strict=True)
+    return all(abs(one.order / two.order - 1.0) < 0.01 for one, two in pairs)
+
+
 def _extents(found: list[Record]) -> int:
     """Extents from entry to exit held against the truth; how many are wrong."""
     counts: Counter[str] = Counter()
@@ -190,6 +230,7 @@ def main() -> int:
     parser.add_argument("--sizes", action="store_true")
     parser.add_argument("--by-hand", action="store_true", help="size as if the outer race were")
     parser.add_argument("--scoreboard", action="store_true", help="write assets/scoreboard.json")
+    parser.add_argument("--other-bearings", action="store_true", help="not the machine's own")
     parser.add_argument("--extents", action="store_true", help="from entry to exit")
     chosen = parser.parse_args()
     found = list(records(chosen.folder))
@@ -198,6 +239,8 @@ def main() -> int:
         return 2
     if chosen.scoreboard:
         return write(found)
+    if chosen.other_bearings:
+        return 1 if _other_bearings(found) else 0
     if chosen.extents:
         return 1 if _extents(found) else 0
     wrong = _sum_up(_diagnosed(found))

@@ -131,30 +131,37 @@ class ListQuestion(Question):
     """A recording that its bearing does not explain, and listed bearings that may."""
 
     bearings: Mapping[str, Bearing] = field(default_factory=dict, compare=False)
-    progress: Progress | None = field(default=None, compare=False)
+    progress: Progress = field(default_factory=lambda: Progress(), compare=False)
 
 
-@dataclass
 class Progress:
-    """Progress of a search, and whether it is to end. `done` and `of` are written by its thread."""
+    """Progress of a search, and whether it is to end. `goes_on` is called by its thread.
 
-    done: int = 0
-    of: int = 0
-    cancelled: bool = False
+    Parameters
+    ----------
+    changed
+        called in that thread after each step.
+    """
+
+    def __init__(self, changed: Callable[[], object] = lambda: None) -> None:
+        self.done = self.of = 0
+        self.cancelled = False
+        self._changed = changed
 
     def goes_on(self, done: int, of: int) -> bool:
         """Note how far it is; False once it is to end."""
-        self.done, self.of = done, of
+        if not self.cancelled:
+            self.done, self.of = done, of
+            self._changed()
         return not self.cancelled
 
 
 def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
     """Listed bearings that explain the signal, or a sentence. For any thread."""
-    progress = question.progress or Progress()
     return _or_why_not(
         lambda: explaining_bearings(
             question.measured.recording, question.bearings, question.shaft_speed, slip=SLIP,
-            goes_on=progress.goes_on,
+            goes_on=question.progress.goes_on,
         )
     )  # fmt: skip
 

@@ -232,10 +232,15 @@ class Measurement:
         return found if isinstance(found, MeasuredExtent) else None
 
     def listed_question(self, about: Question) -> ListQuestion:
-        """The question which of the presets and listed bearings explain a recording."""
+        """The question which of the listed bearings explain a recording."""
         named = {one.name: one.bearing for one, _ in self._editor.listed.all()}
+        try:
+            loop = asyncio.get_running_loop()
+            progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
+        except RuntimeError:  # a view is drawn outside of a session
+            progress = Progress()
         return ListQuestion(
-            about.measured, about.bearing, about.speed, about.geometry, named, Progress()
+            about.measured, about.bearing, about.speed, about.geometry, named, progress
         )
 
     def redraw(self) -> None:

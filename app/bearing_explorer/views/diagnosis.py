@@ -9,7 +9,13 @@ import numpy as np
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.diagnoses import BUSY, SPEEDS, Question, answered
+from bearing_explorer.measurement.diagnoses import (
+    BUSY,
+    SPEEDS,
+    ListQuestion,
+    Question,
+    answered,
+)
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
@@ -60,8 +66,12 @@ MOST_LISTED = 4
 """Listed bearings that are named."""
 
 MEASURING = "its length is being measured"
-LOOKING = "Looking for listed bearings that explain these lines …"
-FOUND_IN_LIST = "This bearing does not explain the signal. Listed bearings that do:"
+LOOKING = "Looking for listed bearings that explain these lines: {done} of {of} …"
+CANCELLED = "The search was cancelled after {done} of {of} listed bearings. "
+FOUND_IN_LIST = (
+    "This bearing does not explain the signal. Listed bearings that do, the strongest lines first; "
+    "others may have the same lines, so read the number on the bearing:"
+)
 NONE_IN_LIST = "No listed bearing explains it either."
 
 
@@ -90,7 +100,7 @@ class PartDiagnosis(MeasuredView):
         self._show_look()
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._seen = pn.Column(self.lines.plot, self.evidence, visible=False, **wide)
-        self.candidates = ListedBearings(self._take_listed)
+        self.candidates = ListedBearings(self._take_listed, self._end_search)
         self.hidden = pn.Column(
             self.part, self.candidates, self.panel_of_look, self._seen, visible=False, **wide
         )
@@ -184,21 +194,31 @@ class PartDiagnosis(MeasuredView):
 
     def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""
-        listed = None if self.measurement is None else self.measurement.listed
-        if listed is None or found is None or found.status not in UNEXPLAINED:
-            self.candidates.show("", [])
+        if self.measurement is None or found is None or found.status not in UNEXPLAINED:
+            self.candidates.show("")
             return
-        answer = listed.latest(about)
+        listed = self.measurement.listed
+        answer, wanted = listed.latest(about), listed.wanted
+        if not isinstance(wanted, ListQuestion) or not wanted.is_like(about):
+            wanted = self.measurement.listed_question(about)
+            if answer is None:
+                listed.want(wanted)
+        progress = wanted.progress
+        counted = {"done": progress.done, "of": progress.of or len(wanted.bearings)}
         if answer is None:
-            if listed.wanted is None or not listed.wanted.is_like(about):
-                assert self.measurement is not None
-                listed.want(self.measurement.listed_question(about))
-            self.candidates.show(LOOKING, [])
+            self.candidates.show(LOOKING.format(**counted), searching=not progress.cancelled)
         elif isinstance(answer, str):
-            self.candidates.show(answer, [])
+            self.candidates.show(answer)
         else:
             rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
-            self.candidates.show(FOUND_IN_LIST if rows else NONE_IN_LIST, rows)
+            before = CANCELLED.format(**counted) if progress.cancelled else ""
+            after = "" if progress.cancelled and not rows else NONE_IN_LIST
+            self.candidates.show(before + (FOUND_IN_LIST if rows else after), rows)
+
+    def _end_search(self) -> None:
+        wanted = None if self.measurement is None else self.measurement.listed.wanted
+        if isinstance(wanted, ListQuestion):
+            wanted.progress.cancelled = True
 
     def _take_listed(self, name: str) -> None:
         if self.measurement is not None:

@@ -56,31 +56,39 @@ class ListedBearings(pn.Column):
     ----------
     take
         called with the name of the one that is chosen.
+    cancel
+        called to end the search.
     """
 
-    def __init__(self, take: Callable[[str], None]) -> None:
-        self._take = take
+    def __init__(self, take: Callable[[str], None], cancel: Callable[[], None]) -> None:
+        self._take, self._cancel = take, cancel
         self._shown: object = None
         super().__init__(visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
 
-    def show(self, words: str, bearings: Sequence[tuple[str, str]]) -> None:
+    def show(
+        self, words: str, bearings: Sequence[tuple[str, str]] = (), searching: bool = False
+    ) -> None:
         """Show a sentence, and bearings with how well each explains the signal."""
-        if self._shown == (words, list(bearings)):
+        if self._shown == (words, list(bearings), searching):
             return
-        self._shown = (words, list(bearings))
+        self._shown = (words, list(bearings), searching)
         self.visible = bool(words)
-        style = [asset_text("part.css")]
-        head = pn.pane.HTML(f"<p>{html.escape(words)}</p>", stylesheets=style, margin=0)
+        head = _words(f'<p role="status">{html.escape(words)}</p>')
         self[:] = [
-            head,
+            row(head, *([button("Cancel the search", self._cancel)] if searching else [])),
             *(
                 row(
                     button(f"Take {name}", partial(self._take, name)),
-                    pn.pane.HTML(f"<p>{html.escape(why)}</p>", stylesheets=style, margin=0),
+                    _words(f"<p>{html.escape(why)}</p>"),
                 )
                 for name, why in bearings
             ),
         ]
+
+
+def _words(content: str) -> pn.pane.HTML:
+    style = {"flex": "1 1 300px", "align-self": "center"}
+    return pn.pane.HTML(content, stylesheets=[asset_text("part.css")], margin=0, styles=style)
 
 
 def part_html(state: Mapping[str, Any]) -> str:

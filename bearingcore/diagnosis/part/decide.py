@@ -104,6 +104,9 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     ball = next(one for one in judged.evidence if one.part == BALL)
     if ball.deviations >= FAINT:
         return DiagnosisStatus.FAINT, say.faint(ball)
+    sharp = ball.level - ball.noise >= NOISE_MARGIN and ball.swing >= LEAST_SWING
+    if sharp and ball.level > own.level:
+        return DiagnosisStatus.NOT_ALONE, say.not_carried(ball)
     if len(clear) > 1:
         return DiagnosisStatus.ALIKE, say.alike(*clear)
     if clear:

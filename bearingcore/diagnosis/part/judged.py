@@ -62,6 +62,10 @@ SLOWER, FAINTER = (2, 3), 0.7
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
 
+CARRIED_REACH = 15.0
+"""[dB] below a ball's lines down to which the sidebands of the cage are expected: a load zone of
+half a turn makes the first three of each side 5 to 8 dB fainter than the line, on average."""
+
 MOST_BANDS = 12
 """Bands of a resolution, the loudest at a part's line, in which its lead is looked for."""
 
@@ -145,12 +149,19 @@ def compare(
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, given or shaft) for combs in resolutions]
-    turning = spin(resolutions[0], parts)
+    finest, turning = compared[-1], spin(resolutions[0], parts)
     evidence = []
     for lines in parts:
         around = turning.frequency if lines.part == BALL else None
         best = max((one.clearest(lines, around) for one in compared), key=_speaking)
-        evidence.append(replace(best, deviations=turning.of(lines.part)))
+        deviations = turning.of(lines.part)
+        if lines.part == BALL:
+            best = replace(best, lead=min(best.lead, finest.carried(best.frequency)))
+            if finest.carried(turning.frequency) < 0.0:
+                deviations = min(deviations, 0.0)
+        else:
+            best = replace(best, lead=min(best.lead, finest.above_source(best.frequency)))
+        evidence.append(replace(best, deviations=deviations))
     other, above, swing = max(
         (one.others(evidence) for one in compared), key=lambda found: found[1]
     )
@@ -317,6 +328,59 @@ class _Comparison:
         if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
         return above
+
+    def carried(self, around: float) -> float:
+        """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.
+
+        The cage carries a ball through the load zone: its sidebands are above those of the shaft,
+        which the inner race of another bearing has, and not far below the lines themselves.
+        Infinity where no lines are clear: those of a ball that slips are broad, and long segments
+        show nothing of them or their sidebands.
+        """
+        combs = self.combs
+        place, column = self._loudest(around)
+        one, frequency = combs.envelopes[place], float(combs.frequency[column])
+        level = float(combs.level[place, column])
+        if level - combs.noise < NOISE_MARGIN:
+            return math.inf
+        seen = np.where(one.hidden, np.nan, one.cleared)
+
+        def mean(spacing: float) -> float:
+            sides = np.array([
+                _lines(one, seen, frequency, order * spacing)[: HARMONICS // 2]
+                for order in (-3, -2, -1, 1, 2, 3)
+            ])  # fmt: skip
+            return float(np.nanmean(sides)) if np.isfinite(sides).any() else math.nan
+
+        shaft, cage = mean(combs.shaft), mean(self.cage)
+        if math.isnan(shaft + cage):  # lines of the shaft hide them
+            return -math.inf
+        return min(cage - shaft, cage - level + CARRIED_REACH)
+
+    def above_source(self, frequency: float) -> float:
+        """By how much [dB] lines of a race are too loud for sidebands of others.
+
+        In whatever band shows them best, lines that are whole turns of the shaft away are at most a
+        little louder; where they are more, they are the race of another bearing, with its sidebands
+        where this one has its lines.
+        """
+        combs = self.combs
+        sources = near(combs, (abs(frequency + k * combs.shaft) for k in (-3, -2, -1, 1, 2, 3)))
+        sources &= ~near(combs, (frequency * factor for factor in (0.5, 1.0, 1.5, 2.0, 3.0)))
+        if not sources.any():
+            return math.inf
+        own = float(combs.level[self._loudest(frequency)])
+        return own - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
+
+    def _loudest(self, around: float) -> tuple[int, int]:
+        """Band and column of the loudest comb around a frequency [Hz]."""
+        level = np.where(
+            np.abs(self.combs.frequency - around) <= self.combs.shaft / TURNS[0],
+            self.combs.level,
+            -np.inf,
+        )
+        place, column = np.unravel_index(int(level.argmax()), level.shape)
+        return int(place), int(column)
 
     def _evidence(
         self, lines: PartLines, one: Listened, frequency: float, others: float

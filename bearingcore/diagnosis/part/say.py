@@ -95,6 +95,16 @@ def not_alone(own: PartEvidence, other: OtherLines) -> str:
     )
 
 
+def not_carried(own: PartEvidence) -> str:
+    """Lines at a ball's frequency that are none of a ball."""
+    return (
+        f"Lines repeat {number(own.order, 4)} times a turn ({decibels(own.level)} above what "
+        "surrounds them), as those of a damaged ball would, but stand out too little, or without "
+        "the sidebands of the cage that carries a ball through the load. Another bearing may have "
+        "them as those of a race. Check the bearing's geometry and speed."
+    )
+
+
 def unexplained(other: OtherLines) -> str:
     """Something else knocks."""
     return (

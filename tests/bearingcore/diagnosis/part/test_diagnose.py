@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.signal import fftconvolve
 
-from bearingcore import Recording, diagnose
+from bearingcore import Recording, diagnose, presets
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
+from bearingcore.diagnosis.part.listed import explaining_bearings
 from bearingcore.diagnosis.part.parts import PARTS, part_lines
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.bearingcore.diagnosis.signals_made import (
@@ -101,12 +102,44 @@ def test_a_ball_that_slips_and_wanders_is_named_by_its_broad_lines():
     machine = dataclasses.replace(MOTOR, duration=8.0)
     times = knock_times(0.96 * machine.lines["ball"], machine.duration, rng, 0.012, 0.02)
     train = np.zeros(int(machine.duration * machine.rate) + 1)
-    np.add.at(train, (times * machine.rate).astype(int), rng.uniform(0.3, 1.0, len(times)))
+    carried = np.cos(0.5 * machine.cage * TURN * times) ** 2  # through the load and out of it
+    hits = carried * rng.uniform(0.3, 1.0, len(times))
+    np.add.at(train, (times * machine.rate).astype(int), hits)
     ringing = fftconvolve(train, resonances(machine.rate, rng))[: len(train) - 1]
     found = answer(ringing / ringing.std() + rng.standard_normal(len(ringing)), machine)
     assert found.fault == "ball"
     assert found.of("ball").slip == pytest.approx(-0.04, abs=0.012)
     assert found.of("ball").lead < 2.0 < 10.0 < found.of("ball").deviations
+
+
+@pytest.mark.parametrize(
+    ("part", "preset"), [("inner race", "fan-rig"), ("outer race", "seven-ball")]
+)
+def test_a_race_is_no_ball_of_a_bearing_whose_ball_lines_are_there(damaged, part, preset):
+    """2 BSF of the other bearing is where the race has its line; no cage carries what makes it."""
+    bearing = presets[preset].bearing
+    assert part_lines(bearing)[2].order == pytest.approx(MOTOR.lines[part] / MOTOR.turns, rel=0.025)
+    found = diagnose(Recording(damaged[part], MOTOR.rate, ("y",)), bearing, MOTOR.shaft_speed)
+    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.NOT_ALONE)
+    assert found.of("ball").level > found.of("ball").noise + 2.0
+    assert "Check the bearing's geometry" in found.sentence
+
+
+def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_first(damaged):
+    recording = Recording(damaged["inner race"], MOTOR.rate, ("y",))
+    names = ("fan-rig", "6205", "6206", "liew-lim", "6203")
+    listed = {name: presets[name].bearing for name in names}
+    found = explaining_bearings(recording, listed, MOTOR.shaft_speed)
+    assert {one.name for one in found} == {"6205", "6206"}
+    assert all(one.diagnosis.fault == "inner race" for one in found)
+    assert abs(found[0].slip) < 0.02
+    assert found[0].level > 5.0
+    asked = []
+    assert explaining_bearings(
+        recording, listed, MOTOR.shaft_speed,
+        goes_on=lambda done, of: bool(asked.append((done, of))),
+    ) == ()  # fmt: skip
+    assert asked == [(0, len(listed))]
 
 
 def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_them():

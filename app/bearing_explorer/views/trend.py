@@ -105,11 +105,11 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
     name = "trend"
     title = "Trend of several files"
     about = (
-        "Files of one machine in their order: choose several, or a folder, in step 1. Dashed: the "
-        "baseline. Bars: intervals of 95 %, without a dot an upper bound. The last file is the one "
-        "that the rest of this tab shows. Lines of the parts are drawn where they are more than "
-        "noise, all in the band of the last file; one there need not be the bearing's. An extent "
-        "is there where a damaged race is named."
+        "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
+        "order. Dashed: the baseline. Bars: intervals of 95 %, without a dot an upper bound. The "
+        "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
+        "they are more than noise, all in the band of the last file; one there need not be the "
+        "bearing's. An extent is there where a damaged race is named."
     )
     needs = frozenset()
     without_size = True

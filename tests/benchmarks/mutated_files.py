@@ -39,7 +39,8 @@ LONGEST_TURN = 0.25
 PATIENCE = 90.0
 """[s] for an answer; reading itself gives up after 20."""
 SESSIONS = 2
-UNDER_WAY = ("is being uploaded.", "Reading ")
+UNDER_WAY, REFUSED = "words busy", "words bad"
+"""Classes of the form's sentence."""
 
 
 def hdf5_files() -> list[bytes]:
@@ -71,6 +72,7 @@ class Tally:
     """What came of the files."""
 
     answers: Counter[str] = field(default_factory=Counter)
+    refused: Counter[str] = field(default_factory=Counter)
     seconds: list[float] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
 
@@ -79,6 +81,7 @@ class Uploader(PageClient):
     """A session on the Diagnosis tab, whose form says what became of a file."""
 
     sentence = ""
+    name = ""
     wanted: dict[str, Any] | None = None
 
     def _event(self, event: dict[str, Any], buffers: dict[str, bytes]) -> None:
@@ -86,12 +89,13 @@ class Uploader(PageClient):
         if event["kind"] == "MessageSent" and "'of'" in str(event.get("msg_data")):
             self.wanted = event
         text = str(event.get("new")) if event.get("attr") == "text" else ""
-        if "words" in text and "role=" in text:  # the form's own sentence
+        # a refusal, or the line that a file which is taken folds to
+        if text and (REFUSED in text or self.name in text) and UNDER_WAY not in text:
             self.sentence = text
 
     async def upload(self, name: str, content: bytes) -> str:
         """Send a file; return the sentence about it, empty where none comes."""
-        self.sentence, self.wanted = "", None
+        self.sentence, self.name, self.wanted = "", name, None
         await self.say("FileUpload", {"type": "begin", "name": name, "size": len(content)})
         end = time.perf_counter() + PATIENCE
         sent = False
@@ -99,7 +103,7 @@ class Uploader(PageClient):
             if self.wanted is not None and not sent:
                 sent = True
                 await self.send_piece(content, number_of(self.wanted))
-            if self.sentence and not any(words in self.sentence for words in UNDER_WAY):
+            if self.sentence:
                 return self.sentence
             await self.news(1.0)
         return ""
@@ -146,6 +150,7 @@ async def send_all(client: Uploader, numbers: Sequence[int], seed: int, tally: T
         sentence = await client.upload(f"file {number}.{kind}", content)
         tally.seconds.append(time.perf_counter() - began)
         tally.answers[kind] += bool(sentence)
+        tally.refused[kind] += REFUSED in sentence
         wrong = "no answer" if not sentence else unclear(sentence[:600])
         if wrong:
             tally.faults.append(f"{kind} {number}: {wrong}: {sentence[:200]!r}")
@@ -207,7 +212,8 @@ def main() -> int:
     tally, turns, left, log = run(chosen.files, chosen.seed)
     median, most = np.quantile(tally.seconds, [0.5, 1.0])
     print(f"{chosen.files} files in {time.perf_counter() - began:.0f} s, seed {chosen.seed}")
-    print(f"answered: {dict(tally.answers)}; after {median:.2f} s (median), {most:.2f} s (longest)")
+    print(f"answered: {dict(tally.answers)}, of them refused: {dict(tally.refused)}")
+    print(f"after {median:.2f} s (median), {most:.2f} s (longest)")
     print(pace())
     for turn in turns[:3]:
         print(f"  {1e3 * turn['worked']:>6.0f} ms of work  {turn['where'][:150]}")

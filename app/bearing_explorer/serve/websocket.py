@@ -73,7 +73,9 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
     async def _take(self, message: Any) -> None:
         if message.msgtype == "PULL-DOC-REQ":
-            await self.send_message(await self.handler.handle(message, self.connection))
+            answer = await self.handler.handle(message, self.connection)
+            if answer is not None:  # newer versions of Bokeh have sent it
+                await self.send_message(answer)
             return
         events = message.content["events"]
         if message.msgtype != "PATCH-DOC" or len(events) > MOST_EVENTS:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import panel as pn
+from bokeh.core.properties import value
 from bokeh.models import (
     ColumnDataSource,
     CustomJS,
@@ -150,7 +151,7 @@ class WorkPrecision:
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
                   line_alpha=0.45)  # fmt: skip
         plot.multi_line("costs", "errors", source=self._slopes, line_color=style.FAINT_INK,
-                        line_dash=[2, 4])  # fmt: skip
+                        line_dash=value([2, 4]))  # fmt: skip
         plot.multi_line("costs", "errors", source=self._lines, line_color=colors,
                         line_alpha="alpha", line_width=1.2)  # fmt: skip
         points = plot.scatter("cost", "error", source=self._points, marker="marker", size="size",

@@ -349,7 +349,6 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
             comment="#",
             skipinitialspace=True,
             dtype=float,
-            float_precision="round_trip",
             encoding="latin-1",
             nrows=most_rows,
         )

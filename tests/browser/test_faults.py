@@ -40,6 +40,7 @@ pytestmark = pytest.mark.proof
 
 STOPPED = 20.0  # [s]
 LOST = "The connection to the server is lost. Reload the page to go on."
+SILENT = "The server does not answer. What you change is drawn as soon as it does."
 UNSENT = "not connected so cannot send"  # Bokeh, of what is moved when the line is cut
 
 CLOCK = """
@@ -190,12 +191,15 @@ def test_a_server_that_stands_still_for_20_seconds(watch: tuple[Page, Watch]) ->
         while time.monotonic() < end:
             next(moves)
             page.wait_for_timeout(100)
+        note = page.locator("#connection-note")
+        expect(note).to_have_text(SILENT)
         server.process.send_signal(signal.SIGCONT)
         page.mouse.up()
         rest(page)
         wait(page, lambda: shown_extent(page) == value(page, "extent_deg"))
-        expect(page.get_by_role("alert")).to_have_count(0)
+        expect(note).to_have_count(0)
         works(page)
+        expect(note).to_have_count(0)
         assert "Traceback" not in server.log
 
 

@@ -327,7 +327,6 @@ def damaged(name: str, seed: int) -> bytes:
     return bytes(content)
 
 
-@pytest.mark.filterwarnings("ignore:The 'float_precision' argument")
 @settings(max_examples=300, deadline=None)
 @given(st.sampled_from(["a.csv", "a.wav"]), st.integers(0, 2**32 - 1))
 def test_damaged_text_and_sound_is_read_or_refused(name, seed):

@@ -5,8 +5,6 @@ import pytest
 
 from bearingcore.files.text import read_text
 
-pytestmark = pytest.mark.filterwarnings("ignore:The 'float_precision' argument")
-
 
 def read(text: str | bytes):
     """Columns, headings, remarks, columns of times: in this process."""

@@ -7,7 +7,7 @@ of Eq. 18 along the loaded line of contact:
     N = K δ^1.5 + c δ̇ where δ > 0; "no tension": never below zero;
     δ̇ the whole time derivative: rings moving, ball turning with the cage, drop changing.
 
-    python tests/reference/make_general_motion_reference.py    # a minute
+    python -m tests.reference.make_general_motion_reference    # a minute
 
 Each body has the free directions out of x, y, z, rx, ry; the contacts act between them, the load
 on the inner ring, springs and dampers on the outer one. Contents, under `<case>/`:
@@ -29,11 +29,13 @@ from typing import Any
 
 import numba
 import numpy as np
-from event_march import apart, integrate
-from make_static_reference import DOFS, FAN_RIG, LIEW_LIM, double_solution, prepare
 from mpmath import mp
 from scipy.integrate import DOP853, LSODA
 from scipy.optimize import brentq
+
+from tests.reference.event_march import apart, integrate
+from tests.reference.make_static_reference import FAN_RIG, LIEW_LIM
+from tests.reference.statics import DOFS, prepare, start
 
 HERE = Path(__file__).parent
 MICRO, MILLI = 1e-6, 1e-3
@@ -362,7 +364,7 @@ class General:
         """Rest at the static state of cage angle 0."""
         with mp.workdps(20):
             ready = prepare({**self.case, "cage_angle": 0.0})
-            q = double_solution(ready, list(self.free), np.zeros(5))[self.free]
+            q = start(ready, list(self.free))[self.free]
         outer = (self.force / self.bodies[2])[self.free]
         y = np.concatenate([q + outer, outer]) * np.tile(self.levers, 2) / MICRO
         return np.concatenate([y, np.zeros_like(y)])

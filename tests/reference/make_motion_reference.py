@@ -3,7 +3,7 @@
 Writes `motion_reference.npz` beside this file. The equations (Petersen, Howard & Prime 2014,
 Eqs. 18 to 23, published contact law) are written out here and nothing of bearingcore is imported.
 
-    python tests/reference/make_motion_reference.py            # two minutes
+    python -m tests.reference.make_motion_reference            # two minutes
 
 A smaller step of the same method is no reference: where balls meet edges or touch and leave, the
 right-hand side kinks or jumps and the error of every step size is of the same kind. So
@@ -39,9 +39,10 @@ from typing import Any
 
 import numba
 import numpy as np
-from event_march import apart, integrate, spectrum_of
 from scipy.integrate import DOP853, LSODA
 from scipy.optimize import root
+
+from tests.reference.event_march import apart, integrate, spectrum_of
 
 HERE = Path(__file__).parent
 DURATION = 1.4

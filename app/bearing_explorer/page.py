@@ -57,6 +57,7 @@ from bearing_explorer.views.theme import dark_properties, themes
 from bearing_explorer.views.trend import TrendOfFiles
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.views.vibration_time import VibrationInTime
+from bearing_explorer.widgets.form import stack
 
 SECTIONS = (
     Section(
@@ -147,7 +148,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("page_script", scripts("element.js", "page.js"))
     template.add_panel("lesson", explorer.lesson)
     template.add_panel("tabs", explorer.tabs)
-    side = pn.Column(explorer.share, explorer.controls, sizing_mode="stretch_width", margin=0)
+    side = stack(explorer.share, explorer.controls)
     template.add_panel("controls", side)
     template.add_panel("main", explorer.main)
     template.add_panel("status", explorer.status)

@@ -34,6 +34,7 @@ from bearing_explorer.state.lessons import Fault, Lesson
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.widgets.form import stack
 from bearing_explorer.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.widgets.status import StatusLine, Tabs
 from bearingcore import Scene
@@ -113,10 +114,8 @@ class Explorer:
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.bookmarks.show(self._shown)  # links always say which tab is open
         self.requests.show_links()
-        self.status = StatusLine(
-            folded=True, sizing_mode="stretch_width", margin=0, css_classes=["one-line"]
-        )
-        self.limits = LimitsStrip(sizing_mode="stretch_width", margin=0)
+        self.status = StatusLine(folded=True, css_classes=["one-line"])
+        self.limits = LimitsStrip()
         self._on_screen = ""
         self.tabs = Tabs(
             self.show_tab,
@@ -273,11 +272,10 @@ class Explorer:
         """The layout with the views of a section."""
         for view in views:
             view.attach(self._parts)
-        return pn.Column(
+        return stack(
             *(view.panel for view in views),
             stylesheets=[asset_text("section.css")],
             sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
-            margin=0,
         )
 
     def _attach_tab(self, name: str) -> None:

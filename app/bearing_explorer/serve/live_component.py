@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import param
 from bokeh.document import Document
 from panel.custom import JSComponent
 from panel.models.esm import DataEvent
@@ -19,6 +20,9 @@ class LiveComponent(JSComponent):
     models then; and it compares, links and walks models at each change of a parameter. Here
     messages are simply handed on, and `put` writes to the browser's models.
     """
+
+    margin = param.Parameter(default=0)
+    sizing_mode = param.Selector(default="stretch_width")
 
     def put(self, **values: Any) -> None:
         """Give parameters new values. They show in the browser; before it is there they wait.

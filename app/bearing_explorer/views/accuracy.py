@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-import panel as pn
 from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
 from bokeh.plotting import figure
 
@@ -21,7 +20,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import WorkPrecision, paragraph, prose
-from bearing_explorer.widgets.form import Fields, FieldSpec, row, select
+from bearing_explorer.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
 from bearingcore.experiments.balls import ERRORS as BALL_ERRORS
@@ -90,9 +89,6 @@ def _grid(least: int) -> str:
     return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
 
 
-_WHOLE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-
-
 class Accuracy(JobView[Found]):
     """Error against cost, where steps are too long, and where the orbit is unstable."""
 
@@ -105,7 +101,6 @@ class Accuracy(JobView[Found]):
         "convergence that theory gives. Letters at the points: steps a second, tolerance, or "
         "number of cage angles."
     )
-    needs = frozenset()
     start = "Measure on this machine"
     bounds = (
         "Points come one by one. SciPy's DOP853, Radau and BDF are shown as shipped only: they "
@@ -133,10 +128,10 @@ class Accuracy(JobView[Found]):
             parts = [chart.panel for _, chart in made]
             sections += [
                 prose(f"<h3>{heading}</h3>"),
-                pn.Column(*parts, **_WHOLE, stylesheets=[_grid(400)]),
+                stack(*parts, stylesheets=[_grid(400)]),
             ]
         self._stability = Stability()
-        return pn.Column(
+        return [
             self.job,
             self._origin,
             row(self._cost.widgets["cost"]),
@@ -144,8 +139,7 @@ class Accuracy(JobView[Found]):
             prose("<h3>Stability</h3>"),
             self._stability.panel,
             self._foot,
-            **_WHOLE,
-        )
+        ]
 
     # The job
 
@@ -259,11 +253,10 @@ class Stability:
         self._steps, self._step_words = self._step_figure(), prose()
         self._speeds, self._circle = self._speed_figure(), self._circle_figure()
         self._orbit_words = prose()
-        self.panel = pn.Column(
-            pn.Column(self._steps, self._step_words, **_WHOLE),
-            pn.Column(self._speeds, self._orbit_words, **_WHOLE),
+        self.panel = stack(
+            stack(self._steps, self._step_words),
+            stack(self._speeds, self._orbit_words),
             self._circle,
-            **_WHOLE,
             stylesheets=[_grid(280)],
         )
 

@@ -9,9 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import panel as pn
 
-from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
@@ -21,7 +19,7 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import SessionParts
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import ALLOWED
-from bearing_explorer.widgets.form import Fields, button, choices, row, select
+from bearing_explorer.widgets.form import Fields, button, choices, pane, row, select
 from bearingcore.common.numbers import decibels, percent
 from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
 
@@ -43,18 +41,16 @@ class OtherModels(JobView[Alternatives]):
         "Other models against the scene's own, each computed. Errors of stiffness hold at 99 % "
         "of the cage angles; those of spectra up to 1.25 times the highest natural frequency."
     )
-    needs = frozenset[str]()
     start = "Compare simpler models"
     bounds = "A quarter of a second of motion in several models; it takes about a second."
 
     def build(self, packed: PackedSource) -> Any:
-        whole = {"sizing_mode": "stretch_width", "margin": 0}
-        self._table = pn.pane.HTML("", stylesheets=[asset_text("alternatives.css")], **whole)
+        self._table = pane("alternatives.css")
         self._models = Fields(lambda _: None)
         self._models.add("model", select("Model", [["", "none"]]))
         take = button("Take it", lambda: self._use(self._models.values["model"]))
         self._taking = row(self._models.widgets["model"], take, visible=False)
-        return pn.Column(self.job, self._table, self._taking, **whole)
+        return [self.job, self._table, self._taking]
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)

@@ -47,6 +47,7 @@ from bearing_explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
 from bearing_explorer.widgets.controls import Rows
+from bearing_explorer.widgets.form import stack
 from bearingcore import Scene
 from bearingcore.common.table import as_csv
 
@@ -136,7 +137,7 @@ class View:
     name: ClassVar[str]
     title: ClassVar[str]
     about: ClassVar[str] = ""
-    needs: ClassVar[frozenset[str]]
+    needs: ClassVar[frozenset[str]] = frozenset()
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
     #: whether its figures are drawings, in which circles are round
@@ -158,13 +159,12 @@ class View:
     def __init__(self, packed: PackedSource) -> None:
         self._results: Results | None = None
         self._has_drawn = False
-        self._sentence = Sentence(
-            sizing_mode="stretch_width", margin=0, css_classes=list(self.sentence_looks)
-        )
-        body = pn.panel(self.build(packed), margin=0)
+        self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        body = self.build(packed)
+        body = stack(*body) if isinstance(body, list) else pn.panel(body, margin=0)
         if isinstance(body, pn.pane.Bokeh) and not self.compact:
             # whether a figure's own pane is visible is taken back from the figure
-            body = pn.Column(body, sizing_mode="stretch_width", margin=0)
+            body = stack(body)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
@@ -182,29 +182,26 @@ class View:
             cells=[list(cell) for cell in self.cells],
             compact=self.compact,
             leads_to=self.leads_to,
-            sizing_mode="stretch_width",
-            margin=0,
         )
         self._caption.on_msg(self._answer)
         #: the names of compared scenes, a key a figure that draws them
         self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
             zoomable(plot, self.equal_aspect)
-        self.panel: pn.viewable.Viewable = pn.Column(
+        self.panel: pn.viewable.Viewable = stack(
             self._caption,
             body,
             self._sentence,
             css_classes=["view", f"view-{self.name}", *(["compact"] if self.compact else [])],
             stylesheets=[asset_text("view.css")],
             sizing_mode="stretch_both" if self.compact else "stretch_width",
-            margin=0,
         )
 
     def attach(self, parts: SessionParts) -> None:
         """Take parts of the session, once, before the view is first on screen."""
 
     def build(self, packed: PackedSource) -> Any:
-        """Make the figures, once; return a Panel object or a Bokeh layout."""
+        """Make the figures, once; return one of them, a layout, or a list of what is stacked."""
         raise NotImplementedError
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

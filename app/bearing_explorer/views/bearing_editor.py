@@ -21,7 +21,6 @@ from bearing_explorer.state.field_values import (
     in_shown_unit,
     number_of,
 )
-from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
@@ -68,7 +67,6 @@ class BearingEditor(ControlView):
         "Point at a field, or click in the picture. Its meaning is below the picture. Numbers take "
         "units: 5/16 in, 12 µm. All views follow what is changed here."
     )
-    needs = frozenset[str]()
     picture = True
 
     def build(self, packed: PackedSource) -> Any:
@@ -82,9 +80,6 @@ class BearingEditor(ControlView):
         spec = {**spec_of(BEARING_GROUPS, KIND, NUMBERS), "table": table}
         self.rows = BearingRows(self.forward, spec=spec)
         return self.rows
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         bearing = results.scene.bearing

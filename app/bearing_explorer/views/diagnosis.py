@@ -35,13 +35,11 @@ if TYPE_CHECKING:
 
 FIELDS: list[LookField] = [
     {
-        "kind": "one",
         "name": "speed",
         "label": "Shaft speed is",
         "options": [[name, words] for name, words in SPEEDS.items()],
     },
     {
-        "kind": "one",
         "name": "zoom",
         "label": "Zoom to",
         "options": [

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import panel as pn
 
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
@@ -43,7 +42,7 @@ from bearing_explorer.state.value_range import (
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.job_view import JobView, last_shown
 from bearing_explorer.views.still_figure import editor_of
-from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.form import FieldSpec, stack
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 
 REST = 0.2
@@ -82,7 +81,6 @@ class ExplorePlane(JobView[Plane]):
         "map to move the curves, click to go there; select values in the histogram to find them "
         "on it. Hatched: no answer. Ring: this scene."
     )
-    needs = frozenset()
     start = "Compute the map"
     at_once = True
     bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
@@ -95,10 +93,8 @@ class ExplorePlane(JobView[Plane]):
     def build(self, packed: PackedSource) -> Any:
         sides = [Side.of(field) for field in SWEEPABLE.values()]
         self._plane = PlaneFigures(packed, "explore", sides)
-        whole = {"sizing_mode": "stretch_width", "margin": 0}
-        style = {"stylesheets": [SIDE_BY_SIDE], **whole}
-        self._maps = pn.Column(*self._plane.plots, visible=False, **style)
-        return pn.Column(self.job, self._maps, **whole)
+        self._maps = stack(*self._plane.plots, visible=False, stylesheets=[SIDE_BY_SIDE])
+        return [self.job, self._maps]
 
     # The form
 

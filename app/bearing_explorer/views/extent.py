@@ -32,7 +32,6 @@ BEFORE = 0.14
 
 FIELDS: list[LookField] = [
     {
-        "kind": "one",
         "name": "race",
         "label": "Damaged is",
         "options": [

@@ -49,19 +49,16 @@ HANN_WIDTH = 1.5
 
 
 ALONG: LookField = {
-    "kind": "one",
     "name": "direction",
     "label": "Along",
     "options": [["x", "x"], ["y", "y"]],
 }
 SCALE: LookField = {
-    "kind": "one",
     "name": "scale",
     "label": "Scale",
     "options": [["dB", "dB"], ["linear", "linear"]],
 }
 AXIS: LookField = {
-    "kind": "one",
     "name": "axis",
     "label": "Axis",
     "options": [["Hz", "Hz"], ["orders", "orders"]],

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import Range1d
 
 from bearing_explorer.assets import asset_text
@@ -17,6 +16,7 @@ from bearing_explorer.plots.layers import Glyph, Words, curve, draw, segments
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.widgets.form import row
 
 STATED = style.AxisQuantity("Stated probability", "", "%")
 FOUND = style.AxisQuantity("Found to be right", "", "%")
@@ -101,7 +101,6 @@ class HowSure(View):
         "should be. The records are public collections of a motor and three rigs. What the "
         "diagnosis has learnt from records, it has from these; other machines may show less."
     )
-    needs = frozenset()
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:
@@ -114,9 +113,7 @@ class HowSure(View):
             TRUE, MEASURED, Range1d(0.0, top), Range1d(0.0, top), height=SIZES[1]
         )
         draw(right, packed, EXTENTS)
-        return pn.Row(
-            left, right, sizing_mode="stretch_width", margin=0, stylesheets=[style.WRAPPED]
-        )
+        return row(left, right, stylesheets=[style.WRAPPED])
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         bins, sizes, ends = reliability(), extents(), np.array([0.0, 100.0])

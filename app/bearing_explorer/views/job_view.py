@@ -81,7 +81,7 @@ class JobForm(pn.Column):
         begin = button(words, self._start, css_classes=["main", "start"])
         self._cancel = button("Cancel", cancel, css_classes=["cancel"], disabled=True)
         self._bar = pn.pane.HTML("", visible=False, margin=0, stylesheets=[_PROGRESS])
-        self._sentence = Sentence(margin=0, sizing_mode="stretch_width", css_classes=["words"])
+        self._sentence = Sentence(css_classes=["words"])
         self._state = JobState("idle", 0.0, "")
         below = (begin, self._cancel) if at_once else ()
         super().__init__(

@@ -98,7 +98,6 @@ class LifeOfBearing(View):
         "most, by Hamrock and Dowson."
     )
     in_report = False
-    needs = frozenset[str]()
     _set_inputs: Callable[[LifeInputs], None] | None = None
 
     def build(self, packed: PackedSource) -> Any:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import panel as pn
 
 from bearing_explorer.plots import style
 from bearing_explorer.results.results import Results
@@ -30,8 +29,7 @@ class MassInSpectrum(View):
 
     def build(self, packed: PackedSource) -> Any:
         self._spectra = WideSpectra(packed, "mass_spectrum", MASSLESS)
-        plots = reversed(self._spectra.plots)
-        return pn.Column(*plots, sizing_mode="stretch_width", margin=0)
+        return self._spectra.plots[::-1]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = results.ball_mass

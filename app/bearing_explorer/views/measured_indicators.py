@@ -29,7 +29,6 @@ _WORDS = {
     "flexible": "flexible",
 }
 MACHINE: LookField = {
-    "kind": "one",
     "name": "machine",
     "label": "Machine and its support",
     "options": [

@@ -50,9 +50,9 @@ _SIDES = {
 }
 _SAY = "return `${rounded(cell[0], 3)} dB`"
 FIELDS: list[LookField] = [
-    {"kind": "one", "name": "map", "label": "Show",
+    {"name": "map", "label": "Show",
      "options": [["spectrogram", "spectrogram"], ["orders", "order map"]]},
-    {"kind": "one", "name": "of", "label": "of",
+    {"name": "of", "label": "of",
      "options": [["signal", "the signal"], ["envelope", "its envelope"]]},
     {"kind": "number", "name": "last", "label": "Shaft speed at the end (Hz)",
      "hint": "as at first"},

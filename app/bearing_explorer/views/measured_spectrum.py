@@ -50,7 +50,6 @@ class MeasuredSpectrum(FrequencyView):
         ALONG,
         SCALE,
         {
-            "kind": "one",
             "name": "resolution",
             "label": "Resolution",
             "options": [[resolution, f"{resolution} Hz"] for resolution in RESOLUTIONS],

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import Span
 
 from bearing_explorer.plots import style
@@ -67,7 +66,7 @@ class WhichMechanism(View):
             text_font_size=style.SMALL_TEXT_SIZE, text_color=style.INK,
         )  # fmt: skip
         plot.add_layout(Span(location=0.0, dimension="width", line_color=style.STEEL_EDGE))
-        return pn.pane.Bokeh(plot, sizing_mode="stretch_width", margin=0)
+        return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = results.ball_mass

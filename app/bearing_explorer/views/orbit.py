@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import ColumnDataSource, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.results.verdict import of_orbit
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.widgets.form import stack
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore.common.numbers import count, scientific
 from bearingcore.common.table import table_of
@@ -92,18 +92,16 @@ class SteadyOrbit(View):
         self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status = StatusLine()
         self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
         # a row that wraps: Panel's own asks for the width of all its parts together
-        plots = pn.Column(
+        plots = stack(
             self._multipliers(packed),
             self._path(packed),
             self._spectrum(packed),
-            sizing_mode="stretch_width",
-            margin=0,
             stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
         )
-        return pn.Column(self.status, plots, sizing_mode="stretch_width", margin=0)
+        return [self.status, plots]
 
     def _multipliers(self, packed: PackedSource) -> figure:
         plot = _square(

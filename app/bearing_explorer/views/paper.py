@@ -10,7 +10,6 @@ from typing import Any
 
 import bokeh.plotting
 import numpy as np
-import panel as pn
 from bokeh.models import LayoutDOM, LinearColorMapper, Range1d
 
 from bearing_explorer.plots import compared_curves, style
@@ -23,7 +22,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.views.paper_figures import FIGURES, Panel, PaperFigure
 from bearing_explorer.widgets.facts import facts_pane
-from bearing_explorer.widgets.form import button, row
+from bearing_explorer.widgets.form import button, row, stack
 from bearingcore import Scene
 
 _OF_COMPARED = tuple(zip(("Green", "Pink"), compared_curves.COLORS, strict=False))
@@ -43,7 +42,6 @@ class PaperFigures(View):
     name = "paper"
     title = "Figures of the paper"
     about = "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014)."
-    needs = frozenset()
     in_report = False
     computes = True
 
@@ -55,15 +53,9 @@ class PaperFigures(View):
             one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
         }
         self._live = button("Open it live", self._open_live, css_classes=["main"])
-        self._panels = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._panels = stack()
         self._numbers = facts_pane(sizing_mode="stretch_width")
-        return pn.Column(
-            row(*self._buttons.values(), self._live),
-            self._panels,
-            self._numbers,
-            sizing_mode="stretch_width",
-            margin=0,
-        )
+        return [row(*self._buttons.values(), self._live), self._panels, self._numbers]
 
     def attach(self, parts: SessionParts) -> None:
         self._parts = parts

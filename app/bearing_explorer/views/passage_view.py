@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
-import panel as pn
 from numpy.typing import ArrayLike, NDArray
 
 from bearing_explorer.plots import style
@@ -67,7 +66,7 @@ class PassageView(View):
             plot = style.make_figure(TIME, quantity, time, shown, height=height, name=name)
             add_all(plot, sources, layers)
             plots.append(plot)
-        return pn.Column(*plots, sizing_mode="stretch_width", margin=0)
+        return plots
 
     def ranges(
         self, time: NDArray[np.float64], signals: NDArray[np.float64], loads: ArrayLike

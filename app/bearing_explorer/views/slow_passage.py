@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import numpy as np
-import panel as pn
 from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -31,6 +30,7 @@ from bearing_explorer.views.bearing import (
 )
 from bearing_explorer.views.passage_view import TIME, event_lines, event_names, traces
 from bearing_explorer.views.vibration_time import ACCELERATION, EVENT_WORDS, NARROW, event_rows
+from bearing_explorer.widgets.form import stack
 from bearingcore import Bearing
 from bearingcore.common.table import table_of
 from bearingcore.scene.packing import ball_angles
@@ -97,11 +97,7 @@ class SlowPassage(BearingDrawing):
             uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0),
         ]
         add_all(motion, sources_of(packed, layers), layers)
-        figures = pn.Column(
-            bearing, motion, stylesheets=[SIDE_BY_SIDE], sizing_mode="stretch_width", margin=0
-        )
-        controls = SlowMotion(sizing_mode="stretch_width", margin=0)
-        return pn.Column(controls, figures, sizing_mode="stretch_width", margin=0)
+        return [SlowMotion(), stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])]
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         return style.bare_figure(x, y, height=340)

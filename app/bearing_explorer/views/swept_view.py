@@ -67,7 +67,6 @@ def compute_in_levels(
 class SweptView(JobView[Swept]):
     """A view of such a result; it is faint where it is that of another scene."""
 
-    needs = frozenset()
     #: sentence before the first result
     nothing_yet: ClassVar[str] = "There is no map yet."
 

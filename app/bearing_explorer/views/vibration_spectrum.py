@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
@@ -47,7 +46,6 @@ from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.scene import WITH_MASS
 
 AXIS: LookField = {
-    "kind": "one",
     "name": "axis",
     "label": "Frequency",
     "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
@@ -137,9 +135,7 @@ class VibrationSpectra(View):
         self._wide = WideSpectra(packed, "spectrum_wide", {})
         self._axis = LookPanel(self.look_changed, [AXIS])
         self._show_axis()
-        return pn.Column(
-            self._axis, *self._narrow, *self._wide.plots, sizing_mode="stretch_width", margin=0
-        )
+        return [self._axis, *self._narrow, *self._wide.plots]
 
     def look_changed(self, _: str, value: str) -> None:
         """Draw over the frequency axis that was chosen."""

@@ -21,7 +21,7 @@ from bokeh.models import (
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
-from bearing_explorer.widgets.form import Fields, row, select
+from bearing_explorer.widgets.form import Fields, row, select, stack
 from bearingcore.common.numbers import decibels, scientific
 from bearingcore.experiments import Experiment, Point
 from bearingcore.experiments.integrators import METHODS
@@ -116,12 +116,10 @@ class WorkPrecision:
         self._fields.add("error", select("Error of", options))
         self.plot = self._figure(TALL if wide else HEIGHT)
         self._words = prose()
-        self.panel = pn.Column(
+        self.panel = stack(
             row(prose(f"<h4>{html.escape(title)}</h4>", _REST), self._fields.widgets["error"]),
             self.plot,
             self._words,
-            sizing_mode="stretch_width",
-            margin=0,
             stylesheets=[_WIDE] if wide else [],
         )
 

@@ -74,7 +74,7 @@ class Rows(LiveComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("button.css"), asset_text("controls.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
-        super().__init__(margin=0, sizing_mode="stretch_width", **params)
+        super().__init__(**params)
         self.on_msg(lambda event: take(asked, SceneChange, event.data))
 
     def show(self, **news: Any) -> None:

@@ -64,6 +64,17 @@ def row(*parts: Any, **params: Any) -> pn.Row:
     return pn.Row(*parts, **(wide | params))
 
 
+def pane(style: str, content: str = "", **params: Any) -> pn.pane.HTML:
+    """HTML with a style sheet, as wide as its place."""
+    wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+    return pn.pane.HTML(content, stylesheets=[asset_text(style)], **(wide | params))
+
+
+def stack(*parts: Any, **params: Any) -> pn.Column:
+    """Parts below one another, as wide as their place."""
+    return pn.Column(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | params))
+
+
 def _common(params: Mapping[str, Any]) -> dict[str, Any]:
     common = {"width": None, "margin": 0, "align": "end", "stylesheets": [asset_text("form.css")]}
     return common | dict(params)

@@ -13,9 +13,12 @@ from bearing_explorer.widgets.form import Fields, choices, entry, row, select
 
 
 class LookField(TypedDict, total=False):
-    """A choice. An option is [value, words], of "some" [value, words, colour]."""
+    """A choice, of "one" where there is no kind.
 
-    kind: Literal["one", "some", "number"]
+    An option is [value, words], of "some" [value, words, colour].
+    """
+
+    kind: Literal["some", "number"]
     name: str
     label: str
     options: Sequence[Sequence[str]]
@@ -42,7 +45,7 @@ class LookPanel(pn.Column):
     def _widget(self, spec: LookField) -> pn.viewable.Viewable:
         name, label = spec["name"], spec["label"]
         beside = {"css_classes": ["beside"]}
-        if spec["kind"] == "one":
+        if "kind" not in spec:
             return self._fields.add(name, select(label, spec["options"], **beside))
         if spec["kind"] == "number":
             hint = spec.get("hint", "")

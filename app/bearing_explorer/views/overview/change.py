@@ -9,7 +9,7 @@ import panel as pn
 
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.difference import difference
-from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.base import View
 from bearing_explorer.views.overview.words import story
 
 if TYPE_CHECKING:
@@ -41,9 +41,6 @@ class LastChange(View):
 
     def build(self, packed: PackedSource) -> Any:
         return pn.Spacer(height=0, margin=0)
-
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        return {}, {}
 
     def sentence(self, results: Results) -> str:
         before = results.before

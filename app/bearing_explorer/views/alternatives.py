@@ -16,7 +16,6 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.base import SessionParts
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import ALLOWED
 from bearing_explorer.widgets.form import Fields, button, choices, pane, row, select
@@ -52,20 +51,18 @@ class OtherModels(JobView[Alternatives]):
         self._taking = row(self._models.widgets["model"], take, visible=False)
         return [self.job, self._table, self._taking]
 
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self._ask, self._take_steps = parts.ask, parts.take_steps
-
     def _use(self, name: str) -> None:
         """Change the scene, or the steps of its motion, to those of the model with this name."""
+        if self.parts is None:
+            return
         if name == OWN_STEPS:
-            self._take_steps(None)
+            self.parts.take_steps(None)
         for one in () if self.found is None else takeable(self.found.rows):
             if one.name == name and "step_rate" in one.changes:
-                self._take_steps(one.changes["step_rate"])
+                self.parts.take_steps(one.changes["step_rate"])
             elif one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
-                self._ask({"choose": words})
+                self.parts.ask({"choose": words})
 
     def _offer(self, results: Results) -> None:
         """Fill the list of what can be taken."""

@@ -12,8 +12,8 @@ and give it
 - `sentence(results)`: one sentence on the figure in plain words;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
 
-A view that needs the scene of the controls, a job or a measured signal takes it from the
-session in `attach(parts)`.
+The scene of the controls, jobs and the measured signal are in `parts`, on the page; what a view
+begins with them it begins in `attach(parts)`.
 
 The grey curves are of the bearing without its defect, ``{grey}`` in `about`. Those of compared
 scenes are layers of `plots.compared_curves`; the key with their names follows by itself.
@@ -151,6 +151,8 @@ class View:
     leads_to: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen
     cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
+    #: parts of the session, on the page alone
+    parts: SessionParts | None = None
     #: result of a job of the view
     found: Any = None
     #: whether `choose` computes the content of the view
@@ -199,6 +201,7 @@ class View:
 
     def attach(self, parts: SessionParts) -> None:
         """Take parts of the session, once, before the view is first on screen."""
+        self.parts = parts
 
     def build(self, packed: PackedSource) -> Any:
         """Make the figures, once; return one of them, a layout, or a list of what is stacked."""

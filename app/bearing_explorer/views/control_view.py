@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from bearing_explorer.views.base import SessionParts, View
@@ -14,16 +13,14 @@ class ControlView(View):
 
     in_report = False
     rows: Rows
-    _asked: Callable[[Any], None] | None = None
 
     def attach(self, parts: SessionParts) -> None:
         """Send changes to the session, and follow its scene."""
         super().attach(parts)
-        self._asked = parts.ask
         self.rows.state = parts.editor.state()
         parts.add_controls(self.rows)
 
     def forward(self, message: Any) -> None:
         """Hand on a message of the browser."""
-        if self._asked is not None:
-            self._asked(message)
+        if self.parts is not None:
+            self.parts.ask(message)

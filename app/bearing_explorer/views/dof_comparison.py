@@ -14,7 +14,7 @@ from bearing_explorer.plots import style
 from bearing_explorer.results.dof_comparison import DofComparison
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import SessionParts, View
+from bearing_explorer.views.base import View
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.widgets.form import Fields, button, row
 from bearingcore import DOF_NAMES
@@ -42,7 +42,6 @@ class DofDifferences(View):
     )
     in_report = False
     needs = frozenset({"dof_comparison", "spectra"})
-    _parts: SessionParts | None = None
 
     def build(self, packed: PackedSource) -> Any:
         self._fields = Fields(lambda _: self.force(self._fields.values["dofs"]))
@@ -62,10 +61,6 @@ class DofDifferences(View):
         )  # fmt: skip
         return row(form, self._facts, styles={"align-items": "start", "gap": "10px 34px"})
 
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self._parts = parts
-
     def force(self, dofs: Sequence[str]) -> None:
         """Force directions on the scene."""
         free = [name for name in DOF_NAMES if name in dofs]
@@ -77,8 +72,8 @@ class DofDifferences(View):
 
     def _ask(self, dofs: str) -> None:
         self._refusal.visible = False
-        if self._parts is not None:
-            self._parts.ask({"choose": {"dofs": dofs}})
+        if self.parts is not None:
+            self.parts.ask({"choose": {"dofs": dofs}})
 
     def sentence(self, results: Results) -> str:
         found = results.dof_comparison

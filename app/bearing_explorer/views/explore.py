@@ -6,7 +6,6 @@ refines it level by level.
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -27,7 +26,7 @@ from bearing_explorer.results.explore import (
     coarse,
     refine,
 )
-from bearing_explorer.results.jobs import JobState, Work
+from bearing_explorer.results.jobs import Jobs, JobState, Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
@@ -44,9 +43,6 @@ from bearing_explorer.views.job_view import JobView, last_shown
 from bearing_explorer.views.still_figure import editor_of
 from bearing_explorer.widgets.form import FieldSpec, stack
 from bearing_explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
-
-REST = 0.2
-"""[s] that sliders must rest before a map is refined."""
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
@@ -88,7 +84,6 @@ class ExplorePlane(JobView[Plane]):
     _request: MapRequest | None = None
     _question: Question | None = None
     _refining: tuple[Question, int] | None = None
-    _timer: asyncio.TimerHandle | None = None
 
     def build(self, packed: PackedSource) -> Any:
         sides = [Side.of(field) for field in SWEEPABLE.values()]
@@ -145,10 +140,6 @@ class ExplorePlane(JobView[Plane]):
             self._refining = None
             self._draw()
 
-    def cancel_job(self) -> None:
-        self._wait_no_more()
-        super().cancel_job()
-
     # Outside of the page
 
     def choices(self) -> dict[str, Any]:
@@ -159,10 +150,6 @@ class ExplorePlane(JobView[Plane]):
         self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
         question = request.of(results)
         self.found = last_shown(lambda job: refine(job, question, request.stride))
-
-    def end(self) -> None:
-        super().end()
-        self._wait_no_more()
 
     # The picture
 
@@ -194,19 +181,15 @@ class ExplorePlane(JobView[Plane]):
         if self.found is not None:
             self._plane.write(field_of(self.found))
         self._maps.visible = self.found is not None
-        if self._refining == (question, self._request.stride):
-            return
-        self._wait_no_more()
-        if self._jobs is None:
+        if self._jobs is None or self._refining == (question, self._request.stride):
             return
         if self._refining is not None:
             self._jobs.cancel()  # its map is no longer wanted
         self._refining = None
         if why:
             self.job.show(JobState("failed", 0.0, why))
-        else:
-            loop = asyncio.get_running_loop()
-            self._timer = loop.call_later(REST, self._refine, question, plane)
+        elif not results.moving:
+            self._refine(self._jobs, question, plane)
 
     def columns(self, found: Plane) -> dict[str, np.ndarray]:
         return {
@@ -231,28 +214,21 @@ class ExplorePlane(JobView[Plane]):
 
     # Refining
 
-    def _refine(self, question: Question, start: Plane | None) -> None:
-        """Start the job, if this is still the map of the form."""
-        self._timer = None
-        if self._jobs is None or self._request is None or question != self._question:
-            return
+    def _refine(self, jobs: Jobs, question: Question, start: Plane | None) -> None:
+        """Start the job of a map."""
+        assert self._request is not None
         stride = self._request.stride
         self._refining = question, stride
 
         def work(job: Work) -> str:
             return refine(job, question, stride, start)
 
-        self._jobs.start(work, self._take, self.job.show)
+        jobs.start(work, self._take, self.job.show)
 
     def _take(self, found: Plane) -> None:
         if found.question == self._question:
             self.found = found
             self._draw()
-
-    def _wait_no_more(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
 
 
 def field_of(plane: Plane) -> Field:

@@ -13,7 +13,7 @@ import panel as pn
 from bearing_explorer.plots import style
 from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.widgets.form import Fields, entry, row
 from bearingcore.common.numbers import percent, thousands
@@ -21,8 +21,6 @@ from bearingcore.statics.film import TOUCHING
 from bearingcore.statics.life import LEFT_OUT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from bearing_explorer.results.results import Results
     from bearingcore import Life
 
@@ -98,7 +96,6 @@ class LifeOfBearing(View):
         "most, by Hamrock and Dowson."
     )
     in_report = False
-    _set_inputs: Callable[[LifeInputs], None] | None = None
 
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
@@ -118,10 +115,6 @@ class LifeOfBearing(View):
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
         return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
 
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self._set_inputs = parts.set_life_inputs
-
     def take(self, name: str) -> None:
         """Take a number that was typed; a refused one changes nothing and gets a sentence."""
         field = next(field for field in FIELDS if field.name == name)
@@ -133,8 +126,8 @@ class LifeOfBearing(View):
             return
         self._refusal.visible = False
         self.inputs = dataclasses.replace(self.inputs, **{name: value})
-        if self._set_inputs is not None:
-            self._set_inputs(self.inputs)
+        if self.parts is not None:
+            self.parts.set_life_inputs(self.inputs)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         _ = results.endurance  # computed here, in a thread

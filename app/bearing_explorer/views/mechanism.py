@@ -8,6 +8,7 @@ import numpy as np
 from bokeh.models import Span
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.results.ball_mass import BallMass
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -25,6 +26,15 @@ HALF = 0.5
 """Share from which on most of the power comes from the balls' mass."""
 
 _BAR_WORDS = "return row.known ? `${rounded(100*row.share, 2)} %` : 'not known'"
+_BAR_LOOK = {"fill_color": style.DEFECTIVE, "fill_alpha": "alpha", "line_color": None}
+_WORDS_LOOK = {"text_align": "center", "text_baseline": "bottom"}
+_SPREAD = ("middle", "low", "middle", "high")
+LAYERS: tuple[Layer, ...] = (
+    Glyph("quad", "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
+    Glyph("segment", "mechanism_bars", _SPREAD, {"line_color": style.INK}),
+    Words("mechanism_bars", "middle", "label_at", _BAR_WORDS, ("share", "known"), look=_WORDS_LOOK),
+)
+"""Bars, their standard errors and their numbers."""
 
 
 class WhichMechanism(View):
@@ -41,10 +51,6 @@ class WhichMechanism(View):
     needs = frozenset({"ball_mass"})
 
     def build(self, packed: PackedSource) -> Any:
-        bars = packed.source(
-            "mechanism_bars", "left", "right", "middle", "share", "top", "known", "low", "high",
-            "label_at", "alpha",
-        )  # fmt: skip
         plot = style.make_figure(
             FREQUENCY,
             SHARE,
@@ -55,16 +61,7 @@ class WhichMechanism(View):
             name="mechanism",
         )
         in_hertz(plot)
-        plot.quad(
-            left="left", right="right", bottom=0.0, top="top", source=bars,
-            fill_color=style.DEFECTIVE, fill_alpha="alpha", line_color=None,
-        )  # fmt: skip
-        plot.segment("middle", "low", "middle", "high", source=bars, line_color=style.INK)
-        plot.text(
-            "middle", "label_at", text=style.words_of(bars, _BAR_WORDS), source=bars,
-            text_align="center", text_baseline="bottom", text_font={"value": style.FONT},
-            text_font_size=style.SMALL_TEXT_SIZE, text_color=style.INK,
-        )  # fmt: skip
+        draw(plot, packed, LAYERS)
         plot.add_layout(Span(location=0.0, dimension="width", line_color=style.STEEL_EDGE))
         return plot
 

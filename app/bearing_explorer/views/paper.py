@@ -19,7 +19,7 @@ from bearing_explorer.plots.plane import color_limits
 from bearing_explorer.plots.zoom import zoomable
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.paper_figures import FIGURES, Panel, PaperFigure
 from bearing_explorer.widgets.facts import facts_pane
 from bearing_explorer.widgets.form import button, row, stack
@@ -48,7 +48,6 @@ class PaperFigures(View):
     def build(self, packed: PackedSource) -> Any:
         self._figure, self._drawn = FIGURES[0], 0
         self._made: tuple[PaperFigure, list[bokeh.plotting.figure], str] | None = None
-        self._parts: SessionParts | None = None
         self._buttons = {
             one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
         }
@@ -57,22 +56,18 @@ class PaperFigures(View):
         self._numbers = facts_pane(sizing_mode="stretch_width")
         return [row(*self._buttons.values(), self._live), self._panels, self._numbers]
 
-    def attach(self, parts: SessionParts) -> None:
-        self._parts = parts
-
     def _show(self, figure: PaperFigure) -> None:
         """Draw a figure, and set the sliders to its scene."""
         self._figure = figure
-        if self._parts is not None:
-            name = f"Figure {figure.number}"
-            self._parts.open_link(name, figure.link(self.name, compared=False))
+        self._open(figure, self.name, compared=False)
 
     def _open_live(self) -> None:
         """The tab of the figure, with its other scenes as compared ones."""
-        figure = self._figure
-        if self._parts is not None:
-            name = f"Figure {figure.number}"
-            self._parts.open_link(name, figure.link(figure.tab, compared=True))
+        self._open(self._figure, self._figure.tab, compared=True)
+
+    def _open(self, figure: PaperFigure, tab: str, compared: bool) -> None:
+        if self.parts is not None:
+            self.parts.open_link(f"Figure {figure.number}", figure.link(tab, compared))
 
     def choices(self) -> dict[str, Any]:
         return {"figure": self._figure.number}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -37,7 +37,7 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.widgets.look import LookField, LookPanel
@@ -111,11 +111,6 @@ class VibrationSpectra(View):
     needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
     #: whether it goes up to half the sample rate, on a logarithmic frequency axis
     wide = False
-    _draw: Callable[[], None] | None = None
-
-    def attach(self, parts: SessionParts) -> None:
-        super().attach(parts)
-        self._draw = parts.draw
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
@@ -140,8 +135,8 @@ class VibrationSpectra(View):
     def look_changed(self, _: str, value: str) -> None:
         """Draw over the frequency axis that was chosen."""
         self.wide = value == "logarithmic"
-        if self._draw is not None:
-            self._draw()
+        if self.parts is not None:
+            self.parts.draw()
 
     def choices(self) -> dict[str, Any]:
         return {"axis": "logarithmic"} if self.wide else {}

@@ -11,7 +11,8 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Range1d
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import compared_curves, layers, style
+from bearing_explorer.plots import compared_curves, style
+from bearing_explorer.plots.layers import Glyph, Layer, Words, curve, draw
 from bearing_explorer.plots.matrix_cells import (
     PLACES,
     SYMBOLS,
@@ -46,7 +47,6 @@ _LEFT = np.array([cell.left for cell in _CELLS])
 _RIGHT = np.array([cell.right for cell in _CELLS])
 _TOP = np.array([cell.top for cell in _CELLS])
 _MIDDLE = np.array([0.5 * (cell.top + cell.bottom) for cell in _CELLS])
-_TERM_COLUMNS = ("right", "top", "now", "unit", "lively", "held", "middle", "center")
 _UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
 _GAP = np.array([np.nan])
 _DIRECTIONS = np.array(PLACES)
@@ -60,6 +60,21 @@ if (narrow) return ''  // it would lie on the symbol
 const unit = {list(UNITS)}[row.unit]
 return row.lively ? (isNaN(row.now) ? 'no value' : si(row.now, unit)) : ''
 """
+
+_VALUE_LOOK = {"text_align": "right", "text_baseline": "bottom", "y_offset": -3}
+_WHY_LOOK = {"text_align": "center", "text_color": style.FAINT_INK}
+_NOW_LOOK = {"size": 6, "color": style.DEFECTIVE, "line_color": "white"}
+LAYERS: tuple[Layer, ...] = (
+    Words("overview_terms", "right", "top", _VALUE_WORDS, ("now", "unit", "lively"),
+          fitting=style.NARROW, look=_VALUE_LOOK),
+    Words("overview_terms", "middle", "center", _WHY_WORDS, ("lively", "held"),
+          fitting=style.NARROW, look=_WHY_LOOK),
+    *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
+    curve("overview_healthy", "x", "y", style.HEALTHY, 1.3),
+    curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8),
+    Glyph("scatter", "overview_term_now", ("x", "y"), _NOW_LOOK),
+)  # fmt: skip
+"""Over the frames and symbols of the cells, from the lowest to the highest."""
 
 
 class OverviewStiffness(View):
@@ -106,37 +121,7 @@ class OverviewStiffness(View):
         plot.text(
             "left", "top", text="below", source=frames, text_font_size="11px", **below, **serif
         )
-        terms = packed.source("overview_terms", *_TERM_COLUMNS)
-        small = {"text_font": value(style.FONT), "text_font_size": style.SMALL_TEXT_SIZE}
-        plot.text(
-            "right",
-            "top",
-            text=style.fitting_words(plot, terms, _VALUE_WORDS),
-            source=terms,
-            text_align="right",
-            y_offset=-3,
-            text_color=style.INK,
-            **small,
-        )
-        plot.text(
-            "middle",
-            "center",
-            text=style.fitting_words(plot, terms, _WHY_WORDS),
-            source=terms,
-            text_align="center",
-            text_baseline="middle",
-            text_color=style.FAINT_INK,
-            **small,
-        )
-        layers.draw(plot, packed, compared_curves.curves("overview_stiffness", "x", "y", width=1.3))
-        for name, color, width in (
-            ("healthy", style.HEALTHY, 1.3),
-            ("lively", style.DEFECTIVE, 1.8),
-        ):
-            source = packed.source(f"overview_{name}", "x", "y")
-            plot.line("x", "y", source=source, line_color=color, line_width=width)
-        now = packed.source("overview_term_now", "x", "y")
-        plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
+        draw(plot, packed, LAYERS)
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

@@ -218,7 +218,7 @@ def test_motion() -> None:
 
 
 def test_models() -> None:
-    experiment = models_experiment(LIEW_LIM, duration=0.2)
+    experiment = models_experiment(LIEW_LIM, duration=0.1)
     check_that_all_is_given(experiment)
     points = {point.method: point for point in experiment.points}
     assert points["5 DOF"].errors["spectrum"] < 0.1 < points["2 DOF"].errors["spectrum"]
@@ -229,7 +229,7 @@ def test_models() -> None:
 
 def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
     fast = FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0, contact_damping=130.0)
-    experiment = models_experiment(fast, duration=0.1)
+    experiment = models_experiment(fast, duration=0.05)
     (orbit,) = experiment.of("orbit")
     assert orbit.status == "failed: unstable orbit: period doubling"
     assert orbit.against == "settled motion"

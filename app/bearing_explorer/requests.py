@@ -1,6 +1,7 @@
 """Messages of the browser about the scene, its links, files and lessons, and how each is answered.
 
-Messages are not to be trusted: one that is not as the scripts of the page send it does nothing.
+They are whole: `messages.take` has let none pass that the scripts of the page do not send. Words
+and numbers in them are not to be trusted.
 """
 
 from __future__ import annotations
@@ -110,34 +111,30 @@ class Requests:
 
     def change_scene(self, message: Any) -> None:
         """Take a message of the controls: numbers, choices, a reset, a file."""
-        if not isinstance(message, dict):
-            return
-        if isinstance(text := message.get("search"), str):
+        if (text := message.get("search")) is not None:
             listed, show = self.editor.listed, self.controls.send
             self._page.in_background(
                 lambda: listed.search(text), lambda found: show({"found": found})
             )
             return
-        mark = message.get("mark")
-        if isinstance(mark, int) and 0 <= mark < 2**24:
-            self.mark = mark
+        self.mark = message.get("mark", self.mark)
         if compiling.STATICS in compiling.left():
             self._page.draw()  # sliders do not move yet, and the mark is answered
             return
         try:
-            if message.get("reset") is True:
+            if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
                 self.show_controls(state=self.editor.state())
-            if isinstance(choose := message.get("choose"), dict):
-                refused = self.editor.choose(choose)
+            if "choose" in message:
+                refused = self.editor.choose(message["choose"])
                 self.show_controls(
                     state=self.editor.state(), **({"refused": refused} if refused else {})
                 )
-            if isinstance(values := message.get("set"), dict):
-                self._set(values, confirm=False)
-            if isinstance(typed := message.get("typed"), dict):
-                self._set(typed, confirm=True)
-            rests = "typed" in message or message.get("released") is True
+            if "set" in message:
+                self._set(message["set"], confirm=False)
+            if "typed" in message:
+                self._set(message["typed"], confirm=True)
+            rests = "typed" in message or "released" in message
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
             self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
@@ -172,7 +169,7 @@ class Requests:
 
     def _open_file(
         self,
-        file: Any,
+        file: Mapping[str, str] | None,
         longest: int,
         read: Callable[[str], Found],
         take: Callable[[str, Found], object],
@@ -181,11 +178,8 @@ class Requests:
 
         `longest` [characters]: one more is read, so that the reader sees that there are too many.
         """
-        name, text = (
-            (file.get("name"), file.get("text")) if isinstance(file, dict) else (None, None)
-        )
-        if isinstance(name, str) and isinstance(text, str):
-            text = text[: longest + 1]
+        if file is not None:
+            name, text = file["name"], file["text"][: longest + 1]
             self._page.in_background(
                 lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
             )
@@ -200,14 +194,12 @@ class Requests:
 
     def change_links(self, message: Any) -> None:
         """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
-        if not isinstance(message, dict):
-            return
-        if isinstance(name := message.get("keep"), str):
-            self.share.answer(kept=self.bookmarks.kept(name))
+        if "keep" in message:
+            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
-        if isinstance(base := message.get("report"), str) and not self._reporting:
-            self._report(base[:_LONGEST_LINK], message)
+        if "report" in message and not self._reporting:
+            self._report(message["report"][:_LONGEST_LINK], message)
         if "mark" not in message:
             return
         if self.bookmarks.go(message):
@@ -236,7 +228,7 @@ class Requests:
         `words` may hold a title, the machine and remarks.
         """
         title, machine, remarks = (
-            str(words.get(name, ""))[:most] for name, most in _REPORT_WORDS.items()
+            words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
         )
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
@@ -276,9 +268,7 @@ class Requests:
 
     def change_lesson(self, message: Any) -> None:
         """A lesson begins, is shown again or closed, or a button among its words is pressed."""
-        if not isinstance(message, dict):
-            return
-        words_only = message.get("words_only") is True
+        words_only = "words_only" in message
         closed = message.get("lesson") == ""
         lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
         if lesson is not None or closed:
@@ -289,8 +279,6 @@ class Requests:
                 self.show_controls(state=self.editor.state())
             self._page.show_tab(message if lesson is None else {"show": lesson.tab})
         self.change_scene(message)  # the mark, and what a button changes
-        wish = message.get("simulate")
-        if isinstance(wish, dict) and not (words_only or closed):
-            self._page.measurement.simulate(
-                *(str(wish.get(k, "scene")) for k in ("noise", "machine", "pit"))
-            )
+        if "simulate" in message and not (words_only or closed):
+            wish = message["simulate"]
+            self._page.measurement.simulate(wish["noise"], wish["machine"], wish["pit"])

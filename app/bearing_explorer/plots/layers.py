@@ -21,6 +21,7 @@ from bokeh.models import (
     Range1d,
 )
 from bokeh.plotting import figure
+from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
@@ -219,6 +220,18 @@ def nothing(layers: Iterable[Layer]) -> dict[str, dict[str, Any]]:
     for layer in layers:
         columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns, np.zeros(0)))
     return columns
+
+
+def with_gaps(
+    curves: Iterable[tuple[NDArray[np.float64], NDArray[np.float64]]], x: str, y: str
+) -> dict[str, NDArray[np.float64]]:
+    """Curves as one line with a gap between one and the next, as columns `x` and `y`."""
+    none, gap = np.empty(0), np.array([np.nan])
+    pieces = [(none, none)]
+    for across, up in curves:
+        pieces += [(across, up), (gap, gap)]
+    parts = pieces[:-1] if len(pieces) > 1 else pieces
+    return {x: np.concatenate([a for a, _ in parts]), y: np.concatenate([b for _, b in parts])}
 
 
 def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:

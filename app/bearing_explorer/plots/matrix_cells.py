@@ -44,6 +44,8 @@ SYMBOLS = list(TERM_SYMBOLS.values())
 NAMES = [*SYMBOLS, "Loaded balls"]
 """Names of the cells."""
 SIDES = ("left", "right", "bottom", "top")
+SERIF = "Georgia, 'Times New Roman', serif"
+"""Font of the symbols."""
 
 
 @dataclass(frozen=True)
@@ -126,10 +128,7 @@ def write_names(plot: figure, cells: Sequence[Cell]) -> None:
             "below": [symbol[1:] for symbol in SYMBOLS],
         }
     )
-    serif = {
-        "text_font": {"value": "Georgia, 'Times New Roman', serif"},
-        "text_color": style.INK,
-    }
+    serif = {"text_font": {"value": SERIF}, "text_color": style.INK}
     write(plot, source, {"value": "k"}, y_offset=-6, text_font_size="15px", **serif)
     write(plot, source, "below", x_offset=9, y_offset=-3, **serif)
     name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})

@@ -147,15 +147,7 @@ class SceneEditor:
 
     def take_preset(self, name: str) -> None:
         """Back to the numbers of a preset."""
-        self.preset = name
-        self.scene = presets[name]
-        self.own_name, self.origin = "", None
-        self.drop_draft()
-        self.selected = 0
-        self.floors = [_choice_of(defect) for defect in self.defects]
-        self._begin_limits(limits_of(self.scene))
-        self.values = {}
-        self._write_values(cage_angle=0.0)
+        self.take_scene(presets[name], name)
 
     def take_scene(
         self,

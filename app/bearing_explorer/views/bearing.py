@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import element_name, elements
 from bearing_explorer.plots.heat_map import color_bar
-from bearing_explorer.plots.layers import Glyph, Layer, Words, draw, filled, segments
+from bearing_explorer.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.results.results import Results
@@ -548,12 +548,8 @@ class Shapes:
 
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
     """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
-    gap = np.array([np.nan])
-    none = np.empty(0)
-    angles = [piece for angle, _ in parts for piece in (angle, gap)]
-    radii = [piece for _, radius in parts for piece in (radius, gap)]
-    angle = np.concatenate([none, *angles[:-1]])
-    radius = np.concatenate([none, *radii[:-1]])
+    line = with_gaps(parts, "angle", "radius")
+    angle, radius = line["angle"], line["radius"]
     return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
 
 

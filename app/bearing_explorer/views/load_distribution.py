@@ -11,7 +11,7 @@ from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.element_words import elements
-from bearing_explorer.plots.layers import Layer, Words, ball_dots, curve, draw, strips
+from bearing_explorer.plots.layers import Layer, Words, ball_dots, curve, draw, strips, with_gaps
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.defect_shape import pieces, spans
 from bearing_explorer.results.load_curve import Curve, curves_table, load_curve, row_name
@@ -191,11 +191,7 @@ def _at_both_races(found: Equilibrium, row: int) -> ResultTable:
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
     """Curves as one line with gaps, angles in degrees."""
-    gap = np.array([np.nan])
-    angle = [piece for a, _ in curves for piece in (np.degrees(a), gap)][:-1]
-    load = [piece for _, one in curves for piece in (one, gap)][:-1]
-    none = np.empty(0)
-    return {"angle": np.concatenate([none, *angle]), "load": np.concatenate([none, *load])}
+    return with_gaps(((np.degrees(angle), load) for angle, load in curves), "angle", "load")
 
 
 NAMES_APART = 40.0

@@ -11,7 +11,16 @@ from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import compared_curves, style
-from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips, uprights
+from bearing_explorer.plots.layers import (
+    Layer,
+    Words,
+    by_number,
+    curve,
+    draw,
+    strips,
+    uprights,
+    with_gaps,
+)
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results import statics
 from bearing_explorer.results.results import Results
@@ -208,11 +217,7 @@ def bands_along(
 
 def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:
     """The columns over x as one line with a gap between one column and the next."""
-    n = columns.shape[1]
-    return {
-        "angle": np.tile(np.append(x, np.nan), n),
-        "frequency": np.append(columns, np.full((1, n), np.nan), axis=0).T.ravel(),
-    }
+    return with_gaps(((x, column) for column in columns.T), "angle", "frequency")
 
 
 def spread(

@@ -91,7 +91,7 @@ class Stiffness(View):
         scales = matrix_cells.term_sizes(
             lambda term: np.concatenate([e.term(term) for e in answers])
         )
-        lines: list[dict[str, list[np.ndarray]]] = [{"x": [], "y": []} for _ in shares]
+        lines: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
         heads: list[tuple[float, float, float, float]] = []
 
@@ -99,8 +99,7 @@ class Stiffness(View):
             cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
         ) -> None:
             for line, x, y in zip(lines, xs, ys, strict=True):
-                line["x"] += [cell.x(x), _GAP]
-                line["y"] += [cell.y(y, limits), _GAP]
+                line.append((cell.x(x), cell.y(y, limits)))
 
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
@@ -128,9 +127,7 @@ class Stiffness(View):
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
         heads.append((limits[0], limits[1], balls, _BALLS.bottom))
 
-        drawn, reference, *others = (
-            {axis: np.concatenate(parts) for axis, parts in line.items()} for line in lines
-        )
+        drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
         mark, head = np.array(marks).T, np.array(heads).T
         return {
             **compared_curves.sources("stiffness", ("x", "y"), others, lambda line: line),
@@ -201,7 +198,6 @@ return {
   y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
 }
 """
-_GAP = np.array([np.nan])
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.element_words import element_name
-from bearing_explorer.plots.layers import Layer, curve
+from bearing_explorer.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.results.excerpt import Event, Excerpt
 from bearing_explorer.results.results import Results
@@ -131,12 +131,8 @@ def signals_of(shown: Excerpt) -> dict[str, np.ndarray]:
 
 def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
     """The static loads of all balls as one line with gaps."""
-    n = min(shown.balls.size, SLOTS)
-    loads = shown.static_load[:, :n]
-    return {
-        "time": np.tile(np.append(shown.static_time, np.nan), n),
-        "load": np.append(loads, np.full((1, n), np.nan), axis=0).T.ravel(),
-    }
+    loads = shown.static_load.T[:SLOTS]
+    return with_gaps(((shown.static_time, load) for load in loads), "time", "load")
 
 
 def event_rows(

@@ -15,6 +15,7 @@ from bearing_explorer.plots.layers import (
     Words,
     add_all,
     curve,
+    nothing,
     sources_of,
     strips,
 )
@@ -61,7 +62,8 @@ class WideSpectra:
         frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
         level = packed.range(f"{name}_level", -120.0, -20.0)
         layers = {dof: self._layers(dof, other) for dof in SHOWN}
-        sources = sources_of(packed, [layer for own in layers.values() for layer in own])
+        self._drawn = [layer for own in layers.values() for layer in own]
+        sources = sources_of(packed, self._drawn)
         #: along x and along y
         self.plots: list[figure] = []
         for dof in SHOWN:
@@ -101,16 +103,7 @@ class WideSpectra:
 
     def nothing(self) -> Sources:
         """Columns while the figures are hidden."""
-        empty = np.zeros(0)
-        lines = dict.fromkeys(("frequency", *SHOWN), empty)
-        band = dict.fromkeys(("low", "high", "above", "label_at"), empty)
-        name = self._name
-        return {
-            **compared_curves.sources(name, list(lines), (), dict),
-            f"{name}_lines": lines,
-            f"{name}_others": lines,
-            f"{name}_resonance": band,
-        }
+        return nothing(self._drawn)
 
     def data(
         self,

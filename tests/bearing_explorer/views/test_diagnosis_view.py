@@ -15,6 +15,7 @@ from bearing_explorer.measurement.background import true_part
 from bearing_explorer.measurement.diagnoses import SLIP, Answers, Question, answered
 from bearing_explorer.measurement.session import simulated
 from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.messages import LessonChange, take
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -404,7 +405,8 @@ def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
         (wish, explorer.scene.defects[0].race)
     )
     wish = {"noise": "20", "machine": "same"}
+    change = explorer.requests.change_lesson
     for junk in ("now", None, 3):
-        explorer.requests.change_lesson({"mark": 1, "simulate": junk})
-    explorer.requests.change_lesson({"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
+        take(change, LessonChange, {"mark": 1, "simulate": junk})
+    take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
     assert wishes == [(("20", "same", "scene"), "inner")]

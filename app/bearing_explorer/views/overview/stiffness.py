@@ -12,15 +12,18 @@ from bokeh.models import ColumnDataSource, Range1d
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import compared_curves, style
-from bearing_explorer.plots.layers import Glyph, Layer, Words, curve, draw
+from bearing_explorer.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.plots.matrix_cells import (
     PLACES,
+    SERIF,
     SYMBOLS,
     UNITS,
     Cell,
     cleaned,
+    sides_of,
     term_sizes,
     trace_limits,
+    write,
 )
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
@@ -43,12 +46,8 @@ _CELLS = [
     for row, column in (divmod(index, COLUMNS) for index in range(len(SYMBOLS)))
 ]
 _ROWS = math.ceil(len(_CELLS) / COLUMNS)
-_LEFT = np.array([cell.left for cell in _CELLS])
-_RIGHT = np.array([cell.right for cell in _CELLS])
-_TOP = np.array([cell.top for cell in _CELLS])
-_MIDDLE = np.array([0.5 * (cell.top + cell.bottom) for cell in _CELLS])
+_SIDES = sides_of(_CELLS)
 _UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
-_GAP = np.array([np.nan])
 _DIRECTIONS = np.array(PLACES)
 _WHY_WORDS = f"""
 const names = {[DOF_SYMBOLS[dof] for dof in DOF_NAMES]}
@@ -101,26 +100,11 @@ class OverviewStiffness(View):
             height=110,
             sizing_mode="stretch_both",
         )
-        frames = ColumnDataSource(
-            {
-                "left": _LEFT,
-                "right": _RIGHT,
-                "top": _TOP,
-                "bottom": [cell.bottom for cell in _CELLS],
-                "name": ["k"] * len(_CELLS),
-                "below": [symbol[1:] for symbol in SYMBOLS],
-            }
-        )
+        frames = ColumnDataSource({**_SIDES, "below": [symbol[1:] for symbol in SYMBOLS]})
         plot.quad(source=frames, fill_color="#FAFBFC", line_color=style.GRID)
-        serif = {"text_font": value("Georgia, 'Times New Roman', serif"), "text_color": style.INK}
-        above = {"y_offset": -3}
-        plot.text(
-            "left", "top", text="name", source=frames, text_font_size="13px", **above, **serif
-        )
-        below = {"x_offset": 8, "y_offset": -1}
-        plot.text(
-            "left", "top", text="below", source=frames, text_font_size="11px", **below, **serif
-        )
+        look = {"x": "left", "y": "top", "text_font": value(SERIF), "text_color": style.INK}
+        write(plot, frames, value("k"), y_offset=-3, text_font_size="13px", **look)
+        write(plot, frames, "below", x_offset=8, y_offset=-1, **look)
         draw(plot, packed, LAYERS)
         return plot
 
@@ -153,7 +137,7 @@ class OverviewStiffness(View):
                 ):
                     trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
                 marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
-        drawn, reference, *compared = map(_with_gaps, traces)
+        drawn, reference, *compared = (with_gaps(lines, "x", "y") for lines in traces)
         return {
             **compared_curves.sources(
                 "overview_stiffness", ("x", "y"), compared, lambda line: line
@@ -161,14 +145,14 @@ class OverviewStiffness(View):
             "overview_lively": drawn,
             "overview_healthy": reference,
             "overview_terms": {
-                "right": _RIGHT,
-                "top": _TOP,
+                "right": _SIDES["right"],
+                "top": _SIDES["top"],
                 "now": values,
                 "unit": _UNIT,
                 "lively": lively,
                 "held": np.where(is_held.any(axis=1), held, -1),
-                "middle": 0.5 * (_LEFT + _RIGHT),
-                "center": _MIDDLE,
+                "middle": 0.5 * (_SIDES["left"] + _SIDES["right"]),
+                "center": 0.5 * (_SIDES["top"] + _SIDES["bottom"]),
             },
             "overview_term_now": {"x": marks[0], "y": marks[1]},
         }, {}
@@ -210,11 +194,3 @@ def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: 
 def _some(size: int) -> NDArray[np.int64]:
     """At most MOST_POINTS of this many points, both ends among them."""
     return np.unique(np.linspace(0, size - 1, min(size, MOST_POINTS)).round().astype(np.int64))
-
-
-def _with_gaps(lines: list[tuple[np.ndarray, np.ndarray]]) -> dict[str, np.ndarray]:
-    """Several lines as one, with a gap after each."""
-    none = np.empty(0)
-    parts = [[none, none], *([np.append(axis, _GAP) for axis in line] for line in lines)]
-    x, y = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
-    return {"x": x, "y": y}

@@ -90,6 +90,8 @@ class LinksChange(SceneChange, omit_defaults=True):
         kind of a file to download.
     report
         address of the page, for the link in a report; `title`, `machine` and `remarks` go in it.
+    measured
+        whether it is the page on the measured signal.
     """
 
     undo: bool = False
@@ -104,6 +106,7 @@ class LinksChange(SceneChange, omit_defaults=True):
     keep: str | None = None
     want: str | None = None
     report: str | None = None
+    measured: bool = False
     title: str = ""
     machine: str = ""
     remarks: str = ""

@@ -108,26 +108,23 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
     said = status_of(results, 0.0)
     limits = rows_of(results.limits)
     crossed = [row for row in limits if row["state"] == "crossed"]
-    when = about.date.strftime("%d %B %Y, %H:%M UTC")
-    link = _link(about.link)
     title = about.title.strip() or "Bearing report"
     body = [
-        f"<header><h1>{_text(title)}</h1>",
-        f"<p>Machine: {_text(about.machine)}</p>" if about.machine.strip() else "",
-        *(f"<p>{_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
-        f"<p>{_text(when)}, Bearing explorer "
-        f"{_text(program_version())}{f', {link}' if link else ''}</p></header>",
+        *heading(about, title),
         "<section><h2>Scene</h2>",
         _changes(scene, about),
         f"<p>Grey in the figures: {WITHOUT_DEFECT}. {_compared(results)}Cage angle: "
-        f"{_text(style.in_degrees(results.cage_angle))}.</p>",
-        f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{_text(said['words'])}; "
-        f"{_text('; '.join(said['details'][:-1]))}.</p></section>",
+        f"{html_text(style.in_degrees(results.cage_angle))}.</p>",
+        f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{html_text(said['words'])}; "
+        f"{html_text('; '.join(said['details'][:-1]))}.</p></section>",
         "<section><h2>Warnings</h2>",
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is exceeded.</p>",
-        _table(
+        html_table(
             ["Check", "Value", "Limit", "", "In words"],
-            [[_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS] for row in limits],
+            [
+                [html_text(_STATES.get(row[key], row[key])) for key in _LIMIT_COLUMNS]
+                for row in limits
+            ],
         ),
         "</section>",
         *parts,
@@ -136,14 +133,30 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         *(f"<div>{part}</div>" for part in _numbers(scene)),
         "</div></section>",
     ]
+    return document(about, title, body, asset_text("report.css"))
+
+
+def heading(about: About, title: str) -> list[str]:
+    """The head of a report, as HTML: title, machine, remarks, day, version and link."""
+    when = about.date.strftime("%d %B %Y, %H:%M UTC")
+    link = _link(about.link)
+    return [
+        f"<header><h1>{html_text(title)}</h1>",
+        f"<p>Machine: {html_text(about.machine)}</p>" if about.machine.strip() else "",
+        *(f"<p>{html_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
+        f"<p>{html_text(when)}, Bearing explorer "
+        f"{html_text(program_version())}{f', {link}' if link else ''}</p></header>",
+    ]
+
+
+def document(about: About, title: str, body: Iterable[str], style_sheet: str) -> str:
+    """A whole page of HTML that fetches and runs nothing."""
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
         "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>{_text(title)}, {_text(about.date.strftime('%Y-%m-%d'))}</title>"
-        f"<style>{asset_text('report.css')}</style></head><body>\n"
-        + "\n".join(body)
-        + "\n</body></html>\n"
+        f"<title>{html_text(title)}, {html_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<style>{style_sheet}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n"
     )
 
 
@@ -152,13 +165,14 @@ def now() -> datetime:
     return datetime.now(UTC)
 
 
-def _text(words: str) -> str:
+def html_text(words: str) -> str:
+    """Words as HTML."""
     return html.escape(words, quote=True)
 
 
 def _sentence(words: str) -> str:
     """A sentence in which stiffnesses have their directions under their letter, as on the page."""
-    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", _text(words))
+    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
 
 
 def _link(address: str) -> str:
@@ -169,13 +183,13 @@ def _link(address: str) -> str:
         return ""
     if parts.scheme not in ("http", "https") or not parts.netloc:
         return ""
-    return f"<a href='{_text(address)}'>open this scene</a>"
+    return f"<a href='{html_text(address)}'>open this scene</a>"
 
 
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
     bearing = results.scene.bearing
-    caption = _text(with_elements_of(bearing, view.caption()))
-    title = _text(with_elements_of(bearing, view.title))
+    caption = html_text(with_elements_of(bearing, view.caption()))
+    title = html_text(with_elements_of(bearing, view.title))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{title}</h2><p class='about'>{caption}</p>"
@@ -185,7 +199,7 @@ def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: st
 
 def _compared(results: Results) -> str:
     names = style.list_words([f"“{one.name}”" for one in results.compared])
-    return _text(f"Drawn too: {names}. ") if names else ""
+    return html_text(f"Drawn too: {names}. ") if names else ""
 
 
 def _changes(scene: Scene, about: About) -> str:
@@ -202,17 +216,17 @@ def _changes(scene: Scene, about: About) -> str:
     ]
     chosen = [f"{said}. " for choice in OF_SCENE if (said := choice.sentence(scene))]
     return (
-        f"<p>Bearing: {_text(about.bearing)}. {_text(about.note)}</p>"
+        f"<p>Bearing: {html_text(about.bearing)}. {html_text(about.note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
-        + f"<p>{_text(''.join(chosen))}Directions that can move: "
-        f"{_text(', '.join(scene.active_dofs))}.</p>"
+        + f"<p>{html_text(''.join(chosen))}Directions that can move: "
+        f"{html_text(', '.join(scene.active_dofs))}.</p>"
     )
 
 
 def _numbers(scene: Scene) -> Iterable[str]:
     """Tables of all numbers, a group each; those of defects once a defect."""
-    facts = [[_text(f["label"]), f["symbol"], _text(f["value"])] for f in facts_of(scene)]
-    yield "<h3>Derived quantities</h3>" + _table(["Name", "Symbol", "Value"], facts)
+    facts = [[html_text(f["label"]), f["symbol"], html_text(f["value"])] for f in facts_of(scene)]
+    yield "<h3>Derived quantities</h3>" + html_table(["Name", "Symbol", "Value"], facts)
     groups = dict.fromkeys(q.group for q in SHOWN_FIELDS if q.part not in ("", "floor"))
     for group in groups:
         count = len(defects_of(scene)) if group == _DEFECT_GROUP else 1
@@ -228,20 +242,25 @@ def _numbers(scene: Scene) -> Iterable[str]:
             name = f"{group} {number + 1}" if count > 1 else group
             if rows:
                 head = ["Name", "Symbol", "Value", "Unit"]
-                yield f"<h3>{_text(name)}</h3>" + _table(head, rows)
+                yield f"<h3>{html_text(name)}</h3>" + html_table(head, rows)
 
 
 def _row(field: Field, value: float) -> list[str]:
     shown = f"{value:.9g}".replace("-", "−")
-    return [_text(field.label), field.symbol_html, _text(shown), _text(field.shown_unit)]
+    return [
+        html_text(field.label),
+        field.symbol_html,
+        html_text(shown),
+        html_text(field.shown_unit),
+    ]
 
 
 def _list(sentences: Iterable[str]) -> str:
-    return "<ul>" + "".join(f"<li>{_text(sentence)}</li>" for sentence in sentences) + "</ul>"
+    return "<ul>" + "".join(f"<li>{html_text(sentence)}</li>" for sentence in sentences) + "</ul>"
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def html_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table of cells that are HTML already."""
-    head = "".join(f"<th scope='col'>{_text(word)}</th>" for word in heads)
+    head = "".join(f"<th scope='col'>{html_text(word)}</th>" for word in heads)
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

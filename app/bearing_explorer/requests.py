@@ -10,6 +10,7 @@ import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeVar
 
+from bearing_explorer.measured_report import measured_report
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, now, report
 from bearing_explorer.results import compiling
@@ -225,7 +226,7 @@ class Requests:
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make a report; `base` is the address of the page without its query.
 
-        `words` may hold a title, the machine and remarks.
+        `words` may hold a title, the machine and remarks, and that it is of the measured signal.
         """
         title, machine, remarks = (
             words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
@@ -233,9 +234,12 @@ class Requests:
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
         parts = self._page.for_report()
+        measurement = self._page.measurement.snapshot() if words.get("measured") else None
 
         def make() -> dict[str, Any] | None:
             try:
+                if measurement is not None:
+                    return measured_report(parts.results, measurement, parts.found, about)
                 return report(*parts, about)
             except Exception:
                 log.exception("a report failed")

@@ -2,11 +2,11 @@
 
 const REPORT_WIDTH = 960
 
-async function make_report({ name, html, items, figures }) {
+async function make_report({ name, html, items, figures, width = REPORT_WIDTH }) {
   const place = document.createElement("div")
   place.setAttribute("aria-hidden", "true")
   place.inert = true
-  place.style.cssText = `position: fixed; left: -20000px; top: 0; width: ${REPORT_WIDTH}px`
+  place.style.cssText = `position: fixed; left: -20000px; top: 0; width: ${width}px`
   document.body.append(place)
   const wait = (ms) => new Promise((done) => setTimeout(done, ms))
   const managers = []

@@ -116,11 +116,13 @@ export function render({ model }) {
     machine: element("input", { type: "text", id: "report-machine", maxlength: "200" }),
     remarks: element("textarea", { id: "report-remarks", maxlength: "4000", rows: "3" }),
   }
-  const report = tool("Report of this scene (HTML)", "One page with numbers, warnings and figures", () => {
+  const asks_report = (measured) => {
     say("Making the report …")
     const texts = Object.entries(about).map(([name, box]) => [name, box.value])
-    model.send_msg({ report: location.origin + location.pathname, ...Object.fromEntries(texts) })
-  })
+    model.send_msg({ report: location.origin + location.pathname, measured, ...Object.fromEntries(texts) })
+  }
+  const report = tool("Report of this scene (HTML)", "One page with numbers, warnings and figures",
+                      () => asks_report(false))
   const toml = tool("Scene (TOML)", "A text file for this page and for Python: Scene.from_toml",
                     () => model.send_msg({ want: "toml" }))
   const file = element("input", { type: "file", accept: ".toml,application/toml,text/plain", id: "share-file" })
@@ -176,6 +178,7 @@ export function render({ model }) {
   }
   window.addEventListener("popstate", gone_back)
   on_event("said", root, say)
+  on_event("measured-report", root, () => asks_report(true))
   on_event("asked", root, ({ name }) => { if (name !== going) going = null })
   const failed = (error) => {
     console.warn("the report could not be made", error)

@@ -7,17 +7,29 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from bearing_explorer.measured_report import (
+    FIGURES,
+    NOT_FORESEEN,
+    NOT_JUDGED,
+    ONE_RECORD,
+    measured_report,
+)
+from bearing_explorer.measurement.diagnoses import ExtentQuestion, Question, answered, extent_of
+from bearing_explorer.measurement.session import simulated
 from bearing_explorer.page import SECTIONS
 from bearing_explorer.report import About, mark_of, page, report
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.compared import Compared
+from bearing_explorer.views import part_words
 from bearing_explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.views.modes import NaturalFrequencies
 from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
+from bearingcore.common.numbers import probability
+from tests.helpers.measuring import measuring
 from tests.helpers.stability import found_map
 
 KINDS = [view for section in SECTIONS for view in section.views]
@@ -133,3 +145,58 @@ def test_a_link_is_one_of_the_web_or_none(link: str) -> None:
 def test_a_scene_without_an_answer_has_a_report() -> None:
     made = report(Results(presets["fan-rig"].replace(fy=0.0), 0.0), KINDS, {}, about())
     assert "No answer" in made["html"]
+
+
+def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page() -> None:
+    """With a unit that is guessed and a speed that is typed in; a journey prints the sheet."""
+    scene = presets["6205"]
+    measured = simulated(scene.replace(race="outer", extent=0.2), 20.0, False, 1)
+    recording = dataclasses.replace(measured.recording, name=NASTY)
+    measured = dataclasses.replace(measured, recording=recording)
+    session = measuring(measured)
+    question = Question.about(measured, scene.bearing)
+    own = dataclasses.replace(about(), machine="Pump 3")
+    with pytest.raises(ValueError, match="nothing is diagnosed"):
+        measured_report(Results(scene), session.snapshot(), {}, own)
+    answer = answered(question)
+    asked = ExtentQuestion(measured, scene.bearing, "given", question.geometry, scene.bearing)
+    extent = extent_of(dataclasses.replace(asked, diagnosis=answer))
+    session.diagnoses.keep(question, answer)
+    session.extents.keep(asked, extent)
+    session.state = dataclasses.replace(
+        session.state, values={"unit": "g", "shaft_speed": "30 Hz"}, reasons={"unit": "A guess"}
+    )
+    session._first = {"unit": "g"}
+    made = measured_report(Results(scene), session.snapshot(), {}, own)
+    reader = Reader(made["html"])
+    for said in (
+        f"fan-rig: {NASTY}",
+        "Machine: Pump 3",
+        part_words.headline(answer),
+        f"Probability {probability(answer.probability)}",
+        part_words.extent(extent),
+        "interval of 95 %",
+        part_words.plain(answer, question),
+        part_words.pass_on(answer, question),
+        answer.sentence,
+        *(text for row in part_words.facts(answer, question) for text in row),
+        "Typed in",
+        "A guess",
+        "not given: typical ones, for the extent",
+        NOT_JUDGED,
+        NOT_FORESEEN,
+        ONE_RECORD,
+    ):
+        assert said in reader.words, said
+    assert not {"script", "img"} & set(reader.tags)
+    titles = list(FIGURES.values())
+    assert [title for title in titles if title in reader.words.split("Assumptions")[0]] == titles[
+        1:5
+    ]
+    assert all(made["html"].count(mark_of(figure)) == 1 for figure in made["figures"])
+    assert len(made["figures"]) == len(made["items"]) == 4
+    documents = [Document.from_json(item["doc"]) for item in made["items"]]
+    held = [model.data["level"] for one in documents for model in one.models
+            if model.name == "diagnosis_spectrum"]  # fmt: skip
+    assert len(held) == 1
+    assert np.max(held[0]) > 10.0

@@ -458,8 +458,8 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
     visitor.wait(lambda: abs(visitor.number("Extent") - 38.6) < 0.3)
 
 
-def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen(
-    visitor: Visitor, explorer: Server
+def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_on_one_sheet(
+    visitor: Visitor, explorer: Server, browser: BrowserContext, tmp_path: Path
 ) -> None:
     """Unit, rate, speed and bearing of a made file in the layout of a collection are taken."""
     bearing = catalogue()["NICE, MFPT"].bearing
@@ -478,6 +478,16 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen(
     expect(answer).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Probability .* long|not show"))).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Impacts at .* Hz")).first).to_be_in_viewport()
+    name, sheet = visitor.download(lambda: visitor.press("Report on one page"))
+    (tmp_path / name).write_bytes(sheet)
+    page = browser.new_page()
+    page.goto((tmp_path / name).as_uri())
+    expect(page.get_by_role("heading", name="NICE, MFPT: run.mat")).to_be_visible()
+    drawn = page.locator(".drawing svg").evaluate_all("all => all.map(e => e.clientHeight)")
+    assert len(drawn) == 4
+    assert min(drawn) > 100
+    assert page.pdf(prefer_css_page_size=True).count(b"/Type /Page\n") == 1
+    page.close()
 
 
 def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explorer: Server) -> None:

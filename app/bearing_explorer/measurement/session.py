@@ -7,6 +7,7 @@ opens a form with questions; its faults are sentences, and the signal before it 
 from __future__ import annotations
 
 import asyncio
+import copy
 import dataclasses
 import logging
 import math
@@ -242,6 +243,20 @@ class Measurement:
         return ListQuestion(
             about.measured, about.bearing, about.speed, about.geometry, named, progress
         )
+
+    def snapshot(self) -> Measurement:
+        """A copy for another thread: what is measured and found by now."""
+        made = copy.copy(self)
+        made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
+        made.listed = copy.copy(self.listed)
+        return made
+
+    def source_of(self, name: str) -> str:
+        """Where the value of a field comes from; empty where there is no such field."""
+        value = self.state.values.get(name, "")
+        if value != self._first.get(name, ""):
+            return "Typed in"
+        return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     def redraw(self) -> None:
         """Draw again with what the views know now."""

@@ -16,6 +16,7 @@ from bearing_explorer.measurement.diagnoses import (
     Question,
     answered,
 )
+from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
@@ -105,6 +106,11 @@ class PartDiagnosis(MeasuredView):
         return self.hidden
 
     # What it is about
+
+    def measure(self, measurement: Measurement) -> None:
+        super().measure(measurement)
+        if (newest := measurement.diagnoses.wanted) is not None:
+            self.speed = newest.speed
 
     def question(self, bearing: Bearing) -> Question | None:
         """The question about a bearing; None where nothing is measured."""

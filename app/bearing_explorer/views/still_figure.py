@@ -77,6 +77,8 @@ class Figure:
     recording
         the signal that was measured, for views of a measurement; `in_si`: whether its numbers are
         in m/s².
+    measurement
+        of a session, in place of a recording.
     found
         the result of the computation of the view, where that is known already.
     computed
@@ -96,6 +98,7 @@ class Figure:
         choices: Mapping[str, Any] | None = None,
         recording: Recording | None = None,
         in_si: bool = True,
+        measurement: Measurement | None = None,
         found: Any = None,
         computed: bool = True,
     ) -> None:
@@ -103,7 +106,9 @@ class Figure:
         sources = FilledSources()
         self.view = kind(sources)
         if recording is not None:
-            self.view.take_measurement(_measurement(results.scene, recording, in_si))
+            measurement = _measurement(results.scene, recording, in_si)
+        if measurement is not None:
+            self.view.take_measurement(measurement)
         if found is not None:
             self.view.found = found
         elif choices is not None or (computed and self.view.computes):

@@ -23,6 +23,7 @@ _COPY = """
 navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
+_REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
 
@@ -33,9 +34,12 @@ class PartPanel(pn.Column):
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
-        self._copy = button("Copy the summary", lambda: None, visible=False, align="start")
+        self._copy = button("Copy the summary", lambda: None, align="start")
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
-        super().__init__(self._answer, self._copy, self._summary, **wide)
+        report = button("Report on one page", lambda: None, align="start")
+        report.js_on_click(code=_REPORT)
+        self._actions = row(self._copy, report, visible=False)
+        super().__init__(self._answer, self._actions, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 
     def show(self, state: Mapping[str, Any]) -> None:
@@ -46,7 +50,8 @@ class PartPanel(pn.Column):
         self._answer.object = part_html(state)
         summary = state.get("pass_on", "")
         self._summary.object = summary
-        self._copy.param.update(visible=bool(summary), label="Copy the summary")
+        self._copy.label = "Copy the summary"
+        self._actions.visible = bool(summary)
 
 
 class ListedBearings(pn.Column):

@@ -62,7 +62,7 @@ TEMPERATURE = 3.0
 
 WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
-stated standard deviation that of the errors (`python -m tests.benchmarks.path_effects`)."""
+stated standard deviation that of the errors (`python -m tests.benchmarks.sizing paths`)."""
 
 SLACK = 0.25
 """Of the variance that the extent has where what is left is all that models err by: it counts with

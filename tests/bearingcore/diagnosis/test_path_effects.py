@@ -29,16 +29,6 @@ def plain() -> np.ndarray:
     return recorded(NO_EFFECTS)
 
 
-def test_each_effect_can_be_switched_off_by_name() -> None:
-    every = PathEffects()
-    names = ("cage_wander", "resonances", "knock", "shaft_tones", "noise")
-    off = every.without(*names)
-    assert np.array_equal(recorded(off), recorded(NO_EFFECTS))
-    for name in names:
-        one = every.without(*(set(names) - {name}))
-        assert not np.array_equal(recorded(one), recorded(NO_EFFECTS)), name
-
-
 def test_a_cage_wanders_by_what_is_asked() -> None:
     time = np.arange(20_000) / 10_000.0
     clock = wandering_clock(time, 0.004, SCENE, np.random.default_rng(1))
@@ -81,10 +71,3 @@ def test_knocks_ring_at_the_exits_three_times_as_high(plain: np.ndarray) -> None
     apart = np.diff(begins)[np.diff(begins) > 200] / 20_480.0
     passing = 1.0 / SCENE.bearing.bpfo(SCENE.shaft_speed)
     assert apart == pytest.approx(passing, rel=0.05)
-
-
-def test_what_cannot_be_is_refused_by_name() -> None:
-    with pytest.raises(ValueError, match="cage_wander"):
-        PathEffects(cage_wander=-0.1)
-    with pytest.raises(ValueError, match="damping"):
-        Resonance(100.0, 0.0, (1.0,))

@@ -20,7 +20,7 @@ from bearingcore.files.table import read_table
 from bearingcore.scene.pit import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
-from tests.benchmarks.sizing_proof import SCORED, size_all
+from tests.benchmarks.sizing import FAMILIES, as_given, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 from tests.helpers.simulated import simulated_recording
 
@@ -309,18 +309,18 @@ def _edges(band):
 
 @pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
-    """A small part of `python -m tests.benchmarks.sizing_proof`, with room for bad luck."""
-    answers = size_all(SCORED, 8, noises=(20.0,))
-    right = [a for a in answers if a.kind == "right"]
-    wrong = [a for a in answers if a.kind != "right"]
+    """A small part of `python -m tests.benchmarks.sizing given`, with room for bad luck."""
+    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=(20.0,)), 8))
+    right = [a for a in answers if a.kind == "right, 20 dB"]
+    wrong = [a for a in answers if a not in right]
     assert len(right) == 8
     assert len(wrong) >= 8
-    assert sum(a.right_turns() for a in right) >= 7
-    assert sum(a.right_extent() for a in right) >= 7
-    assert sum(a.right_turns() for a in wrong) >= 0.8 * len(wrong)
-    assert sum(a.right_extent() for a in wrong) >= 0.7 * len(wrong)
+    assert sum(a.right_turns for a in right) >= 7
+    assert sum(a.right_extent for a in right) >= 7
+    assert sum(a.right_turns for a in wrong) >= 0.8 * len(wrong)
+    assert sum(a.right_extent for a in wrong) >= 0.7 * len(wrong)
     sure = [a for a in answers if a.conclusive]
-    assert sum(a.right_turns() for a in sure) >= 0.9 * len(sure)
+    assert sum(a.right_turns for a in sure) >= 0.9 * len(sure)
     # whole ball spacings long, a defect looks like a pit and none is sized
     like_a_pit = [a for a in answers if _from_whole_spacings(a.truth) < 2.0]
     assert not any(a.conclusive for a in like_a_pit)

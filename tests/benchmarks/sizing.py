@@ -1,0 +1,402 @@
+"""How well defects are sized: signals of known defects, drawn by seed, sized, and counted.
+
+    python -m tests.benchmarks.sizing {given,paths,pits,passages} [--count 200] [--each]
+
+All are of the fan rig, whose outer race is known to be damaged; the extent is not given.
+
+given: extents 3-100°, 5-30 Hz, 60-1000 N, depths 15-200 µm, balls that slip by up to 1 %, 1.4 s at
+20,480 Hz in white noise of 40, 20 and 10 dB; then a truth that differs from the given scene in one
+thing, at 20 dB, and for each fourth scene in more than was asked for.
+paths: 4-75°, 6-20 Hz, 80-400 N, behind what real paths add (`tests.helpers.path_effects`).
+--effects names those that are switched on: all, none, or some; --steady sizes as if there were
+none.
+pits: balls with mass at 65,536 Hz (2-20 Hz, 80-400 N, noise at 10-30 dB), with the edges that
+geometry asks for, while the method has its usual ones. A half are pits of 0.2 to 2 mm, which balls
+bridge; a quarter long spalls; an eighth long spalls that differ from whole ball spacings by less
+than 1.5°, so that one ball enters as another leaves, as in a pit; and an eighth long spalls whose
+entry is faint, as their floor sinks slowly over the first third (any place there is right).
+passages: entry to exit (`measure_extent`) on either race, balls with mass, three edge models,
+1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right.
+--load gives the load to the method.
+
+"Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %
+(given), 1.5° or 10 % (paths), 0.5° (pits). Wrong is a size that is off by more than that and by
+more than 4 deviations, or a bound that the truth is beyond.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from bearingcore import Defect, Scene, contact_damping, measure_extent, presets, simulate
+from bearingcore.diagnosis.size.answer import AT_MOST
+from bearingcore.diagnosis.size.sizing import size_defect
+from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
+from bearingcore.scene.pit import pit
+from bearingcore.signals.recording import Recording
+from tests.benchmarks.machine import pace
+from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
+from tests.helpers.simulated import simulated_recording
+
+RIG = presets["fan-rig"]
+SPACING = RIG.bearing.ball_spacing
+FAMILIES = {"given": 2014, "paths": 5812, "pits": 6001, "passages": 777}
+"""Seeds whose signals were never used to choose anything; 77 and 4711 were."""
+EFFECTS = ("cage_wander", "resonances", "knock", "shaft_tones", "noise")
+TOGETHER = 8
+"""Signals of one speed and load: what is simulated to explain them serves for all of them."""
+RAMP = 1.0 / 3.0
+"""Of a spall's extent, over which its floor sinks where the entry is faint."""
+
+
+class Answer(NamedTuple):
+    """One signal, sized. Angles in degrees."""
+
+    kind: str
+    least: float
+    """Extents from this to `truth` are right: they differ where the entry is faint."""
+    truth: float
+    extent: float
+    uncertainty: float
+    probability: float
+    conclusive: bool
+    bound: str
+    limit: float
+    """Where the bound lies; NaN without one."""
+    room: float
+    """How far off an extent may be, or four deviations."""
+    said: str
+    seconds: float
+
+    @property
+    def right_turns(self) -> bool:
+        """Whether the extent lies within half a ball spacing of the truth, said or not."""
+        return abs(self.extent - self.truth) < 0.5 * math.degrees(SPACING)
+
+    @property
+    def right_extent(self) -> bool:
+        """Whether the extent is off by no more than the room."""
+        return self.least - self.room <= self.extent <= self.truth + self.room
+
+    @property
+    def wrong(self) -> bool:
+        """Whether what was said is not so."""
+        if self.conclusive:
+            room = max(self.room, 4.0 * self.uncertainty)
+            return not self.least - room <= self.extent <= self.truth + room
+        if not self.bound:
+            return False
+        return self.limit < self.truth if self.bound == AT_MOST else self.limit > self.truth
+
+    @property
+    def outcome(self) -> str:
+        """What was said."""
+        return "sized" if self.conclusive else "bounded" if self.bound else "refused"
+
+
+def sized(
+    kind: str,
+    truth: Scene,
+    recording: Recording,
+    room: float,
+    *,
+    least: float | None = None,
+    given: Scene | None = None,
+    path: PathTolerances | None = None,
+) -> Answer:
+    """Size a recording of `truth`, whose extent is not looked at; `given` where that differs."""
+    extent = truth.defects[0].extent
+    begin = time.perf_counter()
+    found = size_defect(
+        recording,
+        (given or truth).replace(extent=0.5),
+        fault="outer race",
+        support_known=True,
+        path=path or PathTolerances(),
+    )
+    return Answer(
+        kind,
+        math.degrees(extent if least is None else least),
+        math.degrees(extent),
+        math.degrees(found.best.extent),
+        math.degrees(found.extent_uncertainty),
+        found.best.probability,
+        found.conclusive,
+        found.bound,
+        math.degrees(found.end(found.bound)) if found.bound else math.nan,
+        room,
+        f"{truth.shaft_speed / 2.0 / math.pi:.1f} Hz {-truth.load.fy:.0f} N: {found.sentence}",
+        time.perf_counter() - begin,
+    )
+
+
+def _load_between(rng: np.random.Generator, low: float, high: float) -> float:
+    return -math.exp(rng.uniform(math.log(low), math.log(high)))
+
+
+# --- the scene as given, and one that differs in one thing
+
+
+def _damping(scene: Scene, factor: float) -> Scene:
+    support = scene.support
+    return scene.replace(
+        contact_damping=contact_damping(scene) * factor,
+        damping_x=support.damping_x * factor,
+        damping_y=support.damping_y * factor,
+    )
+
+
+def _stiffness(scene: Scene, factor: float) -> Scene:
+    return scene.replace(
+        load_deflection_factor=scene.bearing.load_deflection_factor * factor,
+        stiffness_x=scene.support.stiffness_x * factor,
+        stiffness_y=scene.support.stiffness_y * factor,
+        contact_damping=contact_damping(scene),
+    )
+
+
+def _load(scene: Scene, factor: float) -> Scene:
+    return scene.replace(fy=scene.load.fy * factor, contact_damping=contact_damping(scene))
+
+
+#: how the truth differs from what the method is given
+WRONG: dict[str, Callable[[Scene], Scene]] = {
+    "edges: chord": lambda scene: scene.replace(edge="chord"),
+    "edges: exact": lambda scene: scene.replace(edge="exact"),
+    "damping half": lambda scene: _damping(scene, 0.5),
+    "damping double": lambda scene: _damping(scene, 2.0),
+    "stiffness -10 %": lambda scene: _stiffness(scene, 0.9),
+    "stiffness +10 %": lambda scene: _stiffness(scene, 1.1),
+    "load -20 %": lambda scene: _load(scene, 0.8),
+    "load +20 %": lambda scene: _load(scene, 1.2),
+}
+#: beyond what was asked for
+WORSE: dict[str, Callable[[Scene], Scene]] = {
+    "depth -30 %": lambda scene: scene.replace(depth=0.7 * scene.defect.depth),
+    "all at once": lambda scene: _load(
+        _stiffness(_damping(scene.replace(edge="exact"), 2.0), 0.9), 1.2
+    ),
+}
+
+
+def as_given(
+    family: int, number: int, noises: Sequence[float] = (40.0, 20.0, 10.0)
+) -> list[Answer]:
+    """The right model at each noise, then one wrong thing at 20 dB."""
+    rng = np.random.default_rng([family, number])
+    scene = RIG.replace(
+        extent=math.radians(rng.uniform(3.0, 100.0)),
+        fy=_load_between(rng, 60.0, 1000.0),
+        shaft_speed=2.0 * math.pi * rng.uniform(5.0, 30.0),
+        depth=math.exp(rng.uniform(math.log(15e-6), math.log(200e-6))),
+    )
+    slip, rate = rng.uniform(-0.01, 0.01), 20_480.0
+
+    def one(kind: str, noise: float, truth: Scene) -> Answer:
+        start = round(rng.uniform(0.2, 0.4) * rate)
+        turning = truth.replace(shaft_speed=truth.shaft_speed * (1.0 + slip))
+        signal = simulate(turning, 1.4 + start / rate, rate).outer_acceleration[start:]
+        level = math.sqrt(float(np.mean(signal**2))) * 10.0 ** (-noise / 20.0)
+        recording = Recording(signal + level * rng.standard_normal(signal.shape), rate)
+        room = max(1.0, 0.05 * math.degrees(scene.defects[0].extent))
+        return sized(f"{kind}, {noise:.0f} dB", truth, recording, room, given=scene)
+
+    kinds = [list(WRONG.items())[number % len(WRONG)]]
+    if number % 4 == 0:
+        kinds.append(list(WORSE.items())[number // 4 % len(WORSE)])
+    return [
+        *(one("right", noise, scene) for noise in noises),
+        *(one(kind, 20.0, change(scene)) for kind, change in kinds),
+    ]
+
+
+# --- behind real paths, pits, and entry to exit
+
+
+def along_paths(
+    family: int, number: int, effects: Sequence[str] = EFFECTS, steady: bool = False
+) -> list[Answer]:
+    """A signal with the effects that are named."""
+    group = np.random.default_rng([family, number // TOGETHER])
+    rng = np.random.default_rng([family, number // TOGETHER, number])
+    scene = RIG.replace(
+        extent=math.radians(rng.uniform(4.0, 75.0)),
+        fy=_load_between(group, 80.0, 400.0),
+        shaft_speed=2.0 * math.pi * group.uniform(6.0, 20.0),
+    )
+    every = PathEffects(resonances=drawn_resonances(rng))
+    recording = recorded_through(scene, every.without(*set(EFFECTS) - set(effects)), seed=number)
+    room = max(1.5, 0.1 * math.degrees(scene.defects[0].extent))
+    return [sized("path", scene, recording, room, path=STEADY if steady else None)]
+
+
+def pits(family: int, number: int) -> list[Answer]:
+    """A signal of a pit or of a long spall."""
+    rng = np.random.default_rng([family, number])
+    kind = (*["pit"] * 4, "long", "long", "whole spacings", "faint entry")[number % 8]
+    rig = RIG.replace(
+        fy=_load_between(rng, 80.0, 400.0),
+        shaft_speed=2.0 * math.pi * math.exp(rng.uniform(math.log(2.0), math.log(20.0))),
+    )
+    decibels = float(rng.uniform(10.0, 30.0))
+    (defect,) = rig.defects
+    least = None
+    if kind == "pit":
+        scene = rig.replace(
+            defect=pit(rig, 1e-3 * math.exp(rng.uniform(math.log(0.2), math.log(2.0))))
+        )
+    else:
+        extent = math.radians(rng.uniform(4.0, 90.0))
+        if kind == "whole spacings":
+            extent = int(rng.integers(1, 4)) * SPACING + math.radians(rng.uniform(-1.5, 1.5))
+        scene = rig.replace(extent=extent, edge="exact")
+        if kind == "faint entry":
+            place = np.linspace(-0.5, 0.5, 401)
+            depth = defect.depth * np.clip((place + 0.5) / RAMP, 0.0, 1.0) * (np.abs(place) < 0.5)
+            # balls go around with rising angle: the floor sinks from the first edge that they meet
+            sinking = Defect.measured(defect.center + place * extent, depth, edge="exact")
+            scene, least = rig.replace(defect=sinking), (1.0 - RAMP) * extent
+    duration = max(1.0, 30.0 / scene.bearing.bpfo(scene.shaft_speed))
+    clean = simulated_recording(scene, duration, 65_536.0, with_mass=True)
+    level = float(clean.acceleration.std()) * 10.0 ** (-decibels / 20.0)
+    noise = np.random.default_rng([family, number, 1]).standard_normal(clean.acceleration.shape)
+    recording = Recording(clean.acceleration + level * noise, 65_536.0, clean.directions)
+    return [sized(kind, scene, recording, 0.5, least=least, given=rig)]
+
+
+def passages(family: int, number: int, with_load: bool = False) -> list[Answer]:
+    """A spall measured from entry to exit, the race being known."""
+    rng = np.random.default_rng([family, number])
+    scene = RIG.replace(
+        extent=math.radians(rng.uniform(1.0, 30.0)),
+        fy=_load_between(rng, 80.0, 400.0),
+        shaft_speed=2.0 * math.pi * rng.uniform(6.0, 20.0),
+        race=("outer", "inner")[number % 2],
+        edge=("exact", "chord", "published")[number // 2 % 3],
+        balls="with mass",
+    )
+    truth = scene.defects[0].extent
+    begin = time.perf_counter()
+    found = measure_extent(
+        recorded_through(scene, PathEffects(resonances=drawn_resonances(rng)), seed=number),
+        scene.bearing,
+        scene.shaft_speed,
+        race=scene.defects[0].race,
+        load=-scene.load.fy if with_load else None,
+    )
+    low = found.low if found.measured else 0.0
+    alike = truth + SPACING * np.arange(-2, 3)
+    alike = alike if found.measured else np.abs(alike)
+    middle, half = math.degrees(0.5 * (low + found.high)), math.degrees(0.5 * (found.high - low))
+    right = float(alike[np.abs(alike - 0.5 * (low + found.high)).argmin()])
+    bounded = math.isfinite(found.high) and not found.measured
+    return [
+        Answer(
+            f"{scene.defects[0].race} race",
+            *[math.degrees(right)] * 2,
+            middle,
+            half / 4.0,
+            math.nan,
+            found.measured,
+            AT_MOST if bounded else "",
+            math.degrees(found.high),
+            0.0,
+            found.sentence or str(found.status),
+            time.perf_counter() - begin,
+        )
+    ]
+
+
+def size_all(
+    one: Callable[[int], list[Answer]], count: int, processes: int = 2
+) -> Iterator[Answer]:
+    """Answers of many signals, in as many processes, which let other work go first."""
+    with ProcessPoolExecutor(processes, initializer=os.nice, initargs=(5,)) as pool:
+        for answers in pool.map(one, range(count), chunksize=TOGETHER if count > 99 else 1):
+            yield from answers
+
+
+def _share(flags: Sequence[bool]) -> str:
+    return f"{100.0 * sum(flags) / len(flags):6.1f}" if flags else "     -"
+
+
+def print_table(answers: Sequence[Answer]) -> None:
+    """Each kind of signal, then what probabilities and deviations are worth."""
+    print(f"{'':24}{'n':>5}{'right k %':>11}{'extent %':>10}{'sized':>7}{'bounded':>9}"
+          f"{'refused':>9}{'wrong':>7}{'error: median':>15}{'nine of ten':>13}")  # fmt: skip
+    for kind in [*dict.fromkeys(a.kind for a in answers), "all"]:
+        group = [a for a in answers if kind in (a.kind, "all")]
+        said = [a.outcome for a in group]
+        errors = [abs(a.extent - a.truth) for a in group if a.right_turns] or [math.nan]
+        print(f"{kind:24}{len(group):5}{_share([a.right_turns for a in group]):>11}"
+              f"{_share([a.right_extent for a in group]):>10}{said.count('sized'):7}"
+              f"{said.count('bounded'):9}{said.count('refused'):9}{sum(a.wrong for a in group):7}"
+              f"{np.median(errors):14.2f}°{np.quantile(errors, 0.9):12.2f}°")  # fmt: skip
+    print("\nprobability of the answer   signals   mean %   right k %")
+    for low, high in ((0.0, 0.5), (0.5, 0.7), (0.7, 0.9), (0.9, 0.99), (0.99, 0.999), (0.999, 1.1)):
+        group = [a for a in answers if low <= a.probability < high]
+        if group:
+            mean = 100.0 * np.mean([a.probability for a in group])
+            right = _share([a.right_turns for a in group])
+            print(f"{low:10.3f} to {min(high, 1.0):5.3f}{len(group):17}{mean:9.2f}{right:>12}")
+    ratio = [
+        (a.extent - a.truth) / a.uncertainty for a in answers if a.conclusive and a.right_turns
+    ]
+    if len(ratio) > 1:
+        print(f"error over stated deviation, of those sized: spread {np.std(ratio):.2f}, median "
+              f"size {np.median(np.abs(ratio)):.2f} (a normal law: 1, 0.67)")  # fmt: skip
+    alone = [a.truth < math.degrees(SPACING) for a in answers]
+    print(f"right k from the time between entry and exit alone: {_share(alone)} %")
+
+
+def main() -> int:
+    """Size the signals and print what came of it."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("set", choices=FAMILIES)
+    parser.add_argument("--count", type=int, default=200, help="scenes")
+    parser.add_argument("--family", type=int, help="the seed of the scenes")
+    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--each", action="store_true", help="print every answer")
+    parser.add_argument("--effects", default="all")
+    parser.add_argument("--steady", action="store_true")
+    parser.add_argument("--load", action="store_true")
+    chosen = parser.parse_args()
+    named = {"all": EFFECTS, "none": ()}.get(chosen.effects, tuple(chosen.effects.split(",")))
+    if unknown := set(named) - set(EFFECTS):
+        parser.error(f"no effects: {', '.join(sorted(unknown))}")
+    family = FAMILIES[chosen.set] if chosen.family is None else chosen.family
+    sets: dict[str, Callable[[int], list[Answer]]] = {
+        "given": partial(as_given, family),
+        "paths": partial(along_paths, family, effects=named, steady=chosen.steady),
+        "pits": partial(pits, family),
+        "passages": partial(passages, family, with_load=chosen.load),
+    }
+    answers = []
+    for a in size_all(sets[chosen.set], chosen.count, chosen.processes):
+        answers.append(a)
+        if chosen.each or a.wrong:
+            print(
+                f"{len(answers):4} {a.kind}: {a.truth:.2f}° taken for {a.extent:.2f}° ± "
+                f"{a.uncertainty:.2f}°, {100.0 * a.probability:.1f} %, "
+                f"{'WRONG, ' * a.wrong}{a.said}",
+                flush=True,
+            )
+    print_table(answers)
+    machine = pace()
+    print(f"a signal {machine.ratio(float(np.median([a.seconds for a in answers])))}; {machine}")
+    return int(any(a.wrong for a in answers))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

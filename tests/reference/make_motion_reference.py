@@ -1,9 +1,16 @@
-"""Motion of the fan rig, integrated by two different families that agree.
+"""Motions integrated by two different families that agree, for the references here.
 
-Writes `motion_reference.npz` beside this file. The equations (Petersen, Howard & Prime 2014,
-Eqs. 18 to 23, published contact law) are written out here and nothing of bearingcore is imported.
+    python -m tests.reference.make_motion_reference    # three minutes
 
-    python -m tests.reference.make_motion_reference            # two minutes
+Nothing of bearingcore is imported: the general contact of Eqs. 7 to 14 (Petersen, Howard & Prime
+2014) is written out here with the law of Eq. 18 along the loaded line of contact:
+
+    N = K δ^1.5 + c δ̇ where δ > 0; "no tension": never below zero;
+    δ̇ the whole time derivative: rings moving, ball turning with the cage, drop changing.
+
+Each body has the free directions out of x, y, z, rx, ry; the contacts act between them, the load
+on the inner ring, springs and dampers on the outer one. Motions start at rest at the static state
+of cage angle 0.
 
 A smaller step of the same method is no reference: where balls meet edges or touch and leave, the
 right-hand side kinks or jumps and the error of every step size is of the same kind. So
@@ -12,234 +19,455 @@ right-hand side kinks or jumps and the error of every step size is of the same k
   by a multistep method of variable order (scipy LSODA), both at a relative tolerance of 1e-12;
 - both stop and start afresh at every known event (a ball meets an edge or the floor) and at every
   found one (a ball touches or leaves), so that each integrates smooth pieces (`event_march.py`);
-- the file says how far the two are apart, and only what both say is a reference.
+- the files say how far the two are apart, and only what both say is a reference.
 
-Contents, for each case in `cases` under the prefix `<case>/`:
+`motion_reference.npz` is the rig of the paper (Table 1, and what is assumed beside it), healthy and
+with both published extents, over 1.4 s. `general_motion_reference.npz` has tilt, axial motion,
+inner-race defects and contacts that cannot pull. Contents, under `<case>/`, of DOP853:
 
-- `scene`: extent [rad], depth [m], contact damping c [N·s/m], duration [s];
-- `acceleration` (n, 2): of the outer ring, x and y, every 16th sample of 65,536 Hz [m/s²];
-- `displacement` (m, 4): inner x, y, outer x, y, every 64th sample [m]; `velocity` likewise [m/s];
-- `density` (1025, 2): Welch, Hann, 2048 points, half overlapping, of all samples [(m/s²)²/Hz],
-  at `frequency` [Hz], which all cases share;
+- `scene`: extent [rad], depth [m], contact damping c [N·s/m], duration [s] of the rig; a JSON text
+  with everything that goes in of the others [SI, rad];
+- `displacement`, `velocity` of inner, then outer ring and `acceleration` of the outer ring [m, rad,
+  s] at 65,536 Hz: every 64th sample and every 16th of the rig, every 32nd of the others;
+- `density` (1025, 2), of the rig alone: Welch, Hann, 2048 points, half overlapping, of all samples
+  [(m/s²)²/Hz], at `frequency` [Hz], which all cases share;
 - `agreement`: greatest difference of the two families: of displacement over its greatest swing
-  about the mean, of acceleration over its greatest value, of the spectrum in dB, 0.3 to 2.1 kHz;
-- `events`: touches and departures found by each family.
-
-The stored values are those of DOP853. The motion starts at rest at the static state of cage angle
-0; the rest of the scene is Table 1 of the paper and what is assumed beside it.
+  about the mean (rotations times the groove centre radius), of acceleration over its greatest
+  value, of the spectrum in dB, 0.3 to 2.1 kHz;
+- `events`: balls beginning or ceasing to press, found by each family.
 """
 
 from __future__ import annotations
 
-import argparse
+import json
 import math
 import time
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
+from mpmath import mp
 from scipy.integrate import DOP853, LSODA
-from scipy.optimize import root
+from scipy.optimize import brentq
 
-from tests.reference.event_march import apart, integrate, spectrum_of
+from tests.reference.event_march import Trace, apart, integrate, spectrum_of
+from tests.reference.make_static_reference import FAN_RIG, LIEW_LIM
+from tests.reference.statics import DOFS, prepare, start
 
 HERE = Path(__file__).parent
-DURATION = 1.4
-CONTACT_DAMPING = 122.0
-N_BALLS, BALL_RADIUS, CLEARANCE, STIFFNESS = 14, 4e-3, 3e-6, 5453e6
-PITCH_RADIUS, OUTER_RADIUS, DEPTH, CENTER = 22.5e-3, 26.5e-3, 50e-6, math.radians(270.0)
-MASS, SUPPORT_STIFFNESS, SUPPORT_DAMPING, LOAD_Y = 2.0, 212.2e6, 1648.2, -100.0
-SHAFT_SPEED = 2.0 * math.pi * 7.0
-CAGE_SPEED = SHAFT_SPEED / 2.0 * (1.0 - BALL_RADIUS / PITCH_RADIUS)  # Equation (3)
-SPACING = 2.0 * math.pi / N_BALLS
-EXTENTS_DEG = {"sound": 0.0, "12.9deg": 12.9, "38.6deg": 38.6}
-# Balls know where they are: outside, on the edge where they enter, on the floor, on the way out.
-OUTSIDE, ENTERING, FLOOR, LEAVING = range(4)
+MICRO, MILLI = 1e-6, 1e-3
+PUBLISHED, CHORD, EXACT_OUTER, EXACT_INNER = range(4)
+OUTSIDE, LOW_EDGE, FLOOR, HIGH_EDGE = range(4)
 
-MICRO = 1e-6
-"""The state is (displacement in µm, velocity in mm/s), so that all its parts are of like size."""
-MILLI = 1e-3
+_GYRATION = 1.25e-3
+SUPPORT = {
+    "inner_mass": 2.0,
+    "outer_mass": 3.0,
+    "stiffness_x": 212.2e6,
+    "stiffness_y": 180e6,
+    "stiffness_z": 90e6,
+    "stiffness_rx": 212.2e6 * _GYRATION,
+    "stiffness_ry": 150e6 * _GYRATION,
+    "damping_x": 1648.2,
+    "damping_y": 1200.0,
+    "damping_z": 900.0,
+    "damping_rx": 1648.2 * _GYRATION,
+    "damping_ry": 1100.0 * _GYRATION,
+    "inner_inertia": 2.0 * _GYRATION,
+    "outer_inertia": 3.5 * _GYRATION,
+}
+
+
+def load(**values: float) -> dict[str, float]:
+    """All five, zero where not given [N, N·m]."""
+    return {"fx": 0.0, "fy": 0.0, "fz": 0.0, "mx": 0.0, "my": 0.0, **values}
+
+
+def defect(extent: float, depth: float, center: float, race: str, edge: str) -> dict[str, Any]:
+    """Angles in degrees, depth in µm."""
+    return {
+        "extent": math.radians(extent),
+        "depth": depth * 1e-6,
+        "center": math.radians(center),
+        "race": race,
+        "edge": edge,
+    }
+
+
+CASES: dict[str, dict[str, Any]] = {
+    "five DOFs": {
+        "bearing": LIEW_LIM,
+        "defect": defect(40.0, 50.0, 270.0, "outer", "published"),
+        "load": load(fy=-2000.0, fz=500.0),
+        "shaft_speed": 2.0 * math.pi * 7.0,
+        "contact_damping": 300.0,
+        "contact_law": "published",
+        "dofs": DOFS,
+        "duration": 0.25,
+    },
+    "five DOFs, inner race": {
+        "bearing": LIEW_LIM,
+        "defect": defect(25.0, 20.0, 250.0, "inner", "exact"),
+        "load": load(fx=200.0, fy=-1500.0, fz=700.0, mx=2.0, my=-3.0),
+        "shaft_speed": 2.0 * math.pi * 12.0,
+        "contact_damping": 300.0,
+        "contact_law": "no tension",
+        "dofs": DOFS,
+        "duration": 0.2,
+    },
+    "three DOFs, no tension": {
+        "bearing": {**FAN_RIG, "contact_angle": math.radians(15.0)},
+        "defect": defect(12.9, 50.0, 270.0, "outer", "chord"),
+        "load": load(fy=-100.0, fz=60.0),
+        "shaft_speed": 2.0 * math.pi * 9.0,
+        "contact_damping": 600.0,
+        "contact_law": "no tension",
+        "dofs": ("x", "y", "z"),
+        "duration": 0.25,
+    },
+    "two DOFs, inner race": {
+        "bearing": FAN_RIG,
+        "defect": defect(20.0, 50.0, 250.0, "inner", "chord"),
+        "load": load(fy=-100.0),
+        "shaft_speed": 2.0 * math.pi * 15.0,
+        "contact_damping": 122.0,
+        "contact_law": "published",
+        "dofs": ("x", "y"),
+        "duration": 0.25,
+    },
+    "two DOFs, no tension": {
+        "bearing": FAN_RIG,
+        "defect": defect(12.9, 50.0, 270.0, "outer", "published"),
+        "load": load(fy=-100.0),
+        "shaft_speed": 2.0 * math.pi * 20.0,
+        "contact_damping": 600.0,
+        "contact_law": "no tension",
+        "dofs": ("x", "y"),
+        "duration": 0.25,
+    },
+}
+
+
+RIG_SUPPORT = {
+    **SUPPORT,
+    "outer_mass": 2.0,
+    "stiffness_y": 212.2e6,
+    "damping_y": 1648.2,
+}
+RIG_CASES = {
+    name: {
+        "bearing": FAN_RIG,
+        "support": RIG_SUPPORT,
+        "defect": defect(extent, 50.0, 270.0, "outer", "published"),
+        "load": load(fy=-100.0),
+        "shaft_speed": 2.0 * math.pi * 7.0,
+        "contact_damping": 122.0,
+        "contact_law": "published",
+        "dofs": ("x", "y"),
+        "duration": 1.4,
+    }
+    for name, extent in (("sound", 0.0), ("12.9deg", 12.9), ("38.6deg", 38.6))
+}
 
 
 @numba.njit
-def drop(angle: float, where: int, extent: float) -> tuple[float, float]:
-    """Path of the ball centre d(φ) [m] and its slope [m/rad], Equation (6), within one piece."""
-    if where == OUTSIDE:
-        return 0.0, 0.0
+def edge_drop(s: float, code: int, radius: float, ball_radius: float) -> tuple[float, float]:
+    """Drop [m] and slope [m/rad] at angle s from an edge, smooth past both ends."""
+    if code in (PUBLISHED, CHORD):
+        reach = (0.5 if code == PUBLISHED else 1.0) * radius
+        root = math.sqrt(ball_radius**2 - reach**2 * s**2)
+        return ball_radius - root, reach**2 * s / root
+    c, si = math.cos(s), math.sin(s)
+    root = math.sqrt(ball_radius**2 - radius**2 * si**2)
+    if code == EXACT_OUTER:
+        return radius * c - root - (radius - ball_radius), -radius * si + radius**2 * si * c / root
+    return (radius + ball_radius) - (radius * c + root), radius * si + radius**2 * si * c / root
+
+
+@numba.njit
+def ball(
+    phi: float,
+    cage_speed: float,
+    q: np.ndarray,
+    v: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
+    where: int,
+    turn: float,
+) -> tuple[float, float, float, float]:
+    """Compression δ [m], its rate [m/s] and the direction (e_r, e_z) of the line of contact."""
+    alpha, arm, distance, clearance = numbers[0], numbers[1], numbers[2], numbers[3]
+    code, radius, ball_radius = int(path[0]), path[1], path[2]
+    half, depth, center, relative_speed = path[3], path[4], path[5], path[6]
+    d, d_rate = 0.0, 0.0
     if where == FLOOR:
-        return DEPTH, 0.0
-    away = angle - CENTER
-    away -= 2.0 * math.pi * np.rint(away / (2.0 * math.pi))
-    # measured from the edge the ball is at, so that the piece continues smoothly past its ends
-    s = 0.5 * extent + away if where == ENTERING else 0.5 * extent - away
-    root_ = math.sqrt(BALL_RADIUS**2 - 0.25 * OUTER_RADIUS**2 * s**2)
-    slope = 0.25 * OUTER_RADIUS**2 * s / root_
-    return BALL_RADIUS - root_, slope if where == ENTERING else -slope
+        d = depth
+    elif where != OUTSIDE:
+        away = phi - center - turn
+        away -= 2.0 * math.pi * np.rint(away / (2.0 * math.pi))
+        sign = 1.0 if where == LOW_EDGE else -1.0
+        d, slope = edge_drop(half + sign * away, code, radius, ball_radius)
+        d_rate = sign * slope * relative_speed
+    c, s = math.cos(phi), math.sin(phi)
+    u_r, u_z = math.cos(alpha), math.sin(alpha)
+    r = distance * u_r + q[0] * c + q[1] * s - clearance - d * u_r
+    z = distance * u_z + q[2] + arm * (q[3] * s - q[4] * c) - d * u_z
+    r_rate = v[0] * c + v[1] * s + cage_speed * (q[1] * c - q[0] * s) - d_rate * u_r
+    z_rate = v[2] + arm * (v[3] * s - v[4] * c) + arm * cage_speed * (q[3] * c + q[4] * s)
+    z_rate -= d_rate * u_z
+    along, along_rate = r * u_r + z * u_z, r_rate * u_r + z_rate * u_z
+    if along < 0.0:
+        r, z = r - along * u_r, z - along * u_z
+        r_rate, z_rate = r_rate - along_rate * u_r, z_rate - along_rate * u_z
+    a = math.sqrt(r * r + z * z)
+    if a == 0.0:  # a guarded ball without axial displacement: a gap
+        return -distance, 0.0, u_r, u_z
+    return a - distance, (r * r_rate + z * z_rate) / a, r / a, z / a
 
 
 @numba.njit
-def compressions(
-    t: float, y: np.ndarray, where: np.ndarray, extent: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Compression of each ball and its rate [m, m/s], Equation (19), negative for gaps."""
-    delta, rate = np.empty(N_BALLS), np.empty(N_BALLS)
-    dx, dy = (y[0] - y[2]) * MICRO, (y[1] - y[3]) * MICRO
-    vx, vy = (y[4] - y[6]) * MILLI, (y[5] - y[7]) * MILLI
-    for j in range(N_BALLS):
-        phi = CAGE_SPEED * t + SPACING * j
-        c, s = math.cos(phi), math.sin(phi)
-        d, slope = drop(phi, where[j], extent)
-        delta[j] = dx * c + dy * s - CLEARANCE - d
-        rate[j] = vx * c + vy * s + CAGE_SPEED * (dy * c - dx * s - slope)
-    return delta, rate
+def relative(y: np.ndarray, free: np.ndarray, arm: float) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement and velocity of the inner against the outer ring, all five [m, rad, 1/s]."""
+    q, v, m = np.zeros(5), np.zeros(5), len(free)
+    for i in range(m):
+        lever = arm if free[i] >= 3 else 1.0
+        q[free[i]] = (y[i] - y[m + i]) * MICRO / lever
+        v[free[i]] = (y[2 * m + i] - y[3 * m + i]) * MILLI / lever
+    return q, v
+
+
+@numba.njit
+def press(
+    t: float,
+    y: np.ndarray,
+    free: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
+    where: np.ndarray,
+    no_tension: bool,
+) -> np.ndarray:
+    """Positive for balls that press: compression in µm, and with it the force in N."""
+    q, v = relative(y, free, numbers[1])
+    out = np.empty(len(where))
+    for j in range(len(where)):
+        phi = numbers[6] * t + 2.0 * math.pi * j / len(where)
+        delta, rate, _, _ = ball(phi, numbers[6], q, v, numbers, path, where[j], path[7] * t)
+        out[j] = delta / MICRO
+        if no_tension:
+            force = numbers[5] * rate
+            if delta > 0.0:
+                force += numbers[4] * delta * math.sqrt(delta)
+            out[j] = min(out[j], force)
+    return out
 
 
 @numba.njit
 def right_hand_side(
     t: float,
     y: np.ndarray,
-    touching: np.ndarray,
+    free: np.ndarray,
+    numbers: np.ndarray,
+    path: np.ndarray,
     where: np.ndarray,
-    extent: float,
-    damping: float,
+    pressing: np.ndarray,
+    bodies: np.ndarray,
+    force: np.ndarray,
 ) -> np.ndarray:
-    """Equation (18) with the set of touching balls held."""
-    delta, rate = compressions(t, y, where, extent)
-    fx, fy = 0.0, 0.0
-    for j in range(N_BALLS):
-        if touching[j]:
-            force = damping * rate[j]
-            if delta[j] > 0.0:
-                force += STIFFNESS * delta[j] * math.sqrt(delta[j])
-            phi = CAGE_SPEED * t + SPACING * j
-            fx += force * math.cos(phi)
-            fy += force * math.sin(phi)
-    out = np.empty(8)
-    out[:4] = y[4:] * (MILLI / MICRO)
-    out[4] = -fx / MASS
-    out[5] = (LOAD_Y - fy) / MASS
-    out[6] = (fx - SUPPORT_STIFFNESS * y[2] * MICRO - SUPPORT_DAMPING * y[6] * MILLI) / MASS
-    out[7] = (fy - SUPPORT_STIFFNESS * y[3] * MICRO - SUPPORT_DAMPING * y[7] * MILLI) / MASS
-    out[4:] /= MILLI
+    """Equation (18) with the set of pressing balls held; `bodies`: m_i, m_o, k_o, c_o by DOF."""
+    arm = numbers[1]
+    q, v = relative(y, free, arm)
+    sums = np.zeros(5)
+    for j in range(len(where)):
+        if not pressing[j]:
+            continue
+        phi = numbers[6] * t + 2.0 * math.pi * j / len(where)
+        delta, rate, e_r, e_z = ball(phi, numbers[6], q, v, numbers, path, where[j], path[7] * t)
+        push = numbers[5] * rate
+        if delta > 0.0:
+            push += numbers[4] * delta * math.sqrt(delta)
+        c, s = math.cos(phi), math.sin(phi)
+        sums += push * np.array([e_r * c, e_r * s, e_z, arm * e_z * s, -arm * e_z * c])
+    m = len(free)
+    out = np.empty(4 * m)
+    out[: 2 * m] = y[2 * m :] * (MILLI / MICRO)
+    for i in range(m):
+        k = free[i]
+        lever = arm if k >= 3 else 1.0
+        out[2 * m + i] = (force[k] - sums[k]) / bodies[0, k] * lever / MILLI
+        back = bodies[2, k] * y[m + i] * MICRO + bodies[3, k] * y[3 * m + i] * MILLI
+        out[3 * m + i] = (sums[k] - back / lever) / bodies[1, k] * lever / MILLI
     return out
 
 
-def floor_arc() -> float:
-    """Angle from an edge at which the ball centre reaches the floor, published edges [rad]."""
-    return math.sqrt(BALL_RADIUS**2 - (BALL_RADIUS - DEPTH) ** 2) / (0.5 * OUTER_RADIUS)
+class General:
+    """A case as a system for `event_march`; rotations are scaled by the groove centre radius."""
 
+    def __init__(self, case: dict[str, Any]) -> None:
+        bearing, cut, support = case["bearing"], case["defect"], case["support"]
+        self.case = case
+        self.n_balls = bearing["n_balls"]
+        self.free = np.array([DOFS.index(name) for name in case["dofs"]])
+        ratio = bearing["ball_diameter"] / bearing["pitch_diameter"]
+        shaft = case["shaft_speed"]
+        cage = 0.5 * shaft * (1.0 - ratio * math.cos(bearing["contact_angle"]))  # Equation (3)
+        inner = cut["race"] == "inner"
+        code = {"published": PUBLISHED, "chord": CHORD, "exact": EXACT_OUTER}[cut["edge"]]
+        code = EXACT_INNER if inner and code == EXACT_OUTER else code
+        radius = bearing[f"{cut['race']}_raceway_radius"]
+        ball_radius = bearing["ball_diameter"] / 2.0
+        self.relative_speed = cage - shaft if inner else cage
+        self.numbers = np.array(
+            [
+                bearing["contact_angle"],
+                bearing["groove_center_radius"],
+                bearing["groove_center_distance"],
+                bearing["radial_clearance"],
+                bearing["load_deflection_factor"],
+                case["contact_damping"],
+                cage,
+            ]
+        )
+        self.half, depth = cut["extent"] / 2.0, cut["depth"]
+        self.path = np.array(
+            [
+                code,
+                radius,
+                ball_radius,
+                self.half,
+                depth,
+                cut["center"],
+                self.relative_speed,
+                shaft if inner else 0.0,
+            ]
+        )
+        self.arc = 0.0
+        if self.half:
+            self.arc = brentq(
+                lambda s: edge_drop(s, code, radius, ball_radius)[0] - depth,
+                0.0,
+                0.9 * ball_radius / radius,
+                xtol=1e-16,
+                rtol=1e-15,
+            )
+            assert self.arc < self.half
+        self.no_tension = case["contact_law"] == "no tension"
+        mass = ["mass"] * 3 + ["inertia"] * 2
+        self.bodies = np.array(
+            [
+                [support[f"inner_{kind}"] for kind in mass],
+                [support[f"outer_{kind}"] for kind in mass],
+                [support[f"stiffness_{dof}"] for dof in DOFS],
+                [support[f"damping_{dof}"] for dof in DOFS],
+            ]
+        )
+        self.force = np.array([case["load"][key] for key in ("fx", "fy", "fz", "mx", "my")])
+        self.levers = np.where(self.free >= 3, bearing["groove_center_radius"], 1.0)
+        self.scale = np.concatenate(
+            [MICRO / np.tile(self.levers, 2), MILLI / np.tile(self.levers, 2)]
+        )
 
-def pieces_of_path(extent: float) -> list[tuple[float, int]]:
-    """Angles from the centre at which a ball's piece of path begins, and which piece."""
-    if extent == 0.0:
-        return []
-    half, arc = 0.5 * extent, floor_arc()
-    assert arc < half, "the floor is not reached; this script does not need that case"
-    return [(-half, ENTERING), (-half + arc, FLOOR), (half - arc, LEAVING), (half, OUTSIDE)]
+    def away(self, t: float, ball_: int) -> float:
+        """Angle of a ball from the middle of the defect, not wrapped."""
+        start = 2.0 * math.pi * ball_ / self.n_balls - self.case["defect"]["center"]
+        return start + self.relative_speed * t
 
-
-def where_balls_are(t: float, extent: float) -> np.ndarray:
-    """Piece of path of each ball at a time that is not an event."""
-    where = np.zeros(N_BALLS, dtype=np.int64)
-    for j in range(N_BALLS):
-        away = math.remainder(CAGE_SPEED * t + SPACING * j - CENTER, 2.0 * math.pi)
-        for start, piece in pieces_of_path(extent):
-            if away >= start:
-                where[j] = piece
-    return where
-
-
-def known_events(extent: float, duration: float) -> list[float]:
-    """Times at which balls meet an edge or the floor."""
-    times = set()
-    for start, _ in pieces_of_path(extent):
-        first = (CENTER + start) % SPACING / CAGE_SPEED
-        period = SPACING / CAGE_SPEED
-        times.update(first + k * period for k in range(int(duration / period) + 2))
-    return sorted(t for t in times if 0.0 < t < duration)
-
-
-def static_state(extent: float) -> np.ndarray:
-    """Rest at the static displacement of cage angle 0: Equation (15) by scipy."""
-    where = where_balls_are(0.0, extent)
-
-    def unbalanced(relative: np.ndarray) -> np.ndarray:
-        y = np.concatenate([relative, np.zeros(6)])
-        delta, _ = compressions(0.0, y, where, extent)
-        force = STIFFNESS * np.maximum(delta, 0.0) ** 1.5
-        phi = SPACING * np.arange(N_BALLS)
-        return np.array([force @ np.cos(phi), force @ np.sin(phi) - LOAD_Y]) / abs(LOAD_Y)
-
-    found = root(unbalanced, np.array([0.0, -12.0]), tol=1e-15)
-    assert np.abs(unbalanced(found.x)).max() < 1e-13
-    outer = LOAD_Y / SUPPORT_STIFFNESS / MICRO
-    return np.array([found.x[0], found.x[1] + outer, 0.0, outer, 0.0, 0.0, 0.0, 0.0])
-
-
-class FanRig:
-    """The fan rig with a defect of some extent [rad], for `event_march`."""
-
-    scale = np.repeat([MICRO, MILLI], 4)
-
-    def __init__(self, extent: float, damping: float) -> None:
-        self.extent, self.damping = extent, damping
-
-    def start(self) -> np.ndarray:
-        """Rest at the static displacement of cage angle 0."""
-        return static_state(self.extent)
+    def boundaries(self) -> list[float]:
+        """Angles from the middle at which pieces of path begin; none without a defect."""
+        if not self.half:
+            return []
+        return [-self.half, -self.half + self.arc, self.half - self.arc, self.half]
 
     def known_events(self, duration: float) -> list[float]:
         """Times at which balls meet an edge or the floor."""
-        return known_events(self.extent, duration)
+        turns = int(abs(self.relative_speed) * duration / (2.0 * math.pi)) + 2
+        times = {
+            (edge + 2.0 * math.pi * k - self.away(0.0, j)) / self.relative_speed
+            for edge in self.boundaries()
+            for j in range(self.n_balls)
+            for k in range(-turns - 1, turns + 2)
+        }
+        inside = sorted(t for t in times if 1e-9 < t < duration)
+        # two balls may meet edges at one time but for rounding
+        return [t for t, after in pairwise([*inside, duration]) if after - t > 1e-12]
 
     def where(self, t: float) -> np.ndarray:
         """Piece of path of each ball."""
-        return where_balls_are(t, self.extent)
+        pieces = (LOW_EDGE, FLOOR, HIGH_EDGE, OUTSIDE)
+        out = np.zeros(self.n_balls, dtype=np.int64)
+        for j in range(self.n_balls):
+            away = math.remainder(self.away(t, j), 2.0 * math.pi)
+            for edge, piece in zip(self.boundaries(), pieces, strict=False):
+                if away >= edge:
+                    out[j] = piece
+        return out
+
+    def start(self) -> np.ndarray:
+        """Rest at the static state of cage angle 0."""
+        with mp.workdps(20):
+            ready = prepare({**self.case, "cage_angle": 0.0})
+            q = start(ready, list(self.free))[self.free]
+        outer = (self.force / self.bodies[2])[self.free]
+        y = np.concatenate([q + outer, outer]) * np.tile(self.levers, 2) / MICRO
+        return np.concatenate([y, np.zeros_like(y)])
 
     def indicator(self, t: float, y: np.ndarray, where: np.ndarray) -> np.ndarray:
-        """Compression: with the published law a ball presses, or pulls, from touch to touch."""
-        return compressions(t, y, where, self.extent)[0]
+        """See `press`."""
+        return press(t, y, self.free, self.numbers, self.path, where, self.no_tension)
 
     def slope(self, t: float, y: np.ndarray, pressing: np.ndarray, where: np.ndarray) -> np.ndarray:
-        """Equation (18)."""
-        return right_hand_side(t, y, pressing, where, self.extent, self.damping)
+        """See `right_hand_side`."""
+        return right_hand_side(
+            t, y, self.free, self.numbers, self.path, where, pressing, self.bodies, self.force
+        )
+
+
+def integrated(name: str, case: dict[str, Any]) -> tuple[Trace, dict[str, Any]]:
+    """The motion by DOP853, and what both families say of each other."""
+    system, traces = General(case), []
+    for solver in (DOP853, LSODA):
+        began = time.perf_counter()
+        traces.append(integrate(solver, system, case["duration"], 1e-12))
+        print(f"{name}, {solver.__name__}: {traces[-1].events} events, "
+              f"{time.perf_counter() - began:.1f} s", flush=True)  # fmt: skip
+    agreement = apart(*traces, units=system.levers)
+    print(f"{name}: apart by {agreement[0]:.1e} (displacement), {agreement[1]:.1e} "
+          f"(acceleration), {agreement[2]:.1e} dB", flush=True)  # fmt: skip
+    return traces[0], {
+        f"{name}/agreement": agreement,
+        f"{name}/events": np.array([trace.events for trace in traces]),
+    }
+
+
+def kept(name: str, motion: Trace, state: int, acceleration: int) -> dict[str, Any]:
+    """Each so many-th sample."""
+    both = motion.state.shape[1] // 2
+    return {
+        f"{name}/displacement": motion.state[::state, :both],
+        f"{name}/velocity": motion.state[::state, both:],
+        f"{name}/acceleration": motion.acceleration[::acceleration],
+    }
 
 
 def main() -> None:
     """Integrate all cases by both families and store what they agree on."""
-    parser = argparse.ArgumentParser(description="Motion reference by two families.")
-    parser.add_argument("--duration", type=float, default=DURATION, help="seconds of motion")
-    parser.add_argument("--tolerance", type=float, default=1e-12)
-    parser.add_argument("--dry", action="store_true", help="print the agreement, store nothing")
-    options = parser.parse_args()
-    stored: dict[str, Any] = {"cases": np.array(list(EXTENTS_DEG))}
-    for name, extent_deg in EXTENTS_DEG.items():
-        traces = []
-        for solver in (DOP853, LSODA):
-            start = time.perf_counter()
-            extent = math.radians(extent_deg)
-            rig = FanRig(extent, CONTACT_DAMPING)
-            traces.append(integrate(solver, rig, options.duration, options.tolerance))
-            print(f"{name} {solver.__name__}: {traces[-1].events} events, "
-                  f"{time.perf_counter() - start:.1f} s", flush=True)  # fmt: skip
-        agreement = apart(*traces)
-        print(f"{name}: apart by {agreement[0]:.1e} (displacement), {agreement[1]:.1e} "
-              f"(acceleration), {agreement[2]:.1e} dB", flush=True)  # fmt: skip
-        best = traces[0]
-        frequency, density = spectrum_of(best.acceleration)
-        stored["frequency"] = frequency
-        stored |= {
-            f"{name}/scene": np.array([extent, DEPTH, CONTACT_DAMPING, options.duration]),
-            f"{name}/acceleration": best.acceleration[::16],
-            f"{name}/displacement": best.state[::64, :4],
-            f"{name}/velocity": best.state[::64, 4:],
-            f"{name}/density": density,
-            f"{name}/agreement": agreement,
-            f"{name}/events": np.array([trace.events for trace in traces]),
-        }
-    if not options.dry:
-        np.savez_compressed(HERE / "motion_reference.npz", **stored)
+    stored: dict[str, Any] = {"cases": np.array(list(RIG_CASES))}
+    for name, case in RIG_CASES.items():
+        motion, proof = integrated(name, case)
+        stored["frequency"], density = spectrum_of(motion.acceleration)
+        cut = case["defect"]
+        scene = [cut["extent"], cut["depth"], case["contact_damping"], case["duration"]]
+        stored |= kept(name, motion, 64, 16) | proof
+        stored |= {f"{name}/scene": np.array(scene), f"{name}/density": density}
+    np.savez_compressed(HERE / "motion_reference.npz", **stored)
+    stored = {"cases": np.array(list(CASES))}
+    for name, case in CASES.items():
+        whole = {**case, "support": SUPPORT}
+        motion, proof = integrated(name, whole)
+        stored |= kept(name, motion, 32, 32) | proof
+        stored[f"{name}/scene"] = np.array(json.dumps(whole))
+    np.savez_compressed(HERE / "general_motion_reference.npz", **stored)
 
 
 if __name__ == "__main__":

@@ -122,7 +122,7 @@ def picture_of(
 def drawing_of(results: Results, view: View) -> Drawing:
     """The drawing of a view, or a sentence with the reason why there is none."""
     try:
-        return Drawing(view, view.data(results), view.sentence(results))
+        return Drawing(view, view.all_data(results), view.sentence(results))
     except Overtaken:
         raise
     except compiling.StillCompiling as wait:

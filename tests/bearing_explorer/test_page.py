@@ -89,7 +89,7 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
             "which is left out."
         )
         return
-    data, ranges = made.data(results)
+    data, ranges = made.all_data(results)
     assert packed.pack(data, ranges).size > 3 or isinstance(made, ControlView)
     assert all(np.isfinite(limits).all() and limits[0] != limits[1] for limits in ranges.values())
     assert made.sentence(results).endswith(".")

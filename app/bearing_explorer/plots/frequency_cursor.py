@@ -82,7 +82,3 @@ class FrequencyCursor:
         """The source: turns a second of shaft and cage, and the hertz that a 1 on the axis is."""
         values = (shaft / per, cage / per, per)
         return {self._name: {n: np.array([v]) for n, v in zip(_TURNING, values, strict=True)}}
-
-    def nothing(self) -> dict[str, dict[str, np.ndarray]]:
-        """The source without a signal."""
-        return {self._name: dict.fromkeys(_TURNING, np.zeros(0))}

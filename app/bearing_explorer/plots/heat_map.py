@@ -308,10 +308,6 @@ class GridImage:
         assert len(layers) == self._n_layers
         return {"packed": np.concatenate([head, *(np.ravel(layer) for layer in layers)])}
 
-    def nothing(self) -> dict[str, np.ndarray]:
-        """The source's columns while there is nothing to draw."""
-        return {"packed": np.zeros(0)}
-
 
 def ends(values: NDArray[np.float64]) -> tuple[float, float]:
     """Where cells around evenly spaced values begin and end."""

@@ -214,14 +214,6 @@ def by_number(column: str, colors: Sequence[str]) -> dict[str, Any]:
     return {"field": column, "transform": mapper}
 
 
-def nothing(layers: Iterable[Layer]) -> dict[str, dict[str, Any]]:
-    """The sources that layers name, with empty columns."""
-    columns: dict[str, dict[str, Any]] = {}
-    for layer in layers:
-        columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns, np.zeros(0)))
-    return columns
-
-
 def with_gaps(
     curves: Iterable[tuple[NDArray[np.float64], NDArray[np.float64]]], x: str, y: str
 ) -> dict[str, NDArray[np.float64]]:

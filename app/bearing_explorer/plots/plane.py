@@ -263,15 +263,6 @@ class PlaneFigures:
             f"{name}_colors": color_limits(values),
         }
 
-    def nothing(self) -> dict[str, dict[str, np.ndarray]]:
-        """The sources while there is nothing to draw."""
-        none = np.zeros(0)
-        return {
-            f"{self._name}_cells": self._image.nothing(),
-            f"{self._name}_mark": dict.fromkeys(("x", "y"), none),
-            f"{self._name}_counts": dict.fromkeys(_BAR_SIDES, none),
-        }
-
 
 _NAMELESS = style.AxisQuantity("", "", "")
 _BAR_SIDES = ("left", "right", "top")

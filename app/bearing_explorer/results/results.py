@@ -79,14 +79,8 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
     return Results(scene, cage_angle, settings, moving=moving).chain
 
 
-def _load_curves(found: Equilibrium) -> list[Curve]:
-    return [load_curve(found, row) for row in range(len(found.scene.bearing.all_rows))]
-
-
 class Results:
     """What the views read. Attributes are computed when first asked for, in any thread.
-
-    Attributes that begin with ``healthy_`` are of the bearing without its defect.
 
     Parameters
     ----------
@@ -108,6 +102,8 @@ class Results:
         steel, oil and surfaces as entered on the Life tab.
     give_up
         called in long searches: whether the results are no longer wanted.
+    like
+        other results, over whose stretch and with whose steps these are computed.
     """
 
     slow = SLOW
@@ -124,6 +120,7 @@ class Results:
         before: Scene | None = None,
         life_inputs: LifeInputs | None = None,
         give_up: Callable[[], bool] | None = None,
+        like: Results | None = None,
     ) -> None:
         self.scene = scene
         self.cage_angle = cage_angle
@@ -134,6 +131,19 @@ class Results:
         self.before = before
         self.life_inputs = life_inputs or LifeInputs()
         self._give_up = give_up
+        self._like = like
+
+    def alike(self, scene: Scene) -> Results:
+        """Results of another scene, over the stretch and with the steps of these."""
+        moving, give_up = self.moving, self._give_up
+        return Results(
+            scene, self.cage_angle, self.settings, moving=moving, give_up=give_up, like=self
+        )
+
+    @cached_property
+    def healthy(self) -> Results:
+        """Those of the bearing without its defect."""
+        return self.alike(self.scene.healthy())
 
     @cached_property
     def of_compared(self) -> list[Results]:
@@ -144,14 +154,10 @@ class Results:
             for one in self.compared
         ]
 
-    def over_stretch_of(self, other: Results) -> tuple[Scene, float, float, int]:
-        """The scene of other results, and the stretch over which the curves of these are drawn."""
-        return other.scene, *self.stretch
-
     @cached_property
-    def compared_equilibria(self) -> list[Equilibrium]:
-        """Static answers of the compared scenes over the stretch."""
-        return [statics.curves(*self.over_stretch_of(other)) for other in self.of_compared]
+    def compared_alike(self) -> list[Results]:
+        """The same, over the stretch of these."""
+        return [self.alike(one.scene) for one in self.compared]
 
     @property
     def reference_label(self) -> str:
@@ -171,6 +177,8 @@ class Results:
         have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
         soon: then the turn of the shaft that the cage angle shown lies in.
         """
+        if self._like is not None:
+            return self._like.stretch
         settings = self.settings
         n = settings.n_cage_angles
         if self.moving:
@@ -201,15 +209,10 @@ class Results:
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
-    def healthy_equilibrium(self) -> Equilibrium:
-        """The same without the defect."""
-        return statics.curves(self.scene.healthy(), *self.stretch)
-
-    @cached_property
     def load_curves(self) -> list[Curve]:
         """Load [N] of a ball over its angle [rad], a curve a row."""
-        return _load_curves(self.equilibrium)
+        rows = range(len(self.scene.bearing.all_rows))
+        return [load_curve(self.equilibrium, row) for row in rows]
 
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
@@ -219,11 +222,6 @@ class Results:
             return []
         rows = range(len(found.scene.bearing.all_rows))
         return [load_curve(found, row, found.inner_load) for row in rows]
-
-    @cached_property
-    def healthy_load_curves(self) -> list[Curve]:
-        """The same without the defect."""
-        return _load_curves(self.healthy_equilibrium)
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -239,13 +237,7 @@ class Results:
     @of_kind(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
-        return statics.modes(*self.over_stretch_of(self))
-
-    @cached_property
-    @of_kind(OVER_STRETCH)
-    def healthy_modes(self) -> Modes:
-        """The same without the defect."""
-        return statics.modes(self.scene.healthy(), *self.stretch)
+        return statics.modes(self.scene, *self.stretch)
 
     @cached_property
     @of_kind(OVER_STRETCH)
@@ -255,21 +247,12 @@ class Results:
         Looked for between the cage angles too: the same however finely curves are drawn. While a
         slider moves it is what `modes` give.
         """
-        return self.modes.bands() if self.moving else self._bands(self.scene)
-
-    @cached_property
-    @of_kind(OVER_STRETCH)
-    def healthy_bands(self) -> dict[str, tuple[float, float]]:
-        """The same without the defect."""
         if self.moving:
-            return self.healthy_modes.bands()
-        return self._bands(self.scene.healthy())
-
-    def _bands(self, scene: Scene) -> dict[str, tuple[float, float]]:
+            return self.modes.bands()
         first, last, _ = self.stretch
-        n = ANGLES_A_PERIOD
-        samples = default_cage_angles(self.scene, n if self.over_shaft else 3 * n - 2)
-        return statics.bands(scene, first, last, samples.size)
+        n, over = ANGLES_A_PERIOD, self._like or self
+        samples = default_cage_angles(over.scene, n if over.over_shaft else 3 * n - 2)
+        return statics.bands(self.scene, first, last, samples.size)
 
     @property
     def extent(self) -> float:
@@ -304,7 +287,7 @@ class Results:
 
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
-        if {"late_spectra", "healthy_late_spectra"} <= needed:
+        if {"late_spectra", "healthy"} <= needed:
             key = self.scene.healthy(), self._marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
@@ -355,7 +338,7 @@ class Results:
 
     @cached_property
     def _marching(self) -> Marching:
-        return self._marching_of(self.scene)
+        return self._marching_of(self.scene) if self._like is None else self._like._marching
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -390,12 +373,6 @@ class Results:
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the settled motion; empty where it did not stay finite."""
         return motions.late_spectra(self.scene, self._marching)
-
-    @cached_property
-    @of_kind(SLOW)
-    def healthy_late_spectra(self) -> dict[str, Spectrum]:
-        """The same without the defect."""
-        return motions.late_spectra(self.scene.healthy(), self._marching)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -496,9 +473,7 @@ class Results:
         chosen, other = self.scene.active_dofs, other_dofs(self.scene)
         if chosen == other:
             return DofComparison(chosen, other, {}, {})
-        against = Results(
-            self.scene.replace(dofs=other), self.cage_angle, self.settings, moving=self.moving
-        )
+        against = self.alike(self.scene.replace(dofs=other))
         static = static_differences(self.equilibrium, against.equilibrium)
         how = self._marching_of(self.scene, against.scene)
         if how.coarse:  # two motions, one of them in five directions

@@ -73,7 +73,8 @@ class PackedSource:
 
     def __init__(self) -> None:
         self._sources: dict[str, ColumnDataSource] = {}
-        self._columns: dict[str, tuple[str, ...]] = {}
+        #: the columns of each source
+        self.columns: dict[str, tuple[str, ...]] = {}
         self._ranges: dict[str, Range1d] = {}
         self._sent_sources: dict[str, np.ndarray] = {}
         self._sent_ranges: dict[str, np.ndarray] = {}
@@ -93,7 +94,7 @@ class PackedSource:
         source = ColumnDataSource(
             data={column: [] for column in columns}, name=name, syncable=PLAIN
         )
-        self._sources[name], self._columns[name] = source, columns
+        self._sources[name], self.columns[name] = source, columns
         return source
 
     def range(self, name: str, start: float, end: float) -> Range1d:
@@ -180,7 +181,7 @@ class PackedSource:
         """Columns of one source as rows of one array, in the order they were declared."""
         if name not in self._sources:
             raise ValueError(f"source {name!r} was not declared; known: {sorted(self._sources)}")
-        wanted = self._columns[name]
+        wanted = self.columns[name]
         if set(columns) != set(wanted):
             raise ValueError(f"source {name!r} has columns {wanted}, not {tuple(columns)}")
         rows = [np.asarray(columns[column]) for column in wanted]
@@ -195,7 +196,7 @@ class PackedSource:
     def _args(self) -> dict[str, list]:
         return {
             "sources": list(self._sources.values()),
-            "columns": [list(columns) for columns in self._columns.values()],
+            "columns": [list(columns) for columns in self.columns.values()],
             "ranges": list(self._ranges.values()),
         }
 

@@ -9,6 +9,7 @@ and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
+  sources of the view that it leaves out are empty;
 - `sentence(results)`: one sentence on the figure in plain words;
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
 
@@ -162,7 +163,14 @@ class View:
         self._results: Results | None = None
         self._has_drawn = False
         self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        others = set(packed.columns)
         body = self.build(packed)
+        #: its sources without numbers
+        self._empty: Sources = {
+            name: dict.fromkeys(columns, np.zeros(0))
+            for name, columns in packed.columns.items()
+            if name not in others
+        }
         body = stack(*body) if isinstance(body, list) else pn.panel(body, margin=0)
         if isinstance(body, pn.pane.Bokeh) and not self.compact:
             # whether a figure's own pane is visible is taken back from the figure
@@ -210,6 +218,11 @@ class View:
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Sources and ranges for these results; none where nothing comes in the packed source."""
         return {}, {}
+
+    def all_data(self, results: Results) -> tuple[Sources, Ranges]:
+        """`data`, with all sources of the view."""
+        sources, ranges = self.data(results)
+        return {**self._empty, **sources}, ranges
 
     def sentence(self, results: Results) -> str:
         """One sentence on the figure as it is now, numbers with units."""

@@ -151,7 +151,7 @@ class BearingDrawing(View):
         "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The keyway "
         "turns with the shaft; z points towards you."
     )
-    needs = frozenset({"equilibrium", "healthy_equilibrium", "now", "drop"})
+    needs = frozenset({"equilibrium", "now", "drop"})
     equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
@@ -218,12 +218,12 @@ class BearingDrawing(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now
         load_range = self._load_range.fit(
-            results.equilibrium.ball_load, results.healthy_equilibrium.ball_load
+            results.equilibrium.ball_load, results.healthy.equilibrium.ball_load
         )
         top = load_range[1]
         rows = scene.bearing.all_rows
         wide = HALF_WIDTH * len(rows)
-        healthy = results.healthy_load_curves
+        healthy = results.healthy.load_curves
         several: list[Sources] = []
         for row in range(len(rows)):
             own = scene.bearing.balls_of_rows[row]

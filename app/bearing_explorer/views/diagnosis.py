@@ -164,7 +164,7 @@ class PartDiagnosis(MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = self.diagnosis(results.scene.bearing)
         if found is None or found.spectrum is None:
-            return self.lines.nothing(), {}
+            return {}, {}
         return self.lines.data(found, self.zoom)
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -157,7 +157,7 @@ class ExplorePlane(JobView[Plane]):
         plane = self._newest(results)[0]
         shown = plane or self.found
         if shown is None:
-            return self._plane.nothing(), {}
+            return {}, {}
         scene = focused(results.scene, results.focus)
         x, y = (value_of(scene, sweep.field) for sweep in (shown.x, shown.y))
         return self._plane.data(field_of(shown), (x, y), _FADED if plane is None else 1.0)

@@ -158,26 +158,22 @@ class SpallExtent(MeasuredView):
         return self._seen.visible
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        none = np.zeros(0)
-        sources: Sources = {
-            f"extent_pass_{number}": {"angle": none, "envelope": none} for number in range(BANDS)
-        }
-        sources["extent_edges"] = dict.fromkeys(("angle", "exit", "row", "shift"), none)
         found = self.answer(results.scene.bearing)
         if not isinstance(found, MeasuredExtent) or not found.passes:
-            return sources, {}
+            return {}, {}
         spacing = math.degrees(found.ball_spacing)
         best = found.passes[0].envelope
         # angle 0 is the entry, or the highest peak
         start = found.entry if math.isfinite(found.entry) else int(best.argmax()) / len(best)
         first = round((start - BEFORE) * len(best)) % len(best)
         angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
-        for number, one in enumerate(found.passes[:BANDS]):
-            envelope = np.roll(one.envelope, -first)
-            sources[f"extent_pass_{number}"] = {"angle": angle, "envelope": envelope}
+        drawn = [np.roll(one.envelope, -first) for one in found.passes[:BANDS]]
+        sources: Sources = {
+            f"extent_pass_{number}": {"angle": angle, "envelope": envelope}
+            for number, envelope in enumerate(drawn)
+        }
         if math.isfinite(found.entry):
             sources["extent_edges"] = _edges(found, spacing)
-        drawn = [sources[f"extent_pass_{number}"]["envelope"] for number in range(BANDS)]
         return sources, {
             "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
             "extent_size": with_head(self._size, drawn, 0.3),

@@ -172,7 +172,3 @@ class FrequencyLines:
                 zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)
             )
         return sources
-
-    def nothing(self) -> dict[str, dict[str, NDArray[np.float64]]]:
-        """The same without lines."""
-        return self.columns((), (), 1.0)

@@ -16,7 +16,7 @@ from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
 from bearing_explorer.plots.frequency_cursor import FrequencyCursor
-from bearing_explorer.plots.layers import Layer, add_all, curve, nothing, sources_of
+from bearing_explorer.plots.layers import Layer, add_all, curve, sources_of
 from bearing_explorer.plots.levels import FREQUENCY, HIGHEST, LEVEL_FLOOR, SHOWN
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.results import Results
@@ -179,7 +179,7 @@ class FrequencyView(MeasuredView):
     def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
         """Draw layers beneath the spectra."""
 
-    def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
+    def decoration(self, results: Results, shown: Shown) -> Sources:
         """The numbers of that."""
         return {}
 
@@ -268,9 +268,7 @@ class FrequencyView(MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         p, measured, look = self.prefix, self.measured, self.look
         if measured is None:
-            empty = nothing([layer for scale in SCALES for layer in self._layers(scale)])
-            empty |= self._lines.nothing() | self._cursor.nothing()
-            return empty | self.decoration(None, None), {}
+            return {}, {}
         shown = self.shown(results, measured)
         lines = of_rows(measured.scene(results.scene))
         top, resolution = shown.top, shown.resolution

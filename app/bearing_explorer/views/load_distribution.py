@@ -62,7 +62,7 @@ class LoadDistribution(View):
         "full line is the load at the outer race, where their centrifugal load comes on top, the "
         "dashed one that at the inner race."
     )
-    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now"})
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
@@ -90,7 +90,7 @@ class LoadDistribution(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         (angle, load), *others = results.load_curves
-        (healthy_angle, healthy_load), *healthy_others = results.healthy_load_curves
+        (healthy_angle, healthy_load), *healthy_others = results.healthy.load_curves
         now = results.now
         compared = compared_curves.sources(
             "load_distribution",
@@ -113,7 +113,7 @@ class LoadDistribution(View):
             },
         }
         room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
-        loads = [room * one for _, one in (*results.load_curves, *results.healthy_load_curves)]
+        loads = [room * one for _, one in (*results.load_curves, *results.healthy.load_curves)]
         loads.append(compared_curves.numbers(compared, "load"))
         return sources, {"load_distribution_load": self._range.fit(*loads)}
 
@@ -122,7 +122,7 @@ class LoadDistribution(View):
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
         parts: list[str] = []
-        curves = zip(results.load_curves, results.healthy_load_curves, strict=False)
+        curves = zip(results.load_curves, results.healthy.load_curves, strict=False)
         for row, ((angle, load), (_, healthy)) in enumerate(curves):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
@@ -152,7 +152,7 @@ class LoadDistribution(View):
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
             tables += [_at_both_races(results.equilibrium, row) for row in rows]
-        tables.append(curves_table(results.healthy_load_curves).prefixed("healthy"))
+        tables.append(curves_table(results.healthy.load_curves).prefixed("healthy"))
         return reduce(or_, tables).in_units().named()
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
-from bearing_explorer.plots.layers import draw, nothing, strips
+from bearing_explorer.plots.layers import draw, strips
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView
@@ -69,7 +69,7 @@ class MeasuredKurtogram(MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
         if measured is None:
-            return {"kurtogram_cells": self._image.nothing(), **nothing([_BAND])}, {}
+            return {}, {}
         direction = self.direction_of(results, measured)
         found = measured.kurtogram(direction)
         nyquist = 0.5 * measured.recording.sample_rate

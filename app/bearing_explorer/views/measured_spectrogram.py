@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
-from bearing_explorer.plots.layers import curve, draw, nothing
+from bearing_explorer.plots.layers import curve, draw
 from bearing_explorer.plots.levels import decibels
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
@@ -202,22 +202,23 @@ class MeasuredSpectrogram(MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
         if measured is None or self.too_short(measured):
-            return {"spectrogram_cells": self._image.nothing(), **nothing([_SPEED])}, {}
+            return {}, {}
         shown = self.shown(results, measured)
         across, up = ("turns", "order") if self.look.map == "orders" else ("time", "frequency")
         cells = self._image.columns(
             (_SIDES[across], shown.x), (_SIDES[up], shown.y), [shown.level.T]
         )
-        line, top = nothing([_SPEED])[_SPEED.source], shown.top
+        sources, top = {"spectrogram_cells": cells}, shown.top
         if self.look.map == "spectrogram" and self.look.last is not None:
             time, speed = self.speed(measured)
-            line, top = {"x": time, "y": speed}, min(top, SPEED_TOP * float(speed.max()))
+            sources["spectrogram_speed"] = {"x": time, "y": speed}
+            top = min(top, SPEED_TOP * float(speed.max()))
         ranges = {
             "spectrogram_x": ends(shown.x),
             "spectrogram_y": (0.0, top),
             "spectrogram_level": (-DEPTH_OF_VIEW, 0.0),
         }
-        return {"spectrogram_cells": cells, "spectrogram_speed": line}, ranges
+        return sources, ranges
 
     def sentence(self, results: Results) -> str:
         measured = self.measured

@@ -72,17 +72,13 @@ class MeasuredSpectrum(FrequencyView):
                 )  # fmt: skip
                 write_over(plot, bands, BAND_WORDS, "label_at", 0.05, color, text_align="center")
 
-    def decoration(self, results: Results | None, shown: Shown | None) -> Sources:
-        columns = ("low", "high", "direction", "number", "label_at")
-        sources: Sources = {
-            f"{self.prefix}_bands_{dof}": dict.fromkeys(columns, np.zeros(0)) for dof in SHOWN
-        }
+    def decoration(self, results: Results, shown: Shown) -> Sources:
         measured = self.measured
-        if results is None or shown is None or measured is None or shown.simulated is None:
-            return sources
+        if measured is None or shown.simulated is None:
+            return {}
         bands = Simulated(results, measured).results.bands
         own = bands_along(bands, shown.direction, shown.top)
-        return sources | {f"{self.prefix}_bands_{shown.direction}": own}
+        return {f"{self.prefix}_bands_{shown.direction}": own}
 
     def shown(self, results: Results, measured: Measured) -> Shown:
         direction = self.direction_of(results, measured, self.look.direction)

@@ -114,14 +114,8 @@ class MeasuredSignal(MeasuredView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
-        none = np.zeros(0)
-        sources: Sources = {
-            "measurement_all": dict.fromkeys(("time", *SHOWN), none),
-            "measurement_close": dict.fromkeys(("time", *SHOWN), none),
-            "measurement_events": dict.fromkeys(_EVENT_COLUMNS, none),
-        }
         if measured is None:
-            return sources, {}
+            return {}, {}
         first, last = close_view(measured, measured.scene(results.scene))
         rate = measured.recording.sample_rate
         signal = measured.recording.acceleration

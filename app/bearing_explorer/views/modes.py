@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,6 @@ from bearing_explorer.plots.layers import (
     with_gaps,
 )
 from bearing_explorer.plots.ranges import ROOM, StickyRange
-from bearing_explorer.results import statics
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -92,7 +90,7 @@ class NaturalFrequencies(View):
         "How each one moves as the bearing turns. Blue x, orange y. A mode is named after the "
         "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
     )
-    needs = frozenset({"modes", "healthy_modes", "bands", "healthy_bands"})
+    needs = frozenset({"modes", "bands"})
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)
@@ -113,10 +111,13 @@ class NaturalFrequencies(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes, healthy = results.modes, results.healthy_modes
+        modes, healthy = results.modes, results.healthy.modes
         bands = band_rows(results.bands)
         compared = compared_curves.sources(
-            "modes", ("angle", "frequency"), results.of_compared, partial(_of_compared, results)
+            "modes",
+            ("angle", "frequency"),
+            results.compared_alike,
+            lambda other: lines(results.along(other.modes.cage_angles), other.modes.frequency),
         )
         shown = self._range.fit(
             modes.frequency,
@@ -151,7 +152,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, healthy = results.bands, results.healthy_bands
+        bands, healthy = results.bands, results.healthy.bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             return "There is no static state to take natural frequencies from."
@@ -171,18 +172,12 @@ class NaturalFrequencies(View):
             self._axis.axis_label = over.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        modes, healthy = results.modes, results.healthy_modes
+        modes, healthy = results.modes, results.healthy.modes
         own, grey = modes.table(), healthy.table().prefixed("healthy")
         columns = (own | grey).in_units().named()
         if results.over_shaft:
             columns["shaft_angle_deg"] = results.along(modes.cage_angles)
         return columns
-
-
-def _of_compared(results: Results, other: Results) -> dict[str, np.ndarray]:
-    """Natural frequencies of other results over the stretch of these."""
-    modes = statics.modes(*results.over_stretch_of(other))
-    return lines(results.along(modes.cage_angles), modes.frequency)
 
 
 def _from_to(band: tuple[float, float]) -> str:

@@ -158,26 +158,14 @@ class PartLines:
         """The axis of orders, where the shaft's speed is known."""
         self._order_axis.visible = known
 
-    def nothing(self) -> Sources:
-        """The sources without a spectrum."""
-        none = np.zeros(0)
-        sources: Sources = {"diagnosis_spectrum": dict.fromkeys(("frequency", "level"), none)}
-        for part in PARTS:
-            sources[_lines(part)] = dict.fromkeys(("frequency", "alpha", "width"), none)
-            sources[f"{_lines(part)}_names"] = dict.fromkeys(_NAME_COLUMNS, none)
-            sources[_sidebands(part)] = {"frequency": none}
-            sources[_points(part)] = dict.fromkeys(("frequency", "level"), none)
-        return sources
-
     def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
         """The sources of a diagnosis with a spectrum."""
         spectrum = diagnosis.spectrum
         assert spectrum is not None
         low, high = window(diagnosis, zoom)
         shaft = shaft_frequency(diagnosis)
-        sources = self.nothing()
         drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
-        sources["diagnosis_spectrum"] = drawn
+        sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
         for row, one in enumerate(diagnosis.evidence):
             first = fundamental(diagnosis, one)

@@ -179,7 +179,7 @@ class DefectSize(JobView[Sized], MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         sized = self.sized
         if sized is None or not sized.sizing.candidates:
-            return self._nothing(), {}
+            return {}, {}
         sizing = sized.sizing
         candidate = self.candidate(sizing)
         measured = alike(sizing.passes, candidate.passes)
@@ -190,7 +190,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             "measured": in_order(measured.waveform(SAMPLES, sizing.band.lowest), first),
             "candidate": in_order(candidate.waveform(SAMPLES, sizing.band.lowest), first),
         }
-        sources = self._nothing() | edges(sizing, candidate, entry, period)
+        sources = edges(sizing, candidate, entry, period)
         ranges: Ranges = {"sizing_time": (-BEFORE * period, (1.0 - BEFORE) * period)}
         for column, dof in enumerate(sizing.recording.directions):
             for who in ("measured", "candidate"):
@@ -202,14 +202,6 @@ class DefectSize(JobView[Sized], MeasuredView):
                 self._passes[dof], [curve[:, column] for curve in curves.values()], 0.3
             )
         return sources, ranges
-
-    def _nothing(self) -> Sources:
-        none = np.zeros(0)
-        sources: Sources = {"sizing_events": dict.fromkeys(("time", "exit", "row", "shift"), none)}
-        for dof in SHOWN:
-            for who in ("measured", "candidate"):
-                sources[f"sizing_pass_{who}_{dof}"] = {"time": none, "size": none}
-        return sources
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

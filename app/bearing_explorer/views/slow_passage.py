@@ -125,7 +125,6 @@ class SlowPassage(BearingDrawing):
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
             "slow_load_words": load_words(scene.load, drawn.depth_scale),
-            "slow_row_words": {name: np.empty(0) for name in ("x", "y", "row", "place")},
             "slow_frames": frames,
             "slow_path": {"radius": drawn.ball_radii(drop).ravel(), "load": load.ravel()},
             "slow_start": {"angle": turned[at]},

@@ -22,7 +22,6 @@ from bearing_explorer.plots.layers import (
     Words,
     add_all,
     curve,
-    nothing,
     sources_of,
     strips,
     switch,
@@ -201,8 +200,7 @@ class SpeedRunSpectra(SweptView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         if (found := self.found) is None:
-            images = {image.name: image.nothing() for image in self._images.values()}
-            return {**images, **nothing(ALL_LAYERS)}, {}
+            return {}, {}
         run, (speeds,) = found.result, found.sweeps
         alpha = self.opacity(results, found)
         seen = run.frequency <= top_frequency(run)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, ring_at
-from bearing_explorer.plots.layers import draw, nothing, segments
+from bearing_explorer.plots.layers import draw, segments
 from bearing_explorer.results.jobs import LONGEST, Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -156,7 +156,7 @@ class OrbitStability(SweptView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         if (found := self.found) is None:
-            return {"stability_cells": self._image.nothing(), **nothing(LAYERS)}, {}
+            return {}, {}
         x, y = found.sweeps
         right, up = ((self._sides[sweep.field.key], sweep.values) for sweep in (x, y))
         codes = codes_of(found.result)

@@ -54,7 +54,7 @@ class Stiffness(View):
         "5×5 stiffness matrix: displacements are the columns, "
         "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}."
     )
-    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now"})
     cells = matrix_cells.named_cells(_FRAMES)
 
     def build(self, packed: PackedSource) -> Any:
@@ -84,7 +84,8 @@ class Stiffness(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
         found, now = results.equilibrium, results.now
-        answers = [found, results.healthy_equilibrium, *results.compared_equilibria]
+        alike = [results.healthy, *results.compared_alike]
+        answers = [found, *(other.equilibrium for other in alike)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
@@ -144,7 +145,7 @@ class Stiffness(View):
 
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
-        found, healthy = results.equilibrium, results.healthy_equilibrium
+        found, healthy = results.equilibrium, results.healthy.equilibrium
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
@@ -176,7 +177,7 @@ class Stiffness(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""
-        found, healthy = results.equilibrium, results.healthy_equilibrium
+        found, healthy = results.equilibrium, results.healthy.equilibrium
         columns: dict[str, np.ndarray] = {}
         for kind, answer in (("defective", found), ("healthy", healthy)):
             table = answer.table().in_units().prefixed(kind)

@@ -113,7 +113,7 @@ class Figure:
             self.view.found = found
         elif choices is not None or (computed and self.view.computes):
             self.view.choose(choices or {}, results)
-        data, ranges = self.view.data(results)
+        data, ranges = self.view.all_data(results)
         self.sentence = self.view.sentence(results)
         self.view.say(results, self.sentence)
         follow = sources.fill(data, ranges)

@@ -21,7 +21,6 @@ from bearing_explorer.plots.layers import (
     Layer,
     add_all,
     curve,
-    nothing,
     segments,
     sources_of,
 )
@@ -126,8 +125,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             self._plots[name] = style.make_figure(
                 NUMBER, quantity, number, packed.range(f"trend_{name}", 0.0, 1.0), height=HEIGHT
             )
-        self._every = [layer for name in AXES for layer in _layers(name)]
-        sources = sources_of(packed, self._every)
+        sources = sources_of(packed, [layer for name in AXES for layer in _layers(name)])
         for name, plot in self._plots.items():
             add_all(plot, sources, _layers(name))
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -238,7 +236,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = self.found
         if found is None or not self.drawn:
-            return nothing(self._every), {}
+            return {}, {}
         shown, size = found.trend, 1.0 / shown_unit(found.measured)[1]
         hours = shown.hours
         x = hours if np.isfinite(hours).all() else np.arange(1.0, len(shown.points) + 1.0)

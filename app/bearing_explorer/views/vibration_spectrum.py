@@ -108,7 +108,7 @@ class VibrationSpectra(View):
         "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "healthy_late_spectra", "bands"})
+    needs = frozenset({"motion", "late_spectra", "healthy", "bands"})
     #: whether it goes up to half the sample rate, on a logarithmic frequency axis
     wide = False
 
@@ -166,14 +166,14 @@ class VibrationSpectra(View):
     def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
         """Up to half the sample rate, where that was chosen."""
         if not self.wide:
-            return self._wide.nothing(), {}
+            return {}, {}
         band = (0.0, 0.0)
         if results.scene.balls == WITH_MASS:
             band = contact_resonance_band(results.scene)
         return self._wide.data(
             results,
             results.late_spectra,
-            results.healthy_late_spectra,
+            results.healthy.late_spectra,
             band,
             results.motion.sample_rate,
         )
@@ -195,7 +195,7 @@ class VibrationSpectra(View):
         sources |= {
             **compared,
             "spectrum_lines": drawn,
-            "spectrum_healthy": drawn_levels(results.healthy_late_spectra, top),
+            "spectrum_healthy": drawn_levels(results.healthy.late_spectra, top),
             "spectrum_passes": {"frequency": passing["frequency"]},
             "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
             **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
@@ -208,7 +208,7 @@ class VibrationSpectra(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        spectra_of = {"": results.late_spectra, "healthy_": results.healthy_late_spectra}
+        spectra_of = {"": results.late_spectra, "healthy_": results.healthy.late_spectra}
         for prefix, drawn in spectra_of.items():
             for dof, one in drawn.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"

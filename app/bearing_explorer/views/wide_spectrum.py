@@ -15,7 +15,6 @@ from bearing_explorer.plots.layers import (
     Words,
     add_all,
     curve,
-    nothing,
     sources_of,
     strips,
 )
@@ -62,8 +61,7 @@ class WideSpectra:
         frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
         level = packed.range(f"{name}_level", -120.0, -20.0)
         layers = {dof: self._layers(dof, other) for dof in SHOWN}
-        self._drawn = [layer for own in layers.values() for layer in own]
-        sources = sources_of(packed, self._drawn)
+        sources = sources_of(packed, [layer for own in layers.values() for layer in own])
         #: along x and along y
         self.plots: list[figure] = []
         for dof in SHOWN:
@@ -101,10 +99,6 @@ class WideSpectra:
             ),
         ]
 
-    def nothing(self) -> Sources:
-        """Columns while the figures are hidden."""
-        return nothing(self._drawn)
-
     def data(
         self,
         results: Results,
@@ -118,14 +112,12 @@ class WideSpectra:
         The compared scenes are those of `results`.
         """
         top = 0.5 * sample_rate
-        sources = self.nothing()
         name = self._name
         # the last line is that of half the sample rate, of which a spectrum has half
         last = math.nextafter(top, 0.0)
         drawn = [drawn_levels(one, last, LOWEST) for one in (spectra, others)]
-        sources[f"{name}_lines"], sources[f"{name}_others"] = drawn
         compared = levels_of_compared(name, results, last, LOWEST)
-        sources |= compared
+        sources: Sources = {**compared, f"{name}_lines": drawn[0], f"{name}_others": drawn[1]}
         low, high = resonances
         if high > 0.0:
             above = low >= top

@@ -42,7 +42,6 @@ def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None
         ("Extent Δφf (°)", "(MN/m)"),
         ("kyy, mean (MN/m)", "Points"),
     ]
-    assert packed.pack(plane.nothing(), {}).size > 6
 
 
 def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:

@@ -21,7 +21,7 @@ def test_equal_scenes_share_their_answers() -> None:
     scene = presets["fan-rig"]
     one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
     assert one.equilibrium is two.equilibrium
-    assert one.healthy_equilibrium is Results(scene.replace(extent=0.5)).healthy_equilibrium
+    assert one.healthy.equilibrium is Results(scene.replace(extent=0.5)).healthy.equilibrium
 
 
 def test_settings_say_how_fine() -> None:
@@ -46,7 +46,7 @@ def test_compared_scenes_have_results_of_their_own() -> None:
     results = Results(scene, 0.1, compared=[Compared(other, "mine")])
     first, last, n = results.stretch
     angles = np.linspace(first, last, n)
-    (found,) = results.compared_equilibria
+    found = results.compared_alike[0].equilibrium
     np.testing.assert_array_equal(found.term("k_yy"), equilibrium(other, angles).term("k_yy"))
     (own,) = results.of_compared
     assert own.equilibrium.cage_angles[-1] == pytest.approx(2.0 * np.pi / 9)

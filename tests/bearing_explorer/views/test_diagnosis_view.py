@@ -73,7 +73,7 @@ def view_of(measured: Measured | None = None, answer: Diagnosis | str | None = N
 def shown(truth: str):
     """A view that knows its answer and has said it."""
     view = view_of(heard(truth), diagnosed(truth))
-    view.data(RESULTS)
+    view.all_data(RESULTS)
     view.say(RESULTS, view.sentence(RESULTS))
     return view
 
@@ -146,7 +146,7 @@ def test_nothing_is_marked_where_it_cannot_be_told():
     found = answered(Question.about(short, MOTOR.bearing))
     assert isinstance(found, Diagnosis)
     view = view_of(short, found)
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     assert not ranges
     assert all(not column.size for columns in sources.values() for column in columns.values())
     view.say(RESULTS, view.sentence(RESULTS))
@@ -184,7 +184,7 @@ def test_too_quiet_a_simulation_is_called_so():
 @pytest.mark.parametrize("truth", ["outer race", "inner race"])
 def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
     found = diagnosed(truth)
-    sources, ranges = view_of(heard(truth), found).data(RESULTS)
+    sources, ranges = view_of(heard(truth), found).all_data(RESULTS)
     for one in found.evidence:
         key = one.part.replace(" ", "_")
         lines = sources[f"diagnosis_{key}_lines"]
@@ -209,7 +209,7 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
 
 
 def test_without_damage_no_part_leads():
-    sources, _ = view_of(heard("none"), diagnosed("none")).data(RESULTS)
+    sources, _ = view_of(heard("none"), diagnosed("none")).all_data(RESULTS)
     for key in ("outer_race", "inner_race", "ball"):
         assert not sources[f"diagnosis_{key}_points"]["frequency"].size
         assert not sources[f"diagnosis_{key}_sidebands"]["frequency"].size
@@ -226,11 +226,11 @@ def test_a_zoom_shows_a_line_with_what_stands_beside_it():
     assert high - low < one.frequency
     view = view_of(heard("inner race"), found)
     view.look_changed("zoom", "inner race 2")
-    assert view.data(RESULTS)[1]["diagnosis_frequency"] == (low, high)
+    assert view.all_data(RESULTS)[1]["diagnosis_frequency"] == (low, high)
     view.say(RESULTS, "")
     assert view.panel_of_look._fields.values["zoom"] == "inner race 2"
     view.look_changed("zoom", "")
-    assert view.data(RESULTS)[1]["diagnosis_frequency"][0] == 0.0
+    assert view.all_data(RESULTS)[1]["diagnosis_frequency"][0] == 0.0
 
 
 def test_the_shaft_speed_can_be_rough_or_unknown():

@@ -47,7 +47,7 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
     assert found.measured
     assert view.status.line == {**view.status.line, "mood": "good", "words": found.answer}
     assert found.answer in view.sentence(RESULTS)
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     spacing = math.degrees(MOTOR.ball_spacing)
     assert ranges["extent_angle"] == pytest.approx((-BEFORE * spacing, (1 - BEFORE) * spacing))
     entry, leave = sources["extent_edges"]["angle"]
@@ -64,8 +64,8 @@ def test_where_there_is_none_the_page_says_why_and_draws_the_pass():
     view = view_of(entry=0.0)
     assert view.status.line["mood"] == "bad"
     assert view.sentence(RESULTS) == view.answer(SCENE.bearing).sentence
-    assert not view.data(RESULTS)[0]["extent_edges"]["angle"].size
-    assert view.data(RESULTS)[0]["extent_pass_0"]["angle"].size
+    assert not view.all_data(RESULTS)[0]["extent_edges"]["angle"].size
+    assert view.all_data(RESULTS)[0]["extent_pass_0"]["angle"].size
 
 
 def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():

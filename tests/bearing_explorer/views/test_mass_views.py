@@ -112,7 +112,7 @@ def test_entry_strike_and_exit_are_marked_with_their_times(found: BallMass) -> N
 def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> None:
     view = VibrationSpectra(PackedSource())
     results = Results(FAN_RIG.replace(balls="with mass"), moving=True)
-    assert view.data(results)[0]["spectrum_wide_lines"]["frequency"].size == 0
+    assert view.all_data(results)[0]["spectrum_wide_lines"]["frequency"].size == 0
     assert view.choices() == {}
     view.look_changed("axis", "logarithmic")
     again = VibrationSpectra(PackedSource())
@@ -120,7 +120,7 @@ def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> No
     assert again.still_figures() == again._wide.plots
     with pytest.raises(ValueError, match="axis is 'round'; it can be linear or logarithmic"):
         again.choose({"axis": "round"}, results)
-    sources, _ = view.data(results)
+    sources, _ = view.all_data(results)
     assert sources["spectrum_wide_lines"]["frequency"][-1] > 32e3
     assert sources["spectrum_wide_resonance"]["low"].size == 1
     assert [plot.visible for plot in view._wide.plots] == [False, False]

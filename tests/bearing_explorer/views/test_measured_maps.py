@@ -55,9 +55,9 @@ def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
     assert view.choices() == {"map": "orders", "last": LAST}
     assert "15 Hz at first and 35 Hz at last" in view.sentence(RESULTS)
     view.look_changed("map", "spectrogram")
-    assert view.data(RESULTS)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
+    assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
     view.look_changed("last", "")
-    assert view.data(RESULTS)[0]["spectrogram_speed"]["y"].size == 0
+    assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"].size == 0
 
 
 def test_a_speed_that_is_none_is_refused_and_changes_nothing():
@@ -74,7 +74,7 @@ def test_a_signal_of_few_turns_has_no_order_map_and_the_page_says_so():
     assert view.sentence(RESULTS) == (
         "An order map needs 40 turns of the shaft, and the signal has 15."
     )
-    assert view.data(RESULTS)[0]["spectrogram_cells"]["packed"].size == 0
+    assert view.all_data(RESULTS)[0]["spectrogram_cells"]["packed"].size == 0
     assert view.table(RESULTS) == {}
 
 
@@ -87,7 +87,7 @@ def test_the_kurtogram_is_drawn_where_its_bands_are():
         inside = (middles > band.low) & (middles < band.high)
         assert (cells[:, inside] == kurtosis).all(axis=1).any()
     view = view_of(MeasuredKurtogram, measured)
-    (low,), (high,) = view.data(RESULTS)[0]["kurtogram_band"].values()
+    (low,), (high,) = view.all_data(RESULTS)[0]["kurtogram_band"].values()
     assert f"from {1e3 * low:.0f} to {1e3 * high:.0f} Hz" in view.sentence(RESULTS)
 
 
@@ -109,5 +109,5 @@ def test_without_a_signal_nothing_is_drawn(kind):
     view = view_of(kind, None)
     assert view.sentence(RESULTS) == ""
     assert view.table(RESULTS) == {}
-    drawn = [column for own in view.data(RESULTS)[0].values() for column in own.values()]
+    drawn = [column for own in view.all_data(RESULTS)[0].values() for column in own.values()]
     assert not any(np.size(column) for column in drawn)

@@ -119,7 +119,7 @@ def test_the_amplitude_of_a_tone_is_read_off():
     origin = Origin("a.csv", (0,), "g", 1.0)
     recording = Recording(tone[:, None], 25_600.0, ("y",))
     view = view_of(MeasuredSpectrum, Measured(recording, RIG.shaft_speed, origin=origin))
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     drawn = sources["measured_spectrum_measured"]
     assert drawn["linear"].max() == pytest.approx(0.5, rel=1e-3)
     assert drawn["dB"].max() == pytest.approx(20.0 * math.log10(0.5), abs=0.01)
@@ -128,7 +128,7 @@ def test_the_amplitude_of_a_tone_is_read_off():
     table = view.table(RESULTS)
     assert table["measured_amplitude_y_g"].max() == pytest.approx(0.5, rel=1e-3)
     view.look_changed("axis", "orders")
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     assert ranges["measured_spectrum_frequency"][1] == pytest.approx(12_800.0 / 7.0)
     assert sources["measured_spectrum_turning"]["shaft"] == pytest.approx([1.0])
 
@@ -143,12 +143,12 @@ def test_the_model_is_an_overlay_of_the_measured_size():
     )
     for measured in (signal(), Measured(louder, RIG.shaft_speed, in_si=False)):
         view = view_of(MeasuredSpectrum, measured)
-        sources, _ = view.data(RESULTS)
+        sources, _ = view.all_data(RESULTS)
         assert not sources["measured_spectrum_simulated_y"]["frequency"].size
         assert not sources["measured_spectrum_bands_y"]["number"].size
         assert "imulated" not in view.sentence(RESULTS)
         view.look_changed("overlay", ["model"])
-        sources, ranges = view.data(RESULTS)
+        sources, ranges = view.all_data(RESULTS)
         drawn, model = (sources[f"measured_spectrum_{w}"] for w in ("measured", "simulated_y"))
         assert not sources["measured_spectrum_simulated_x"]["frequency"].size
         level = np.interp(drawn["frequency"], model["frequency"], model["dB"])
@@ -213,11 +213,11 @@ def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():
     assert "between 1000 and 3000 Hz, as chosen" in view.sentence(RESULTS)
     view.look_changed("low", "5000")
     with pytest.raises(ValueError, match="5000 to 3000 Hz is empty"):
-        view.data(RESULTS)
+        view.all_data(RESULTS)
     view.look_changed("low", "")
     view.look_changed("high", "40000")
     with pytest.raises(ValueError, match="faster sample rate"):
-        view.data(RESULTS)
+        view.all_data(RESULTS)
     view.look_changed("high", "loud")
     assert "must be a number" in view.panel_of_look._refusal.object
     view.look_changed("high", "")
@@ -232,7 +232,7 @@ def test_odd_recordings_are_drawn_too(rate):
     measured = Measured(Recording(noise, rate, ("y",)), RIG.shaft_speed)
     for kind in (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope):
         view = view_of(kind, measured)
-        data, _ = view.data(RESULTS)
+        data, _ = view.all_data(RESULTS)
         assert view.sentence(RESULTS).endswith(".")
         assert any(column.size for columns in data.values() for column in columns.values())
 
@@ -276,12 +276,12 @@ def test_what_was_measured_stays_put_while_candidates_are_looked_at(sized):
     asked = []
     view._draw = lambda: asked.append(1)
     view._take(sized)
-    first, _ = view.data(RESULTS)
+    first, _ = view.all_data(RESULTS)
     view.look_at(99)
     assert len(asked) == 1
     view.look_at(1)
     assert len(asked) == 2
-    second, _ = view.data(RESULTS)
+    second, _ = view.all_data(RESULTS)
     for dof in ("x", "y"):
         same, other = (f"sizing_pass_{who}_{dof}" for who in ("measured", "candidate"))
         for column in first[same]:
@@ -295,7 +295,7 @@ def test_balls_enter_at_zero_and_leave_as_geometry_says(sized):
     view = view_of(DefectSize, signal())
     view._draw = lambda: None
     view._take(sized)
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     begin, end = ranges["sizing_time"]
     period = 1.0 / sized.sizing.passes.frequency
     assert end - begin == pytest.approx(period)
@@ -311,16 +311,16 @@ def test_balls_enter_at_zero_and_leave_as_geometry_says(sized):
 
 def test_events_are_marked_in_the_signal_once_it_is_sized(sized):
     view = view_of(MeasuredSignal, signal())
-    assert not view.data(RESULTS)[0]["measurement_events"]["time"].size
+    assert not view.all_data(RESULTS)[0]["measurement_events"]["time"].size
     view.measurement.sized = sized
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     begin, end = ranges["measurement_close_time"]
     events = sources["measurement_events"]
     assert len(events["time"]) in (7, 8, 9)  # of four ball passes
     assert ((events["time"] >= begin) & (events["time"] <= end)).all()
     assert (events["named"][events["time"] > end - 0.1 * (end - begin)] == 0.0).all()
     view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
-    assert not view.data(RESULTS)[0]["measurement_events"]["time"].size  # of another signal
+    assert not view.all_data(RESULTS)[0]["measurement_events"]["time"].size  # of another signal
 
 
 def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
@@ -333,7 +333,7 @@ def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
     assert "has changed" in view.sentence(Results(RIG.replace(fy=-300.0)))
     view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
     assert view.sentence(RESULTS) == "The size has not been looked for yet."
-    assert not view.data(RESULTS)[1]
+    assert not view.all_data(RESULTS)[1]
     view.say(RESULTS, "")
     assert not view._answer_part.visible
 
@@ -419,7 +419,7 @@ def test_a_single_direction_hides_the_other_s_figures():
     view = view_of(DefectSize, single)
     view._draw = lambda: None
     view._take(found)
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.all_data(RESULTS)
     assert not sources["sizing_pass_measured_x"]["time"].size
     assert "sizing_pass_size_x" not in ranges
     view.say(RESULTS, view.sentence(RESULTS))
@@ -453,7 +453,7 @@ def test_what_needs_sizes_waits_for_the_answer(kind, unit, asked):
     view.say(RESULTS, view.sentence(RESULTS))
     assert re.match(rf"(Choose|Enter) the {asked} .*above to see this", view._sentence.text)
     assert not view.hidden.visible
-    assert all(not column.size for columns in view.data(RESULTS)[0].values()
+    assert all(not column.size for columns in view.all_data(RESULTS)[0].values()
                for column in columns.values())  # fmt: skip
     assert view.table(RESULTS) == {}
     assert "above to see this" in view.python()

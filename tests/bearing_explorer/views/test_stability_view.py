@@ -79,9 +79,9 @@ def test_the_picture_carries_values_and_place() -> None:
     found = found_map()
     packed = PackedSource()
     view = OrbitStability(packed)
-    assert view.data(Results(RIG))[0]["stability_cells"]["packed"].size == 0
+    assert view.all_data(Results(RIG))[0]["stability_cells"]["packed"].size == 0
     view.found = found
-    sources, ranges = view.data(Results(RIG))
+    sources, ranges = view.all_data(Results(RIG))
     sent = sources["stability_cells"]["packed"]
     assert sent[:6].tolist() == pytest.approx([3, 2, 5.0, 30.0, 0.05, 51.4])
     np.testing.assert_array_equal(sent[9 : 9 + 6].reshape(2, 3), found.result.multiplier)
@@ -98,10 +98,10 @@ def test_a_map_of_another_scene_is_faint_and_says_so() -> None:
     view = OrbitStability(PackedSource())
     view.found = found_map()
     along = Results(RIG.replace(shaft_speed=100.0, extent=0.3))
-    assert view.data(along)[0]["stability_cells"]["packed"][6] == 1.0
+    assert view.all_data(along)[0]["stability_cells"]["packed"][6] == 1.0
     assert "Faint" not in view.sentence(along)
     other = Results(RIG.replace(depth=10e-6))
-    assert view.data(other)[0]["stability_cells"]["packed"][6] < 1.0
+    assert view.all_data(other)[0]["stability_cells"]["packed"][6] < 1.0
     assert view.sentence(other).startswith("Faint, as the scene has changed")
 
 

@@ -34,7 +34,7 @@ class LastChange(View):
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
         "is compared with the bearing without its defect."
     )
-    needs = frozenset({"chain", "chain_before", "late_spectra", "healthy_late_spectra"})
+    needs = frozenset({"chain", "chain_before", "late_spectra", "healthy"})
     compact = True
     sentence_looks = ("large",)
     in_report = False

@@ -86,7 +86,7 @@ class OverviewStiffness(View):
         "those that vary, or differ from the grey ones. Grey: {grey}. “Fixed”: the ring does not "
         "move along this direction in this scene."
     )
-    needs = frozenset({"equilibrium", "healthy_equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now"})
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "stiffness"
@@ -109,8 +109,8 @@ class OverviewStiffness(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found, healthy, now = results.equilibrium, results.healthy_equilibrium, results.now
-        answers = [found, healthy, *results.compared_equilibria]
+        found, healthy, now = results.equilibrium, results.healthy.equilibrium, results.now
+        answers = [found, healthy, *(other.equilibrium for other in results.compared_alike)]
         first, last, _ = results.stretch
         pick = [_some(answer.cage_angles.size) for answer in answers]
         shares = [
@@ -158,7 +158,7 @@ class OverviewStiffness(View):
         }, {}
 
     def sentence(self, results: Results) -> str:
-        found, healthy = results.equilibrium, results.healthy_equilibrium
+        found, healthy = results.equilibrium, results.healthy.equilibrium
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))

@@ -272,11 +272,7 @@ class Explorer:
         """The layout with the views of a section."""
         for view in views:
             view.attach(self._parts)
-        return stack(
-            *(view.panel for view in views),
-            stylesheets=[asset_text("section.css")],
-            sizing_mode="stretch_both" if any(v.compact for v in views) else "stretch_width",
-        )
+        return stack(*(view.panel for view in views), stylesheets=[asset_text("section.css")])
 
     def _attach_tab(self, name: str) -> None:
         if self._containers[name] not in self.main:

@@ -38,7 +38,7 @@
   let theme = wanted(), large = false
   const done = new WeakMap()  // the look of a model: it comes light, and not large
   const COLOR = /(^|_)(color|palette|colors)$/, SIZE = /text_font_size$|^[xy]_offset$/
-  const ROOM = /^(height|min_border_(left|right))$/  // of a figure, for its words
+  const ROOM = /^((min_)?height|min_border_(left|right))$/  // of a figure, for its words
   const paint = (model) => {
     const was = done.get(model) ?? { theme: "light", large: false }
     if (was.theme === theme && was.large === large) return

@@ -259,10 +259,18 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     assert page.screenshot(clip=clip) != before
 
 
-def test_a_view_fills_the_screen_and_goes_back(watch: tuple[Page, Watch], explorer: Server) -> None:
+def test_a_view_fills_the_page_and_the_screen(watch: tuple[Page, Watch], explorer: Server) -> None:
     page, _ = watch
     page.set_viewport_size({"width": 1920, "height": 1080})
     open_page(page, explorer)
+    show(page, "modes")
+    page.wait_for_function(  # no part of the page is empty, and none out of view
+        """() => {
+          const [view] = [...deep(document, '.view-modes')], main = document.querySelector('main')
+          const left = main.getBoundingClientRect().bottom - view.getBoundingClientRect().bottom
+          return left > 0 && left < 40
+        }"""
+    )
     show(page, "vibration")
     view = page.locator(".view-vibration-time")
     heights = "all => all.map(one => one.getBoundingClientRect().height)"

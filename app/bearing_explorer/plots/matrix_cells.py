@@ -103,7 +103,7 @@ def matrix_figure(
 def scrolled(plot: figure) -> pn.Column:
     """The figure in a frame that scrolls."""
     scroll = ":host { overflow-x: auto; max-width: 100%; }"
-    return pn.Column(plot, sizing_mode="stretch_width", margin=0, stylesheets=[scroll])
+    return pn.Column(plot, sizing_mode="stretch_both", margin=0, stylesheets=[scroll])
 
 
 def write(plot: figure, source: ColumnDataSource, text: Any, **look: Any) -> None:

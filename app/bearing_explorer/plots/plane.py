@@ -62,7 +62,8 @@ _SELECT = "if (cb_obj.final) veil.setv({low: cb_obj.geometry.x0, high: cb_obj.ge
 _FORGET = "veil.setv(all); counts.selected.indices = []"
 SIDE_BY_SIDE = """
 :host { display: grid !important; gap: 8px 16px;
-        grid-template-columns: repeat(auto-fit, minmax(min(100%, 380px), 1fr)); }
+        min-height: auto !important;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
 """
 """Style of a layout of the figures: two in a row where there is room."""
 

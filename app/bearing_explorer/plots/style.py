@@ -163,13 +163,13 @@ def make_figure(
     height: int = 300,
     title: str | None = None,
     right: int = 14,
-    sizing_mode: str = "stretch_width",
+    sizing_mode: str = "stretch_both",
     **options: Any,
 ) -> figure:
     """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
 
-    `right` is the room [px] right of the frame, for labels next to their lines; with
-    "stretch_both" as `sizing_mode` it is as high as its place, and `height` the least.
+    `right` is the room [px] right of the frame, for labels next to their lines. Unless
+    `sizing_mode` says otherwise it is as wide and high as its place, and `height` [px] the least.
     """
     plot = figure(
         x_range=x_range,

@@ -355,7 +355,7 @@ class Stability:
 def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
     sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
     ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
-    return style.make_figure(*sides, *ranges, height=height, **more)
+    return style.make_figure(*sides, *ranges, height=height, sizing_mode="stretch_width", **more)
 
 
 def _speeds(found: list[OrbitAtSpeed]) -> dict[str, list[float]]:

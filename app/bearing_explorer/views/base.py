@@ -204,7 +204,7 @@ class View:
             self._sentence,
             css_classes=["view", f"view-{self.name}", *(["compact"] if self.compact else [])],
             stylesheets=[asset_text("view.css")],
-            sizing_mode="stretch_both" if self.compact else "stretch_width",
+            **({"sizing_mode": "stretch_both"} if self.compact else {}),
         )
 
     def attach(self, parts: SessionParts) -> None:

@@ -74,7 +74,7 @@ plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
 
 _NO_HIGHER = """
 const high = Math.round(Math.min(most, Math.max(least, cb_obj.inner_width + scale)))
-if (cb_obj.height !== high) cb_obj.setv({height: high}, {sync: false})
+if (cb_obj.min_height !== high) cb_obj.setv({min_height: high}, {sync: false})
 """
 
 

@@ -33,6 +33,7 @@ from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
+from bearing_explorer.widgets.form import stack
 
 FIELDS: list[LookField] = [
     {
@@ -97,11 +98,10 @@ class PartDiagnosis(MeasuredView):
         )
         self.panel_of_look = LookPanel(self.look_changed, FIELDS)
         self._show_look()
-        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self._seen = pn.Column(self.lines.plot, self.evidence, visible=False, **wide)
+        self._seen = stack(self.lines.plot, self.evidence, visible=False)
         self.candidates = ListedBearings(self._take_listed, self._end_search)
-        self.hidden = pn.Column(
-            self.part, self.candidates, self.panel_of_look, self._seen, visible=False, **wide
+        self.hidden = stack(
+            self.part, self.candidates, self.panel_of_look, self._seen, visible=False
         )
         return self.hidden
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.plotting import figure
 
 from bearing_explorer.measurement.diagnoses import BUSY, ExtentQuestion, Question, extent_of
@@ -23,6 +22,7 @@ from bearingcore import Bearing, Diagnosis, MeasuredExtent
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
+from bearing_explorer.widgets.form import stack
 
 HEIGHT = 236
 BANDS = 3
@@ -70,9 +70,8 @@ class SpallExtent(MeasuredView):
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self._size = StickyRange(0.0, 1.0)
         self.plot = self._plot(packed)
-        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self._seen = pn.Column(self.status, self.plot, visible=False, **wide)
-        self.hidden = pn.Column(self.panel_of_look, self._seen, visible=False, **wide)
+        self._seen = stack(self.status, self.plot, visible=False)
+        self.hidden = stack(self.panel_of_look, self._seen, visible=False)
         return self.hidden
 
     def _plot(self, packed: PackedSource) -> figure:

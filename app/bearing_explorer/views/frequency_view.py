@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-import panel as pn
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -30,6 +29,7 @@ from bearing_explorer.views.frequency_lines import (
     of_rows,
 )
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, shown_unit
+from bearing_explorer.widgets.form import stack
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore import Spectrum
 
@@ -158,10 +158,7 @@ class FrequencyView(MeasuredView):
             add_all(plot, sources, layers[scale])
         self._cursor = FrequencyCursor(packed, p, self._plots, sources[f"{p}_measured"])
         self.panel_of_look = LookPanel(self.look_changed, self.fields)
-        whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self.hidden = pn.Column(
-            self.panel_of_look, *plots, self._cursor.controls, visible=False, **whole
-        )
+        self.hidden = stack(self.panel_of_look, *plots, self._cursor.controls, visible=False)
         self._show_look()
         return self.hidden
 

@@ -105,12 +105,22 @@ class HowSure(View):
 
     def build(self, packed: PackedSource) -> Any:
         left = style.make_figure(
-            STATED, FOUND, Range1d(45.0, 102.0), Range1d(-3.0, 104.0), height=SIZES[0]
+            STATED,
+            FOUND,
+            Range1d(45.0, 102.0),
+            Range1d(-3.0, 104.0),
+            height=SIZES[0],
+            sizing_mode="stretch_width",
         )
         draw(left, packed, RELIABILITY)
         top = 1.05 * float(np.max(extents()["high_deg"], initial=10.0))
         right = style.make_figure(
-            TRUE, MEASURED, Range1d(0.0, top), Range1d(0.0, top), height=SIZES[1]
+            TRUE,
+            MEASURED,
+            Range1d(0.0, top),
+            Range1d(0.0, top),
+            height=SIZES[1],
+            sizing_mode="stretch_width",
         )
         draw(right, packed, EXTENTS)
         return row(left, right, stylesheets=[style.WRAPPED])

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
@@ -19,6 +18,7 @@ from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
+from bearing_explorer.widgets.form import stack
 
 MEDIUM = "15 to 300 kW"
 LARGE = "over 300 kW"
@@ -63,8 +63,7 @@ class MeasuredIndicators(MeasuredView):
         self.machine = ""
         self._facts = facts_pane(sizing_mode="stretch_width")
         self.panel_of_look = LookPanel(self.look_changed, [MACHINE])
-        whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self.hidden = pn.Column(self.panel_of_look, self._facts, visible=False, **whole)
+        self.hidden = stack(self.panel_of_look, self._facts, visible=False)
         return self.hidden
 
     def look_changed(self, name: str, value: str) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import FixedTicker, LinearColorMapper
 from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from bearing_explorer.plots.layers import draw, strips
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.measured_view import MeasuredView
+from bearing_explorer.widgets.form import stack
 from bearingcore.signals.filter_bank import PARTS
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class MeasuredKurtogram(MeasuredView):
         self._image = GridImage(plot, packed, "kurtogram_cells", [mapper], _SIDES, _SAY)
         plot.add_layout(color_bar(mapper, "Kurtosis", bar_line_color=None), "right")
         draw(plot, packed, [_BAND])
-        self.hidden = pn.Column(plot, visible=False, sizing_mode="stretch_width", margin=0)
+        self.hidden = stack(plot, visible=False)
         return self.hidden
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

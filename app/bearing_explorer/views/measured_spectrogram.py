@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import LinearColorMapper
 from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
@@ -32,6 +31,7 @@ from bearingcore.signals.spectrogram import (
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
+from bearing_explorer.widgets.form import stack
 
 MOST_COLUMNS, MOST_ROWS = 220, 320
 """Of the picture."""
@@ -113,8 +113,7 @@ class MeasuredSpectrogram(MeasuredView):
         plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         draw(plot, packed, [_SPEED])
         self.panel_of_look = LookPanel(self.look_changed, FIELDS)
-        whole: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self.hidden = pn.Column(self.panel_of_look, plot, visible=False, **whole)
+        self.hidden = stack(self.panel_of_look, plot, visible=False)
         return self.hidden
 
     # The look

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -24,6 +23,7 @@ from bearing_explorer.widgets.measurement_form import MeasurementForm
 if TYPE_CHECKING:
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
+from bearing_explorer.widgets.form import row, stack
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
 AS_IN_FILE = style.AxisQuantity("Value, unit not known", "", "")
@@ -57,9 +57,8 @@ class MeasuredSignal(MeasuredView):
         self._sized = [plot.yaxis[0] for plot in plots]
         self._unsized = [_axis_without_unit(plot) for plot in plots]
         self._mark_events(packed, plots[1])
-        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-        self.hidden = pn.Row(*plots, visible=False, stylesheets=[style.WRAPPED], **wide)
-        return pn.Column(self.form, self.hidden, **wide)
+        self.hidden = row(*plots, visible=False, stylesheets=[style.WRAPPED])
+        return stack(self.form, self.hidden)
 
     def _plot(self, packed: PackedSource, part: str) -> figure:
         plot = style.make_figure(
@@ -68,6 +67,7 @@ class MeasuredSignal(MeasuredView):
             packed.range(f"measurement_{part}_time", 0.0, 1.0),
             packed.range(f"measurement_{part}_size", -1.0, 1.0),
             height=HEIGHT,
+            sizing_mode="stretch_width",
             title="All of it" if part == "all" else f"{PASSES:.0f} ball passes",
         )
         # the weaker direction is drawn over the stronger one

@@ -133,6 +133,7 @@ class SteadyOrbit(View):
             Range1d(0.0, HIGHEST, syncable=False),
             packed.range("orbit_level", -80.0, -20.0),
             height=HEIGHT + 40,
+            sizing_mode="stretch_width",
         )
         # right of the squares where there is room, else as wide as the card
         plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
@@ -308,9 +309,8 @@ def _points(numbers: NDArray[np.complex128]) -> dict[str, np.ndarray]:
 def _square(
     x: style.AxisQuantity, y: style.AxisQuantity, x_range: Range1d, y_range: Range1d
 ) -> figure:
-    plot = style.make_figure(x, y, x_range, y_range, height=HEIGHT + 40)
-    plot.sizing_mode = "fixed"
-    plot.width = plot.min_width = HEIGHT + 70
+    sizes: dict[str, Any] = {"height": HEIGHT + 40, "width": HEIGHT + 70, "min_width": HEIGHT + 70}
+    plot = style.make_figure(x, y, x_range, y_range, sizing_mode="fixed", **sizes)
     plot.min_border_right = 8
     return plot
 

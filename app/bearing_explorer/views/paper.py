@@ -29,6 +29,7 @@ _OF_COMPARED = tuple(zip(("Green", "Pink"), compared_curves.COLORS, strict=False
 _GRID = """
 :host {{
   display: grid;
+  min-height: auto !important;
   grid-template-columns: repeat(auto-fit, minmax(max(270px, calc(100% / {columns} - 1px)), 1fr));
 }}
 .scroll-button {{ display: none; }}
@@ -52,7 +53,7 @@ class PaperFigures(View):
             one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
         }
         self._live = button("Open it live", self._open_live, css_classes=["main"])
-        self._panels = stack()
+        self._panels = stack(sizing_mode="stretch_both")
         self._numbers = facts_pane(sizing_mode="stretch_width")
         return [row(*self._buttons.values(), self._live), self._panels, self._numbers]
 

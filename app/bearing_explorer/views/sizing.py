@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import panel as pn
 from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -29,7 +28,7 @@ from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
-from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.form import FieldSpec, stack
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
 from bearingcore.common.numbers import with_deviation
@@ -88,17 +87,10 @@ class DefectSize(JobView[Sized], MeasuredView):
         seconds = packed.range("sizing_time", 0.0, 0.03)
         events = packed.source("sizing_events", "time", "exit", "row", "shift")
         self._rows = {}
-        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         for dof in SHOWN:
-            self._rows[dof] = pn.Row(self._pass_plot(packed, dof, seconds, events), **wide)
-        self._answer_part = pn.Column(
-            self.status,
-            self.candidates,
-            *self._rows.values(),
-            visible=False,
-            **wide,
-        )
-        self.hidden = pn.Column(self.job, self._answer_part, visible=False, **wide)
+            self._rows[dof] = stack(self._pass_plot(packed, dof, seconds, events))
+        self._answer_part = stack(self.status, self.candidates, *self._rows.values(), visible=False)
+        self.hidden = stack(self.job, self._answer_part, visible=False)
         return self.hidden
 
     def _pass_plot(self, packed: PackedSource, dof: str, seconds: Range1d, events: Any) -> figure:

@@ -39,7 +39,7 @@ from bearing_explorer.views.measured_view import (
     shown_unit,
 )
 from bearing_explorer.views.python_lines import code_of, scene_code, short
-from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.form import FieldSpec, stack
 from bearingcore import Trend, trend
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.trend import LINES
@@ -128,12 +128,11 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         sources = sources_of(packed, [layer for name in AXES for layer in _layers(name)])
         for name, plot in self._plots.items():
             add_all(plot, sources, _layers(name))
-        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         key = style.legend((COLORS[line], "━", LABELS[line]) for line in LINES)
         plots = list(self._plots.values())
         key_of_lines = pn.pane.HTML(key, margin=0)
-        self._results_part = pn.Column(*plots[:2], key_of_lines, *plots[2:], **wide)
-        self.hidden = pn.Column(self.job, self._results_part, visible=False, **wide)
+        self._results_part = stack(*plots[:2], key_of_lines, *plots[2:])
+        self.hidden = stack(self.job, self._results_part, visible=False)
         return self.hidden
 
     # The job

@@ -132,7 +132,12 @@ class WorkPrecision:
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
-            *sides, *ranges, height=height, x_axis_type="log", y_axis_type="log"
+            *sides,
+            *ranges,
+            height=height,
+            x_axis_type="log",
+            y_axis_type="log",
+            sizing_mode="stretch_width",
         )
         ticks = [m * 10.0**e for e in range(-9, 13) for m in (1, 3)]
         plot.xaxis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])

@@ -71,8 +71,8 @@ def pane(style: str, content: str = "", **params: Any) -> pn.pane.HTML:
 
 
 def stack(*parts: Any, **params: Any) -> pn.Column:
-    """Parts below one another, as wide as their place."""
-    return pn.Column(*parts, **({"sizing_mode": "stretch_width", "margin": 0} | params))
+    """Parts below one another, as wide as their place, and as high where one of them is."""
+    return pn.Column(*parts, **({"margin": 0} | params))
 
 
 def _common(params: Mapping[str, Any]) -> dict[str, Any]:

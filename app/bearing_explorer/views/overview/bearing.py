@@ -21,7 +21,7 @@ class OverviewBearing(BearingDrawing):
     in_report = False
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
-        plot = style.bare_figure(x, y, height=200, sizing_mode="stretch_both", min_width=240)
+        plot = style.bare_figure(x, y, height=200, min_width=240)
         plot.min_border_top = 8  # for the words about the load
         return plot
 

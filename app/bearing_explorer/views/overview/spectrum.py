@@ -91,7 +91,6 @@ class OverviewSpectrum(View):
             packed.range("overview_frequency", 0.0, HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
             height=120,
-            sizing_mode="stretch_both",
         )
         plot.min_border_left = LEFT
         _, grey, *_, x, y, _ = draw(plot, packed, layers())

@@ -95,10 +95,7 @@ class OverviewStiffness(View):
     def build(self, packed: PackedSource) -> Any:
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         plot = style.bare_figure(
-            Range1d(0.0, COLUMNS, syncable=False),
-            Range1d(-_ROWS, 0.0, syncable=False),
-            height=110,
-            sizing_mode="stretch_both",
+            Range1d(0.0, COLUMNS, syncable=False), Range1d(-_ROWS, 0.0, syncable=False), height=110
         )
         frames = ColumnDataSource({**_SIDES, "below": [symbol[1:] for symbol in SYMBOLS]})
         plot.quad(source=frames, fill_color="#FAFBFC", line_color=style.GRID)

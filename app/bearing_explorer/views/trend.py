@@ -130,8 +130,8 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             add_all(plot, sources, _layers(name))
         key = style.legend((COLORS[line], "━", LABELS[line]) for line in LINES)
         plots = list(self._plots.values())
-        key_of_lines = pn.pane.HTML(key, margin=0)
-        self._results_part = stack(*plots[:2], key_of_lines, *plots[2:])
+        self._key_of_lines = pn.pane.HTML(key, margin=0)
+        self._results_part = stack(*plots[:2], self._key_of_lines, *plots[2:])
         self.hidden = stack(self.job, self._results_part, visible=False)
         return self.hidden
 
@@ -226,9 +226,17 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         if self.found is None:
             return
         unit, _ = shown_unit(self.found.measured)
-        across = HOURS if np.isfinite(self.found.trend.hours).all() else NUMBER
+        shown = self.found.trend
+        across = HOURS if np.isfinite(shown.hours).all() else NUMBER
+        self._plots["lines"].visible = self._key_of_lines.visible = bool(
+            np.isfinite(shown.clear_lines).any()
+        )
+        self._plots["extent"].visible = any(
+            math.isfinite(point.extent.high) for point in shown.points
+        )
         for name, plot in self._plots.items():
             plot.xaxis[0].axis_label = across.label()
+            plot.xaxis[0].ticker.min_interval = float(across is NUMBER)
             if name in ("rms", "lines"):
                 plot.yaxis[0].axis_label = dataclasses.replace(AXES[name], unit=unit).label()
 

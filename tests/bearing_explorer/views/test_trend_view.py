@@ -114,6 +114,9 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     rms = sources["trend"]["rms"]
     np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
     assert ranges["trend_rms"][1] > rms[-1]
+    view.say(RESULTS, sentence)
+    drawn = {name: plot.visible for name, plot in view._plots.items()}
+    assert drawn == {"rms": True, "kurtosis": True, "lines": False, "extent": False}
     head, *rows = view.csv().splitlines()
     assert len(rows) == 3
     assert "rms_m_per_s2" in head

@@ -27,6 +27,7 @@ from bokeh.models import (
     LinearColorMapper,
     Plot,
     Range1d,
+    Scatter,
 )
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -212,7 +213,7 @@ def ring_at(source: str) -> list[Glyph]:
     """A ring at the place of the scene: dark on light, so that it shows on every colour."""
     ring = {"size": 15, "fill_color": None, "level": "annotation"}
     return [
-        Glyph("scatter", source, ("x", "y"), {**ring, "line_color": color, "line_width": width})
+        Glyph(Scatter, source, ("x", "y"), {**ring, "line_color": color, "line_width": width})
         for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
     ]
 

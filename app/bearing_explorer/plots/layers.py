@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 
 import numpy as np
+from bokeh import models
 from bokeh.models import (
     CheckboxGroup,
     ColumnDataSource,
@@ -24,6 +25,7 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.glyphs import add_glyph
 from bearing_explorer.serve.packed_source import PackedSource
 
 
@@ -44,13 +46,13 @@ class Layer(Protocol):
 
 @dataclass(frozen=True)
 class Glyph:
-    """A glyph of Bokeh's, drawn by the figure's method of the name `kind`.
+    """A glyph of Bokeh's of some kind.
 
-    `places`: its first arguments, columns or numbers. `reads`: columns that its `look` reads
-    besides.
+    `places`: where it is, see `add_glyph`: columns or numbers. `reads`: columns that its `look`
+    reads besides.
     """
 
-    kind: str
+    kind: type[models.Glyph]
     source: str
     places: tuple[str | float, ...]
     look: Mapping[str, Any] = field(default_factory=dict)
@@ -63,8 +65,7 @@ class Glyph:
 
     def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
         """Draw it."""
-        drawn = getattr(plot, self.kind)(*self.places, source=source, **self.look)
-        return cast(GlyphRenderer, drawn)
+        return add_glyph(plot, self.kind, source, *self.places, **self.look)
 
 
 def curve(
@@ -78,7 +79,7 @@ def curve(
 ) -> Glyph:
     """A curve; NaN is a gap."""
     look = {"line_color": color, "line_width": width, "line_alpha": alpha, "line_dash": list(dash)}
-    return Glyph("line", source, (x, y), look)
+    return Glyph(models.Line, source, (x, y), look)
 
 
 def strips(
@@ -94,13 +95,13 @@ def strips(
 ) -> Glyph:
     """Shaded stretches of the horizontal axis, or with `level` of the vertical one."""
     filled = {"fill_color": color, "fill_alpha": alpha, "line_color": None, **look}
-    return Glyph("hstrip" if level else "vstrip", source, (low, high), filled, reads)
+    return Glyph(models.HStrip if level else models.VStrip, source, (low, high), filled, reads)
 
 
 def ball_dots(source: str, x: str, y: str) -> Glyph:
     """Balls at this cage angle: white dots that the frame does not cut."""
     look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
-    return Glyph("scatter", source, (x, y), {"size": 8, "level": "annotation", **look})
+    return Glyph(models.Scatter, source, (x, y), {"size": 8, "level": "annotation", **look})
 
 
 def uprights(
@@ -113,19 +114,19 @@ def uprights(
 ) -> Glyph:
     """Upright lines through the whole frame; as it is at the current cage angle."""
     line = {"line_color": color, "line_width": width, "line_alpha": alpha}
-    return Glyph("vspan", source, (x,), {**line, **look})
+    return Glyph(models.VSpan, source, (x,), {**line, **look})
 
 
 def filled(source: str, color: str, alpha: float = 1.0, **line: Any) -> Glyph:
     """Polygons with NaN between them; `line`: look of their edges, which have none otherwise."""
     look = {"fill_color": color, "fill_alpha": alpha, "line_color": None, **line}
-    return Glyph("patch", source, ("x", "y"), look)
+    return Glyph(models.Patch, source, ("x", "y"), look)
 
 
 def segments(source: str, color: Any, width: float, reads: tuple[str, ...] = ()) -> Glyph:
     """Straight lines from ``x0, y0`` to ``x1, y1``; `reads`: columns that the colour reads."""
     line = {"line_color": color, "line_width": width}
-    return Glyph("segment", source, ("x0", "y0", "x1", "y1"), line, reads)
+    return Glyph(models.Segment, source, ("x0", "y0", "x1", "y1"), line, reads)
 
 
 @dataclass(frozen=True)
@@ -179,7 +180,7 @@ class Words:
             "text_baseline": "middle",
             **self.look,
         }
-        return plot.text(self.x, self.y, source=source, text=text, **ranges, **look)
+        return add_glyph(plot, models.Text, source, self.x, self.y, text=text, **ranges, **look)
 
 
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}

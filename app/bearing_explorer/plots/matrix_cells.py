@@ -22,12 +22,14 @@ from bokeh.models import (
     CustomJSTickFormatter,
     FixedTicker,
     Range1d,
+    Text,
 )
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
+from bearing_explorer.plots.glyphs import add_glyph
 from bearing_explorer.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
 from bearingcore.statics.equilibrium import TERM_SYMBOLS
@@ -109,13 +111,12 @@ def scrolled(plot: figure) -> pn.Column:
 def write(plot: figure, source: ColumnDataSource, text: Any, **look: Any) -> None:
     """Small words at the places x, y of a source."""
     usual = {
-        "x": "x",
-        "y": "y",
         "text_font": {"value": style.FONT},
         "text_font_size": style.SMALL_TEXT_SIZE,
         "text_color": style.FAINT_INK,
     }
-    plot.text(source=source, text=text, **{**usual, **look})
+    place = look.pop("x", "x"), look.pop("y", "y")
+    add_glyph(plot, Text, source, *place, text=text, **{**usual, **look})
 
 
 def write_names(plot: figure, cells: Sequence[Cell]) -> None:

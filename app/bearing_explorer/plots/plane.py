@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import BoxSelectTool, ColumnDataSource, CustomJS, LinearColorMapper
+from bokeh.models import BoxSelectTool, ColumnDataSource, CustomJS, LinearColorMapper, Quad
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -207,7 +207,7 @@ class PlaneFigures:
         plot.title.text = "Select values here to find them on the map"
         plot.yaxis.axis_label = "Points"
         look = {"fill_color": style.DEFECTIVE, "line_color": "white"}
-        quads = Glyph("quad", f"{self._name}_counts", (*_BAR_SIDES, 0.0), look)
+        quads = Glyph(Quad, f"{self._name}_counts", (*_BAR_SIDES, 0.0), look)
         (drawn,) = draw(plot, packed, [quads])
         select = BoxSelectTool(dimensions="width")
         plot.add_tools(select)

@@ -20,7 +20,9 @@ from importlib.metadata import version
 from typing import Any
 
 from bokeh.core.has_props import HasProps
+from bokeh.core.property.bases import Property
 from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.core.property.wrappers import PropertyValueContainer
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
 from bokeh.document.events import DocumentPatchedEvent
@@ -39,7 +41,10 @@ log = logging.getLogger(__name__)
 _OF_THE_WALK: tuple[tuple[Any, str], ...] = (
     (model_util, "visit_immediate_value_references"),
     (HasProps, "_overridden_defaults"),
-    (HasProps, "__overridden_defaults__"),
+    (HasProps, "_initialized"),
+    (HasProps, "query_properties_with_values"),
+    (Property, "_may_have_unstable_default"),
+    (PropertyDescriptor, "instance_default"),
     (PropertyDescriptor, "is_unstable"),
     (PropertyDescriptor, "has_unstable_default"),
 )
@@ -147,10 +152,11 @@ def find_models_quickly() -> None:
     """Have Bokeh look for models only where models can be.
 
     It walks all models whenever one is added, and asks each for the value of every property that
-    might hold another, making up defaults that never hold one. That is most of what a session
-    costs. Here defaults are asked for only where they are made anew for each model; and what
-    Bokeh works out about a class for each of its models is worked out once. Values are walked
-    without an import for each of them.
+    might hold another, making up defaults that never hold one; so it does when a model is made, and
+    when it is written. That is most of what a session costs. Here defaults are made with a model
+    only where they hold another; only values that are written are asked for; and what Bokeh works
+    out about a class for each of its models is worked out once. Values are walked without an import
+    for each of them.
     """
     if PLAIN or getattr(model_util, "visit_immediate_value_references", None) is _visit:
         return
@@ -162,41 +168,63 @@ def find_models_quickly() -> None:
     patched: Any = HasProps
     remembering: Any = cache(changed)
     patched._overridden_defaults = classmethod(remembering)
+    patched.query_properties_with_values = _values_to_write
     descriptor: Any = PropertyDescriptor
     descriptor.has_unstable_default = _has_unstable_default
 
 
-_unstable: dict[tuple[type, PropertyDescriptor], bool] = {}
+_defaults: dict[tuple[type, PropertyDescriptor], tuple[bool, bool]] = {}
+
+
+def _default_of(descriptor: PropertyDescriptor, obj: HasProps) -> tuple[bool, bool]:
+    """Whether each model of a class has a default of its own, and whether that holds models."""
+    key = (type(obj), descriptor)
+    found = _defaults.get(key)
+    if found is None:
+        changed = type(obj)._overridden_defaults().get(descriptor.name)
+        made = descriptor.property._may_have_unstable_default() or descriptor.is_unstable(changed)
+        models: list[Any] = []
+        if made:
+            _walk(descriptor.instance_default(obj), models.append)
+        found = _defaults[key] = bool(made), bool(models)
+    return found
 
 
 def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
-    key = (type(obj), self)
-    found = _unstable.get(key)
-    if found is None:
-        changed = type(obj).__overridden_defaults__.get(self.name)
-        found = self.property._may_have_unstable_default() or self.is_unstable(changed)
-        _unstable[key] = bool(found)
-    return bool(found)
+    """While a model is made its own defaults are, if they hold models; others once asked for."""
+    return _default_of(self, obj)[obj._initialized is False]
+
+
+_query = HasProps.query_properties_with_values
+
+
+def _values_to_write(
+    self: HasProps,
+    query: Callable[[PropertyDescriptor], bool],
+    *,
+    include_defaults: bool = True,
+    include_undefined: bool = False,
+) -> dict[str, Any]:
+    """Values by name of the properties that `query` takes; without defaults those that are set.
+
+    Bokeh asks for the value of each property first, and then whether it is set.
+    """
+    themed = self.themed_values()
+    if include_defaults or themed is not None:
+        return _query(
+            self, query, include_defaults=include_defaults, include_undefined=include_undefined
+        )
+    given, made = self._property_values, self._unstable_default_values
+    values = {}
+    for name in type(self).properties(_with_props=True):
+        if (name in given or name in made) and query(descriptor := self.lookup(name)):
+            value = descriptor.get_value(self)
+            if name not in made or not isinstance(value, PropertyValueContainer):
+                values[name] = value
+    return values
 
 
 _PLAIN = frozenset({int, float, str, bool, bytes, type(None)})
-_places: dict[type, list[tuple[str, bool]]] = {}
-
-
-def _places_of(kind: type[HasProps]) -> list[tuple[str, bool]]:
-    """Properties of a class that may hold models, and whether their default may."""
-    found = _places.get(kind)
-    if found is None:
-        changed = kind._overridden_defaults()
-        found = []
-        for name in kind.properties_with_refs():
-            descriptor = kind.lookup(name)
-            own = descriptor.property._may_have_unstable_default()
-            here = kind.__overridden_defaults__.get(name)
-            changes = (here, changed.get(name))
-            found.append((name, own or any(map(descriptor.is_unstable, changes))))
-        _places[kind] = found
-    return found
 
 
 def _walk(value: Any, visitor: Callable[[Any], None]) -> None:
@@ -221,15 +249,20 @@ def _walk(value: Any, visitor: Callable[[Any], None]) -> None:
             _walk(getattr(value, name), visitor)
 
 
+_references: dict[type[HasProps], tuple[str, ...]] = {}
+
+
 def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
     if not isinstance(value, HasProps):
         _walk(value, visitor)
         return
+    kind = type(value)
+    names = _references.get(kind)
+    if names is None:
+        names = _references[kind] = tuple(kind.properties_with_refs())
     given, made = value._property_values, value._unstable_default_values
-    for name, unstable in _places_of(type(value)):
+    for name in names:
         if name in given:
             _walk(given[name], visitor)
         elif name in made:
             _walk(made[name], visitor)
-        elif unstable:
-            _walk(getattr(value, name), visitor)

@@ -6,7 +6,7 @@ import math
 from typing import Any, ClassVar
 
 import numpy as np
-from bokeh.models import CustomJS, LinearColorMapper, Range1d
+from bokeh.models import Circle, CustomJS, LinearColorMapper, Range1d
 from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -88,13 +88,13 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
     """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = Glyph(
-        "circle",
+        Circle,
         f"{prefix}_roller_ends",
         PLACE_AND_SIZE,
         {"fill_color": None, "line_color": _EDGE, "line_width": 1.0},
     )
     ball = Glyph(
-        "circle",
+        Circle,
         f"{prefix}_balls",
         PLACE_AND_SIZE,
         {"fill_color": load, "line_color": _EDGE, "line_width": 1.2},

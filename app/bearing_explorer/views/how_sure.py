@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from bokeh.models import Range1d
+from bokeh.models import Range1d, Scatter
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
@@ -27,7 +27,7 @@ SIZES = (340, 340)  # [px] heights
 RELIABILITY = (
     curve("how_sure_ideal", "x", "y", style.FAINT_INK, 1.2, dash=(5, 4)),
     segments("how_sure_spread", style.DEFECTIVE, 2.0),
-    Glyph("scatter", "how_sure_bins", ("stated", "found"),
+    Glyph(Scatter, "how_sure_bins", ("stated", "found"),
           {"size": 10, "fill_color": style.DEFECTIVE, "line_color": style.INK}),
     Words("how_sure_bins", "stated", "found",
           "return `${row.right} of ${row.count}`", ("right", "count"),
@@ -36,7 +36,7 @@ RELIABILITY = (
 EXTENTS = (
     curve("how_sure_same", "x", "y", style.FAINT_INK, 1.2, dash=(5, 4)),
     segments("how_sure_intervals", style.DEFECTIVE, 2.0),
-    Glyph("scatter", "how_sure_extents", ("true", "measured"),
+    Glyph(Scatter, "how_sure_extents", ("true", "measured"),
           {"size": 8, "fill_color": style.DEFECTIVE, "line_color": style.INK}),
 )  # fmt: skip
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import Span
+from bokeh.models import Quad, Segment, Span
 
 from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import Glyph, Layer, Words, draw
@@ -30,8 +30,8 @@ _BAR_LOOK = {"fill_color": style.DEFECTIVE, "fill_alpha": "alpha", "line_color":
 _WORDS_LOOK = {"text_align": "center", "text_baseline": "bottom"}
 _SPREAD = ("middle", "low", "middle", "high")
 LAYERS: tuple[Layer, ...] = (
-    Glyph("quad", "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
-    Glyph("segment", "mechanism_bars", _SPREAD, {"line_color": style.INK}),
+    Glyph(Quad, "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
+    Glyph(Segment, "mechanism_bars", _SPREAD, {"line_color": style.INK}),
     Words("mechanism_bars", "middle", "label_at", _BAR_WORDS, ("share", "known"), look=_WORDS_LOOK),
 )
 """Bars, their standard errors and their numbers."""

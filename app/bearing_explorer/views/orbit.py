@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, Range1d, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -44,7 +44,7 @@ FAR_APART = 3.0
 
 _DOTS = {"size": 10, "fill_alpha": 0.85, "line_color": "white", "line_width": 1.0}
 MULTIPLIERS = [
-    Glyph("scatter", name, ("x", "y"), {"fill_color": color, **_DOTS})
+    Glyph(Scatter, name, ("x", "y"), {"fill_color": color, **_DOTS})
     for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00"))
 ]
 PATHS = [

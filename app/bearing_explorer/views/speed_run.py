@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import GlyphRenderer, LinearColorMapper
+from bokeh.models import GlyphRenderer, HSpan, LinearColorMapper, Scatter
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -105,13 +105,13 @@ def expected(dof: str) -> list[Layer]:
 _TRIANGLE = {"marker": "triangle", "angle": -0.5 * math.pi, "size": 7, "level": "annotation"}
 SCENE: list[Layer] = [
     Glyph(
-        "scatter",
+        Scatter,
         "speed_run_marched",
         ("frequency", "speed"),
         {"fill_color": style.DEFECT, "line_color": None, **_TRIANGLE},
     ),
     *(
-        Glyph("hspan", "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
+        Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
         for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6))
     ),
 ]

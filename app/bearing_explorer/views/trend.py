@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
+from bokeh.models import Scatter
 from bokeh.plotting import figure
 
 from bearing_explorer.measurement.form import number_of
@@ -69,7 +70,7 @@ MOST_NAMED = 3
 
 
 def _dots(source: str, y: str, color: str) -> Glyph:
-    return Glyph("scatter", source, ("x", y), {"size": 6, "color": color})
+    return Glyph(Scatter, source, ("x", y), {"size": 6, "color": color})
 
 
 def _layers(name: str) -> list[Layer]:

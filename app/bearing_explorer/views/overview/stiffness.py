@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from bokeh.core.properties import value
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, Quad, Range1d, Scatter
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import compared_curves, style
+from bearing_explorer.plots.glyphs import add_glyph
 from bearing_explorer.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.plots.matrix_cells import (
     PLACES,
@@ -71,7 +72,7 @@ LAYERS: tuple[Layer, ...] = (
     *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
     curve("overview_healthy", "x", "y", style.HEALTHY, 1.3),
     curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8),
-    Glyph("scatter", "overview_term_now", ("x", "y"), _NOW_LOOK),
+    Glyph(Scatter, "overview_term_now", ("x", "y"), _NOW_LOOK),
 )  # fmt: skip
 """Over the frames and symbols of the cells, from the lowest to the highest."""
 
@@ -98,7 +99,8 @@ class OverviewStiffness(View):
             Range1d(0.0, COLUMNS, syncable=False), Range1d(-_ROWS, 0.0, syncable=False), height=110
         )
         frames = ColumnDataSource({**_SIDES, "below": [symbol[1:] for symbol in SYMBOLS]})
-        plot.quad(source=frames, fill_color="#FAFBFC", line_color=style.GRID)
+        frame = {"fill_color": "#FAFBFC", "line_color": style.GRID}
+        add_glyph(plot, Quad, frames, "left", "right", "top", "bottom", **frame)
         look = {"x": "left", "y": "top", "text_font": value(SERIF), "text_color": style.INK}
         write(plot, frames, value("k"), y_offset=-3, text_font_size="13px", **look)
         write(plot, frames, "below", x_offset=8, y_offset=-1, **look)

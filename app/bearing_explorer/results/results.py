@@ -288,7 +288,7 @@ class Results:
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "healthy"} <= needed:
-            key = self.scene.healthy(), self._marching
+            key = self.scene.healthy(), self.marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
 
@@ -337,42 +337,43 @@ class Results:
         return self.settings.coarse_marching if coarse else self.settings.marching
 
     @cached_property
-    def _marching(self) -> Marching:
-        return self._marching_of(self.scene) if self._like is None else self._like._marching
+    def marching(self) -> Marching:
+        """Settings of its motions; those of the scene with the defect where it is compared."""
+        return self._marching_of(self.scene) if self._like is None else self._like.marching
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
-        return motions.motion(self.scene, self._marching).motion
+        return motions.motion(self.scene, self.marching).motion
 
     @property
     def fault(self) -> str:
         """Why the motion ended early; empty where it did not."""
-        return motions.ending(self.scene, self._marching).fault
+        return motions.ending(self.scene, self.marching).fault
 
     @property
     def settled_since(self) -> float:
         """Time [s] of the motion after which it counts as settled."""
-        return motions.ending(self.scene, self._marching).since
+        return motions.ending(self.scene, self.marching).since
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
-        return motions.excerpt(self.scene, self._marching)
+        return motions.excerpt(self.scene, self.marching)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
     def spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, by its name."""
-        return motions.spectra(self.scene, self._marching)
+        return motions.spectra(self.scene, self.marching)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """The same of the settled motion; empty where it did not stay finite."""
-        return motions.late_spectra(self.scene, self._marching)
+        return motions.late_spectra(self.scene, self.marching)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -398,7 +399,7 @@ class Results:
         if (self.ball_passes or 0) > LONGEST_ORBIT:
             return None
         # balls without mass, whatever the scene has
-        key = self.scene.replace(balls=MASSLESS), self._marching
+        key = self.scene.replace(balls=MASSLESS), self.marching
         found = motions.quick_orbit(*key)
         if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
             return found

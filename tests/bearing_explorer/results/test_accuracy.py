@@ -6,6 +6,7 @@ import dataclasses
 import html
 import math
 import time
+from unittest.mock import Mock
 
 import pytest
 from bearing_explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
@@ -265,7 +266,7 @@ def test_a_model_that_would_do_is_taken_with_one_button() -> None:
     view = OtherModels(PackedSource())
     asked: list[object] = []
     taken: list[float | None] = []
-    view._ask, view._take_steps = asked.append, taken.append
+    view.parts = Mock(ask=asked.append, take_steps=taken.append)
     rows = (
         Alternative("directions x y", "spectrum", 0.01, 0.01, 0.05, changes={"dofs": ("x", "y")}),
         Alternative("half as many steps", "spectrum", 2.0, 0.02, 0.05, changes={"step_rate": 8e3}),

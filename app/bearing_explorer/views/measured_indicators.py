@@ -140,4 +140,10 @@ def severity(measured: Measured, machine: str) -> str:
         return f"No zone of ISO 20816-3: {why}."
     most = float(measured.indicators.velocity_rms.max())
     zone = severity_zone(most, machine)
-    return f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}."
+    power, support = (_WORDS[part] for part in machine.split(", "))
+    ends = style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])
+    return (
+        f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}. For "
+        f"machines of {power} on a {support} support, boundaries {ends} mm/s as this program has "
+        "them; check them in the standard before you act on them."
+    )

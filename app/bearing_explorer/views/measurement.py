@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import LinearAxis
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -17,7 +17,12 @@ from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.measured_view import MeasuredView, column_name, write_over
+from bearing_explorer.views.measured_view import (
+    MeasuredView,
+    column_name,
+    shown_unit,
+    write_over,
+)
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 
 if TYPE_CHECKING:
@@ -25,8 +30,8 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 from bearing_explorer.widgets.form import row, stack
 
-ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
-AS_IN_FILE = style.AxisQuantity("Value, unit not known", "", "")
+ACCELERATION = style.AxisQuantity("Acceleration", "a", "")
+AS_IN_FILE = style.AxisQuantity("Value", "", "")
 TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 HEIGHT = 230
 DRAWN_PARTS = 700
@@ -54,8 +59,7 @@ class MeasuredSignal(MeasuredView):
         self.form = MeasurementForm(self._show_or_hide)
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
-        self._sized = [plot.yaxis[0] for plot in plots]
-        self._unsized = [_axis_without_unit(plot) for plot in plots]
+        self._axes = [plot.yaxis[0] for plot in plots]
         self._mark_events(packed, plots[1])
         self.hidden = row(*plots, visible=False, stylesheets=[style.WRAPPED])
         return stack(self.form, self.hidden)
@@ -89,8 +93,9 @@ class MeasuredSignal(MeasuredView):
     # The picture
 
     def _show_or_hide(self) -> None:
-        """The figures are behind the line to which the form folds."""
+        """Figures and sentence are behind the line to which the form folds."""
         self.hidden.visible = self.drawn
+        self._sentence.visible = self.drawn or self.measured is None
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 
     @property
@@ -104,13 +109,11 @@ class MeasuredSignal(MeasuredView):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         self._show_or_hide()
-        measured = self.measured
-        for axes, shown in (
-            (self._sized, measured is None or measured.in_si),
-            (self._unsized, measured is not None and not measured.in_si),
-        ):
-            for axis in axes:
-                axis.visible = shown
+        if (measured := self.measured) is not None:
+            quantity = ACCELERATION if measured.in_si else AS_IN_FILE
+            label = dataclasses.replace(quantity, unit=shown_unit(measured)[0]).label()
+            for axis in self._axes:
+                axis.axis_label = label
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         measured = self.measured
@@ -155,19 +158,15 @@ class MeasuredSignal(MeasuredView):
         if measured is None:
             return self.why_nothing
         recording = measured.recording
+        name, size = shown_unit(measured)
+        unit = f" {name}" if measured.in_si else ""
         sizes = []
         for index, dof in enumerate(recording.directions):
             signal = recording.acceleration[:, index]
             middle = float(signal.mean())
             root = math.sqrt(float(np.mean((signal - middle) ** 2)))
-            if measured.in_si:
-                level, mean = (
-                    style.with_prefix(root, "m/s²"),
-                    style.with_prefix(middle, "m/s²", 2),
-                )
-            else:
-                level, mean = style.number(root, 3), style.number(middle, 2)
-            sizes.append(f"{level} along {dof} about a mean of {mean}")
+            level, mean = style.number(root / size, 3), style.number(middle / size, 2)
+            sizes.append(f"{level}{unit} along {dof} about a mean of {mean}{unit}")
         of = "the acceleration" if measured.in_si else "the numbers of the file"
         return f"Root mean square of {of}: {style.list_words(sizes)}."
 
@@ -183,15 +182,6 @@ class MeasuredSignal(MeasuredView):
         return table
 
 
-def _axis_without_unit(plot: figure) -> LinearAxis:
-    """A second axis of a figure for numbers of unknown unit; hidden until there are any."""
-    axis = LinearAxis(visible=False)
-    style.style_axis(axis)
-    style.write_units(axis, AS_IN_FILE, plot.y_range)
-    plot.add_layout(axis, "left")
-    return axis
-
-
 def close_view(measured: Measured, scene: Any) -> tuple[int, int]:
     """First and last sample of a few ball passes, from a quarter of the signal on."""
     recording = measured.recording
@@ -204,11 +194,14 @@ def close_view(measured: Measured, scene: Any) -> tuple[int, int]:
 
 
 def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.float64]]:
-    """A stretch of the signal with no more numbers than can be seen; NaN where not measured."""
+    """A stretch of the signal as `shown_unit` has it, no more numbers than can be seen.
+
+    NaN where not measured.
+    """
     recording = measured.recording
     rows, values = least_and_greatest(recording.acceleration[first:last], DRAWN_PARTS)
     missing = np.full(len(rows), np.nan)
-    own = dict(zip(recording.directions, values.T, strict=True))
+    own = dict(zip(recording.directions, values.T / shown_unit(measured)[1], strict=True))
     time = (first + rows) / recording.sample_rate
     return {"time": time, **{dof: own.get(dof, missing) for dof in SHOWN}}
 

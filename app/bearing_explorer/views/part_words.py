@@ -160,7 +160,11 @@ def _origin(question: Question) -> str:
     if measured.known_by_frequencies:
         return f", from its {measured.bearing_name}; sizes are in proportion only"
     known = f", {measured.bearing_name}" if measured.bearing_name else ", that of the scene"
-    return f"{known}{', estimated from the designation' if estimated else ''}"
+    if not estimated:
+        return known
+    spread = question.bearing.frequency_spread("bpfo")
+    off = f", so BPFO ± {style.number(100.0 * spread, 2)} %" if spread else ""
+    return f"{known}, estimated from the designation{off}"
 
 
 def band(low: float, high: float) -> str:

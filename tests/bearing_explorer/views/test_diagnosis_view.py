@@ -127,7 +127,11 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     state = panel_state(dataclasses.replace(question, bearing=bearing), found)
     assert part_words.COUNTED in state["plain"]
     assert part_words.COUNTED in state["pass_on"]
-    assert dict(state["facts"])["Bearing"].endswith("estimated from the designation")
+    rests = dict(state["facts"])["Bearing"]
+    spread = 100.0 * bearing.frequency_spread("bpfo")
+    said = re.search(r"estimated from the designation, so BPFO ± ([\d.]+) %$", rests)
+    assert said, rests
+    assert float(said[1]) == pytest.approx(spread, rel=0.05)
     counted = panel_state(question, found)
     assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
 

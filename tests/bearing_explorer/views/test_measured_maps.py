@@ -97,6 +97,7 @@ def test_without_a_unit_there_is_neither_velocity_nor_zone():
         view.look_changed("machine", "medium, rigid")
         view.say(RESULTS, view.sentence(RESULTS))
     assert known.sentence(RESULTS).startswith("Zone A of ISO 20816-3 with")
+    assert "15 to 300 kW on a rigid support, boundaries 1.4, 2.8 and 4.5" in known.sentence(RESULTS)
     assert "mm/s" in known._facts.object
     assert "unit of the signal is not known" in unknown.sentence(RESULTS)
     assert "mm/s" not in unknown._facts.object

@@ -172,6 +172,18 @@ def test_the_scene_is_simulated_at_the_speed_of_the_measurement():
     assert "simulated at the measured 10 Hz, not at the 7 Hz of the sliders" in said
 
 
+def test_lines_of_an_estimated_bearing_have_their_error_in_the_measured_envelope():
+    inside = ("ball_diameter", "pitch_diameter")
+    bearing = dataclasses.replace(RIG.bearing, estimated=inside)
+    view = view_of(MeasuredEnvelope, dataclasses.replace(signal(), bearing=bearing))
+    error = view.data(RESULTS)[0]["measured_envelope_bpfo_names"]["spread"]
+    expected = bearing.bpfo(signal().shaft_speed) * bearing.frequency_spread("bpfo")
+    assert expected > 0.0
+    assert error == pytest.approx(expected)
+    counted = view_of(MeasuredEnvelope, signal()).data(RESULTS)[0]
+    assert not counted["measured_envelope_bpfo_names"]["spread"].any()
+
+
 def test_envelopes_are_taken_in_the_band_of_the_diagnosis():
     """Once it is there; before that where the kurtogram is highest."""
     measured = signal()
@@ -459,24 +471,30 @@ def test_what_needs_sizes_waits_for_the_answer(kind, unit, asked):
     assert "above to see this" in view.python()
 
 
-def test_a_signal_without_a_unit_is_drawn_on_an_axis_without_one():
+def test_a_signal_is_drawn_in_the_unit_of_its_file():
+    """In g where the file has g, on an axis without a unit where that is not known."""
+    known = dataclasses.replace(signal(), origin=Origin("a.csv", (1, 2), "g", 1.0))
+    view = view_of(MeasuredSignal, known)
+    view.say(RESULTS, view.sentence(RESULTS))
+    assert [plot.yaxis[0].axis_label for plot in view.figures] == ["Acceleration a (g)"] * 2
+    drawn = view.data(RESULTS)[0]["measurement_all"]["y"]
+    assert drawn.max() == pytest.approx(known.column("y").max() / 9.80665)
+    level = re.search(r"acceleration: .* and ([\d.]+) g along y", view.sentence(RESULTS))
+    assert float(level[1]) == pytest.approx(known.column("y").std() / 9.80665, rel=0.01)
     origin = Origin("a.csv", (1, 2), "", 1.0)
     view = view_of(MeasuredSignal, dataclasses.replace(signal(), in_si=False, origin=origin))
     sentence = view.sentence(RESULTS)
     view.say(RESULTS, sentence)
     assert "m/s²" not in sentence
     for plot in view.figures:
-        shown = [axis for axis in plot.left if axis.visible]
-        assert [axis.axis_label for axis in shown] == ["Value, unit not known"]
+        assert plot.yaxis[0].axis_label == "Value (units of the file)"
     assert list(view.table(RESULTS)) == ["time_s", "signal_x", "signal_y"]
     assert '[1, 2], ["x", "y"], "m/s²"' in view.python()
     assert "in_si=False" in view.python()
     assert "# the unit of the file is not known" in view.python()
     view.measure(measuring(signal()))
     view.say(RESULTS, view.sentence(RESULTS))
-    for plot in view.figures:
-        shown = [axis for axis in plot.left if axis.visible]
-        assert ["m/s²" in axis.axis_label for axis in shown] == [True]
+    assert all("m/s²" in plot.yaxis[0].axis_label for plot in view.figures)
 
 
 def test_the_time_from_entry_to_exit_is_that_of_the_answer(sized):

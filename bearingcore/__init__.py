@@ -4,7 +4,6 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.catalogue import (
     CatalogueBearing,
     catalogue,
-    catalogue_text,
     read_catalogue,
 )
 from bearingcore.bearings.designation import Designation, read_designation
@@ -77,7 +76,6 @@ __all__ = [
     "TrendPoint",
     "ball_positions",
     "catalogue",
-    "catalogue_text",
     "contact_damping",
     "contact_pressures",
     "diagnose",

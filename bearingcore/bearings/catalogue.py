@@ -1,4 +1,4 @@
-"""Tables of bearings by name: inside dimensions as a CSV, which a workshop can keep for itself.
+"""Tables of bearings by name: inside dimensions as a CSV, which a workshop can write for itself.
 
 A table has a line of headings and a line for each bearing. Columns, in any order:
 
@@ -18,9 +18,8 @@ with each bearing. A table with faults is refused as a whole, each fault named b
 from __future__ import annotations
 
 import csv
-import io
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
@@ -137,59 +136,6 @@ def _together(faults: list[str]) -> str:
             return f"{words}; and {len(faults) - count} more"
         words += f"; {fault}"
     return words
-
-
-def catalogue_text(bearings: Iterable[CatalogueBearing]) -> str:
-    """A table that `read_catalogue` reads back, for a workshop to keep.
-
-    ValueError for a bearing that such a table cannot hold: without groove radii, or with other
-    numbers than follow from its drawing in steel.
-    """
-    out = io.StringIO()
-    writer = csv.writer(out, delimiter=";", lineterminator="\n")
-    columns = tuple(column for column in COLUMNS if not column.endswith("_ratio"))
-    writer.writerow(columns)
-    for entry in bearings:
-        b = entry.bearing
-        r_i, r_o = b.inner_groove_radius, b.outer_groove_radius
-        if r_i is None or r_o is None:
-            raise checks.refuse("bearing", entry.name, "one with groove radii")
-        drawn = Bearing.from_drawing(
-            b.n_balls,
-            b.ball_diameter,
-            b.pitch_diameter,
-            r_i,
-            r_o,
-            contact_angle=b.contact_angle,
-            diametral_clearance=2.0 * b.radial_clearance,
-        )
-        if drawn != b:
-            raise checks.refuse(
-                "bearing", entry.name, "one with what follows from its drawing in steel"
-            )
-        name = " ".join(entry.name.split())
-        if name.startswith("#"):
-            raise checks.refuse("name", entry.name, "one that does not begin with #")
-        cells = {
-            "name": name,
-            "balls": b.n_balls,
-            "ball_diameter_mm": _digits(b.ball_diameter * 1e3),
-            "pitch_diameter_mm": _digits(b.pitch_diameter * 1e3),
-            "inner_groove_radius_mm": _digits(r_i * 1e3),
-            "outer_groove_radius_mm": _digits(r_o * 1e3),
-            "contact_angle_deg": _digits(math.degrees(b.contact_angle)),
-            "diametral_clearance_um": _digits(2.0 * b.radial_clearance * 1e6),
-            "dynamic_load_rating_kn": ""
-            if entry.dynamic_load_rating is None
-            else _digits(entry.dynamic_load_rating * 1e-3),
-            "note": " ".join(entry.note.split()),
-        }
-        writer.writerow([cells[column] for column in columns])
-    return out.getvalue()
-
-
-def _digits(value: float) -> str:
-    return f"{value:.15g}"
 
 
 def _text(table: str | bytes) -> str:

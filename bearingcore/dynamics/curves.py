@@ -1,22 +1,13 @@
-"""Curves over the cage angle as they are drawn, and what their errors are taken over."""
+"""Stiffness over the cage angle as it is drawn, and what errors of curves are taken over."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import checks
-from bearingcore.dynamics.modes import two_body_matrix
-from bearingcore.scene.scene import DOF_NAMES
 from bearingcore.statics.equilibrium import Equilibrium
 
 Array = NDArray[np.float64]
-
-CURVES = ("load", "stiffness", "modes")
-"""Curves over the cage angle: ball loads with displacements, the 15 stiffness terms,
-undamped natural frequencies."""
 
 _TERMS = np.triu_indices(5)
 
@@ -24,22 +15,9 @@ LEAST_SWING = 0.01
 """Errors are taken over a curve's swing, but not over less than this part of its size."""
 
 
-def curves_of(state: Equilibrium, curves: str) -> Array:
-    """(n, m) the curves to be drawn, in their units; NaN where there is no answer."""
-    if curves == "load":
-        return np.hstack([state.ball_load, state.displacement])
-    if curves == "stiffness":
-        return state.stiffness[:, *_TERMS]
-    checks.choice("curves", curves, CURVES)
-    scene, dofs = state.scene, state.dofs
-    index = [DOF_NAMES.index(name) for name in dofs]
-    mass = scene.support.inertias(dofs)
-    K = two_body_matrix(state.stiffness[:, index][:, :, index], scene.support.stiffness(dofs))
-    frequency = np.full((len(K), mass.size), math.nan)
-    known = np.isfinite(K).all(axis=(1, 2))
-    values = np.linalg.eigvalsh(K[known] / np.sqrt(mass[:, None] * mass))
-    frequency[known] = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
-    return frequency
+def stiffness_curves(state: Equilibrium) -> Array:
+    """(n, 15) the terms of the stiffness, in their units; NaN where there is no answer."""
+    return state.stiffness[:, *_TERMS]
 
 
 def swings(values: Array) -> Array:

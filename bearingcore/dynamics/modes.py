@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -93,15 +92,6 @@ class Modes:
         see `frequency_bands`.
         """
         return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
-
-
-def bands_table(bands: Mapping[str, tuple[float, float]]) -> ResultTable:
-    """A row a mode: its least and greatest frequency [Hz], of `bands` by label."""
-    return table_of(
-        ("mode", "", list(bands)),
-        ("least", "Hz", [low for low, _ in bands.values()]),
-        ("greatest", "Hz", [high for _, high in bands.values()]),
-    )
 
 
 def _band(frequency: NDArray[np.float64]) -> tuple[float, float]:

@@ -56,39 +56,9 @@ class MotionProblem:
         angles = path_kinks(self.scene, 0.0, last)
         return angles[(angles > 0.0) & (angles < last)] / self.scene.cage_speed
 
-    def energy(self, history: Array) -> Array:
-        """(samples,) total energy [J] of the states of a history (samples, 6, n).
 
-        Kinetic, elastic (contacts and support) and that of the load, for a cage that stands still.
-        """
-        rotor, contacts, path = self.system
-        inner, outer = history[:, 0], history[:, 3]
-        relative = inner - outer
-        loads = kernels.elastic_loads(relative, rotor.active, 0.0, 0.0, contacts, path)
-        n = contacts.exponent
-        elastic = (loads ** (1.0 + 1.0 / n) / contacts.factor ** (1.0 / n) / (n + 1.0)).sum(axis=1)
-        kinetic = 0.5 * (
-            (history[:, 1] ** 2 / rotor.inverse_inner).sum(axis=1)
-            + (history[:, 4] ** 2 / rotor.inverse_outer).sum(axis=1)
-        )
-        support = 0.5 * (rotor.stiffness * outer**2).sum(axis=1)
-        total: Array = kinetic + elastic + support - inner @ rotor.force
-        return total
-
-
-def motion_problem(
-    scene: Scene, *, offset: Array | None = None, still: bool = False
-) -> MotionProblem:
+def motion_problem(scene: Scene) -> MotionProblem:
     """The motion of `scene` from rest at its static state, as `simulate` starts it.
-
-    Parameters
-    ----------
-    scene
-        what to march.
-    offset : (n,)
-        [m] added to the inner ring's displacement at the start, rotations times r_d.
-    still
-        holds the cage where it starts: energy is then kept where nothing damps.
 
     Raises
     ------
@@ -101,16 +71,10 @@ def motion_problem(
     if rest is None:
         reason = equilibrium(scene, [0.0], dofs).reason(0)
         raise checks.refuse("scene", reason, "one with a static state to start from")
-    n = len(dofs)
-    start = rest.reshape(4, n)
-    if offset is not None:
-        start[0] += offset
     load = float(np.linalg.norm(packing.body_numbers(scene, dofs).force)) or 1.0
     compression = packing.typical_compression(scene.bearing, load)
     turning = 2.0 * math.pi * (highest_natural_frequency(scene) or 1000.0)
-    scale = compression * np.repeat([1.0, turning, 1.0, turning], n)
-    if still:
-        scene = scene.replace(shaft_speed=0.0)
+    scale = compression * np.repeat([1.0, turning, 1.0, turning], len(dofs))
     return MotionProblem(
-        scene, dofs, start.ravel(), scale, moving_system(scene, dofs, velocities=True)
+        scene, dofs, rest.ravel(), scale, moving_system(scene, dofs, velocities=True)
     )

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_comparison import compare_motions
-from bearingcore.dynamics.curves import curve_errors, curves_of, swings
+from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import common_ball_passes, orbit
@@ -137,10 +137,6 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
         if cancelled is not None and cancelled():
             break
     return Alternatives(scene, tuple(rows), measure.calls, time.thread_time() - began)
-
-
-class _TooMuchError(ValueError):
-    """A motion would take more than MOST_CALLS."""
 
 
 class _Measure:
@@ -296,9 +292,9 @@ def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
     """Error over the swing that 99 % of the cage angles keep below."""
     error = curve_errors(
         found.cage_angles,
-        curves_of(found, CURVES),
+        stiffness_curves(found),
         expected.cage_angles,
-        curves_of(expected, CURVES),
+        stiffness_curves(expected),
     )
     return float(np.quantile(error, 0.99)) if error.size else math.nan
 

@@ -7,7 +7,7 @@ precision, and what the compiled ones are compared with.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -19,7 +19,7 @@ from scipy.integrate import trapezoid
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
-from bearingcore.dynamics.curves import CURVES, curve_errors, curves_of, swings
+from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.experiments.points import (
     NOT_WATCHED,
     RIGHT,
@@ -381,7 +381,6 @@ def statics_experiment(
     scene: Scene,
     *,
     n_angles: int = 121,
-    solvers: Sequence[str] | None = None,
     watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of ways to solve the static equilibrium over a period of cage angles.
@@ -392,19 +391,14 @@ def statics_experiment(
         what to solve.
     n_angles
         equally spaced cage angles in a ball spacing.
-    solvers
-        names out of SOLVERS; None takes all.
     watch
         progress, points as they come, and cancelling.
 
     Raises
     ------
     ValueError
-        for unknown solvers, or a scene without a static state.
+        for a scene without a static state.
     """
-    names = tuple(SOLVERS) if solvers is None else tuple(solvers)
-    for name in names:
-        checks.choice("solver", name, tuple(SOLVERS))
     report = watch.within(0.0, 0.1)
     report(0.0)
     problems = {
@@ -416,15 +410,15 @@ def statics_experiment(
         report(k / len(problems))
         truths[case] = static_reference(problem)
     _refuse_without(truths[""].known, scene)
-    for name in names:
+    for name in SOLVERS:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
             SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
-    tasks = [("", name, tolerance) for name in names for tolerance in SOLVERS[name][1]]
+    tasks = [("", name, tolerance) for name in SOLVERS for tolerance in SOLVERS[name][1]]
     tasks += [
         (case, name, SOLVERS[name][1][-1 if len(SOLVERS[name][1]) == 1 else -2])
         for case in problems
         if case
-        for name in names
+        for name in SOLVERS
     ]
     experiment = Experiment(
         "statics",
@@ -505,7 +499,6 @@ PLACINGS = ("equally spaced", "equally spaced and edges")
 
 def angles_experiment(
     scene: Scene,
-    curves: str = "stiffness",
     *,
     watch: Watch = NOT_WATCHED,
 ) -> Experiment:
@@ -514,23 +507,19 @@ def angles_experiment(
     Parameters
     ----------
     scene
-        whose curves are drawn.
-    curves
-        "load", "stiffness" or "modes": see `dynamics.curves`. The mean is that of the
-        same curves.
+        whose stiffness is drawn.
     watch
         progress, points as they come, and cancelling.
 
     Raises
     ------
     ValueError
-        for unknown curves, or a scene without a static state.
+        for a scene without a static state.
     """
-    checks.choice("curves", curves, CURVES)
     watch.within(0.0, 0.2)(0.0)
     period = default_cage_angles(scene, 2)
     first, last = float(period[0]), float(period[-1])
-    truth = _DenseTruth(scene, curves, first, last)
+    truth = _DenseTruth(scene, first, last)
     kinks = path_kinks(scene, first, last)
 
     def equal(n: float) -> tuple[Array, int]:
@@ -552,7 +541,7 @@ def angles_experiment(
 
         def work() -> tuple[Array, Array, int]:
             angles, solved = choose(value)
-            return angles, curves_of(equilibrium(scene, angles), curves), solved
+            return angles, stiffness_curves(equilibrium(scene, angles)), solved
 
         (angles, values, solved), seconds, runs = least_time(work)
         errors = truth.errors(angles, values)
@@ -562,7 +551,7 @@ def angles_experiment(
 
     experiment = Experiment(
         "angles",
-        f"Cage angles for curves of {curves} over {math.degrees(last - first):.4g}°",
+        f"Cage angles for curves of stiffness over {math.degrees(last - first):.4g}°",
         ANGLE_ERRORS,
         "cage angles solved",
         {"": truth.reference},
@@ -577,11 +566,11 @@ def angles_experiment(
 class _DenseTruth:
     """Curves on a dense grid with a node at every edge, and their means by another quadrature."""
 
-    def __init__(self, scene: Scene, curves: str, first: float, last: float) -> None:
+    def __init__(self, scene: Scene, first: float, last: float) -> None:
         # the compiled solver's curves against contacts in NumPy: the same model, other code
         began = default_cage_angles(scene, 1001)
         self.angles = np.union1d(np.linspace(first, last, 16001), path_kinks(scene, first, last))
-        self.values = curves_of(equilibrium(scene, self.angles), curves)
+        self.values = stiffness_curves(equilibrium(scene, self.angles))
         known = np.asarray(np.isfinite(self.values).all(axis=1))
         _refuse_without(known, scene)
         self.scale = swings(self.values)
@@ -592,7 +581,7 @@ class _DenseTruth:
         # midpoints of equal intervals, never at an edge: another rule, other angles
         n = 2**14
         middle = first + (np.arange(n) + 0.5) * (last - first) / n
-        other = curves_of(equilibrium(scene, middle), curves).mean(axis=0)
+        other = stiffness_curves(equilibrium(scene, middle)).mean(axis=0)
         problem = static_problem(scene, began)
         same = equilibrium(scene, began)
         twin = refined(problem, same.state)

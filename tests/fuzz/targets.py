@@ -8,6 +8,7 @@ import time
 import wave
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from bearing_explorer.measurement.form import (
 from bearing_explorer.state.address import opened, place_of, write
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import Scene, catalogue, catalogue_text, presets, read_catalogue, read_floor
+from bearingcore import Scene, presets, read_catalogue, read_floor
 from bearingcore.files.table import read_table
 from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, text_like
@@ -100,9 +101,10 @@ def _floors() -> list[str]:
 
 
 def _bearings() -> list[str]:
+    shipped = resources.files("bearingcore.bearings").joinpath("bearings.csv")
     own = "name,balls,ball_diameter_mm,pitch_diameter_mm,note\na,9,7.94,39.04,ours\nb,8,7,30,"
     german = "name;balls;ball_diameter_mm;pitch_diameter_mm\n6205;9;7,94;39,04"
-    return [catalogue_text(catalogue().values()), own, german]
+    return [shipped.read_text("utf-8"), own, german]
 
 
 def _signal(n: int = 600) -> np.ndarray:

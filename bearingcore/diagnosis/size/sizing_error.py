@@ -15,6 +15,9 @@ from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import Recording
 
+DURATION, SAMPLE_RATE = 0.7, 20_480.0
+"""[s], [Hz] of the recording."""
+
 SETTLED = 0.3
 """[s] of a simulated motion before its signal is recorded."""
 
@@ -33,24 +36,17 @@ class ExtentError:
 def extent_error(
     scene: Scene,
     *,
-    duration: float = 0.7,
-    sample_rate: float = 20_480.0,
     noise: float = 20.0,
-    seed: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> ExtentError:
-    """Simulate what a sensor on the housing would record of `scene`, and size its defect by it.
+    """Simulate what sensors along x and y would record of `scene`, and size its defect by it.
 
     Parameters
     ----------
     scene
         with a single defect of the outer race.
-    duration, sample_rate
-        [s], [Hz] of the recording, along x and y.
     noise
         level of white noise below the signal's mean power [dB].
-    seed
-        of the noise.
     progress
         as for `size_defect`: is called with the share of the work done, and may raise an exception.
 
@@ -63,15 +59,15 @@ def extent_error(
         raise checks.refuse("defect", f"{len(scene.defect)} defects", "a single one")
     checks.number("extent", scene.defect.extent, above=0.0, unit="rad")
     checks.number("depth", scene.defect.depth, above=0.0, unit="m")
-    motion = simulate(scene, duration + SETTLED, sample_rate)
+    motion = simulate(scene, DURATION + SETTLED, SAMPLE_RATE)
     if not motion.completed:
         raise ValueError(f"there is no signal to size: {motion.reason}")
     columns = [i for i, name in enumerate(motion.dofs) if name in ("x", "y")]
-    signal = motion.outer_acceleration[round(SETTLED * sample_rate) :, columns]
+    signal = motion.outer_acceleration[round(SETTLED * SAMPLE_RATE) :, columns]
     level = math.sqrt(float(np.mean(signal**2))) * 10.0 ** (-noise / 20.0)
-    signal = signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
+    signal = signal + level * np.random.default_rng(0).standard_normal(signal.shape)
     directions = tuple(motion.dofs[i] for i in columns)
-    recording = Recording(signal, sample_rate, directions)
+    recording = Recording(signal, SAMPLE_RATE, directions)
     # which race is damaged and how it is supported is known here: only the size is estimated
     found = size_defect(recording, scene, fault="outer race", support_known=True, progress=progress)
     error = found.best.extent - scene.defect.extent if found.conclusive else math.nan

@@ -12,9 +12,7 @@ from bearingcore import presets
 from bearingcore.bearings.catalogue import (
     MOST_BEARINGS,
     MOST_BYTES,
-    CatalogueBearing,
     catalogue,
-    catalogue_text,
     read_catalogue,
 )
 from bearingcore.statics.life import dynamic_load_rating
@@ -73,29 +71,6 @@ def test_the_table_is_a_plain_csv() -> None:
     text = resources.files("bearingcore.bearings").joinpath("bearings.csv").read_text("utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     assert len(list(csv.DictReader(lines, delimiter=";"))) == len(catalogue())
-
-
-def test_written_and_read_again() -> None:
-    again = read_catalogue(catalogue_text(catalogue().values()))
-    assert list(again) == list(catalogue())
-    for name, entry in catalogue().items():
-        mine = again[name]
-        assert mine.note == entry.note
-        assert mine.dynamic_load_rating == entry.dynamic_load_rating
-        assert mine.assumed == ()
-        for field in ("n_balls", "ball_diameter", "pitch_diameter"):
-            assert getattr(mine.bearing, field) == getattr(entry.bearing, field)
-        for field in ("load_deflection_factor", "groove_center_distance", "radial_clearance"):
-            expected = getattr(entry.bearing, field)
-            assert getattr(mine.bearing, field) == pytest.approx(expected, rel=1e-10)
-
-
-def test_what_a_table_cannot_hold_is_refused() -> None:
-    for name in ("fan-rig", "seven-ball"):  # no drawing; a lever of its own
-        with pytest.raises(ValueError, match=name):
-            catalogue_text([CatalogueBearing(name, presets[name].bearing)])
-    with pytest.raises(ValueError, match="begin"):
-        catalogue_text([CatalogueBearing("# 1", presets["6205"].bearing)])
 
 
 @pytest.mark.parametrize(

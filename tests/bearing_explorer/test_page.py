@@ -24,7 +24,10 @@ from bearingcore import Defect, RoughFloor, presets
 from tests.helpers.measuring import measuring, signal
 
 VIEWS = [view for section in SECTIONS for view in section.views]
-ALIKE = {"6203", "209", "7208-face-to-face", "7208-tandem"}
+ALIKE = {
+    *("6203", "6206", "209", "seven-ball", "7208-15deg", "7208-40deg"),
+    *("7208-face-to-face", "7208-tandem"),
+}
 """Presets of a kind that another one stands for."""
 EVERY_DAY = ("fan-rig", "7208-back-to-back", "nu208", "1208", "axial", "both races")
 """Scenes of each kind that stand for the others where time is short."""

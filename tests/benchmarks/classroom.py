@@ -32,6 +32,7 @@ import numpy as np
 from playwright.sync_api import Error, sync_playwright
 
 from tests.benchmarks.machine import Pace, pace
+from tests.benchmarks.processor import TICKS, resident, started_by, worked
 from tests.browser.helpers import chromium, explorer_server, free_port, serving
 from tests.helpers.balancer import balanced
 from tests.helpers.page_client import PageClient
@@ -44,9 +45,6 @@ CHECKED = 50  # every how many-th picture is computed anew
 #: lengths of arrows in the drawing of the bearing
 REMEMBERING = {("depth_profile_surface", "bottom")}
 
-_TICKS = os.sysconf("SC_CLK_TCK")
-_PAGE = os.sysconf("SC_PAGE_SIZE")
-
 
 @dataclass
 class Notes:
@@ -58,7 +56,6 @@ class Notes:
     drags: int = 0
     lost: int = 0
     leaks: int = 0
-    jobs: int = 0
     compared: list[tuple[dict[str, float], dict[str, dict[str, np.ndarray]]]] = field(
         default_factory=list
     )
@@ -112,15 +109,6 @@ class Person:
             if not await self._client.until_drawn(seconds=LOST):
                 self.notes.lost += 1
             await asyncio.sleep(REST)
-
-    async def compute(self, seconds: float) -> None:
-        """Have the background compute one thing after the other, for as long as told."""
-        await self._client.show("speed-run", "Run up")
-        end = time.perf_counter() + seconds
-        while (left := end - time.perf_counter()) > 0.0:
-            await self._client.press("Run up")
-            self.notes.jobs += 1
-            await asyncio.sleep(min(10.0, left))
 
     async def leave(self) -> None:
         """Close the tab."""
@@ -279,65 +267,31 @@ def browse(url: str, seconds: float, go: Any, found: list[Notes], tab: str) -> N
 # The machine
 
 
-def cpu_seconds(pids: list[int]) -> float:
-    """What processes and those they started have used [s]."""
-    total = 0.0
-    for pid in pids:
-        try:
-            fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-        except OSError:
-            continue
-        total += (int(fields[11]) + int(fields[12])) / _TICKS
-    return total
-
-
 def busy_seconds() -> float:
     """What all cores of the machine have worked since it started [s]."""
     user, nice, system, _, _, *rest = map(int, Path("/proc/stat").read_text().split()[1:11])
-    return (user + nice + system + sum(rest[:2])) / _TICKS
-
-
-def memory(pids: list[int]) -> float:
-    """Resident memory [MB], what processes share counted with each."""
-    total = 0.0
-    for pid in pids:
-        try:
-            total += int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * _PAGE / 1e6
-        except OSError:
-            continue
-    return total
-
-
-def family(pid: int) -> list[int]:
-    """A process and its children."""
-    found, at = [pid], 0
-    while at < len(found):
-        for task in Path(f"/proc/{found[at]}/task").glob("*/children"):
-            found += [int(child) for child in task.read_text().split()]
-        at += 1
-    return found
+    return (user + nice + system + sum(rest[:2])) / TICKS
 
 
 async def _crowd(
-    people: list[Person], seconds: float, go: Any, server: list[int], jobs: int
+    people: list[Person], seconds: float, go: Any, server: list[int]
 ) -> dict[str, float]:
     await asyncio.gather(*(person.come() for person in people))
-    together = memory(server)
+    together = sum(map(resident, server))
     while go.parties > 1 and go.n_waiting < go.parties - 1:
         await asyncio.sleep(0.2)
     if go.parties > 1:
         await asyncio.to_thread(go.wait)
-    began, used, mine = time.perf_counter(), cpu_seconds(server), time.process_time()
+    began, used, mine = time.perf_counter(), sum(map(worked, server)), time.process_time()
     busy = busy_seconds()
     await asyncio.gather(
-        *(person.compute(seconds) for person in people[:jobs]),
-        *(person.drag(seconds) for person in people[jobs:]),
+        *(person.drag(seconds) for person in people),
     )
     took = time.perf_counter() - began
     return {
         "memory": together,
-        "memory_after": memory(server),
-        "server": (cpu_seconds(server) - used) / took,
+        "memory_after": sum(map(resident, server)),
+        "server": (sum(map(worked, server)) - used) / took,
         "clients": (time.process_time() - mine) / took,
         "all": (busy_seconds() - busy) / took,
         "took": took,
@@ -351,7 +305,6 @@ def main() -> int:
     parser.add_argument("--browsers", type=int, default=2, help="of them real")
     parser.add_argument("--seconds", type=float, default=120.0)
     parser.add_argument("--tab", default="load", help="that all look at")
-    parser.add_argument("--jobs", type=int, default=0, help="of them compute speed runs instead")
     parser.add_argument("--num-procs", type=int, default=1, help="that share a port")
     parser.add_argument(
         "--behind", type=int, default=0, help="so many explorers with a balancer before them"
@@ -374,8 +327,9 @@ def main() -> int:
         if fronted:
             stack.enter_context(balanced([server.port for server in servers], port=balancer))
             url = f"http://localhost:{balancer}/"
-        pids = [pid for server in servers for pid in family(server.process.pid)]
-        before = memory(pids)
+        first = [server.process.pid for server in servers]
+        pids = [*first, *(pid for one in first for pid in started_by(one))]
+        before = sum(map(resident, pids))
         go = threading.Barrier(chosen.browsers + 1)
         threads = [
             threading.Thread(target=browse, args=(url, chosen.seconds, go, found, chosen.tab))
@@ -386,7 +340,7 @@ def main() -> int:
         people = [Person(url, n, chosen.tab) for n in range(chosen.sessions - chosen.browsers)]
 
         async def class_of() -> dict[str, float]:
-            return await _crowd(people, chosen.seconds, go, pids, chosen.jobs)
+            return await _crowd(people, chosen.seconds, go, pids)
 
         async def all_leave() -> None:
             await asyncio.gather(*(person.leave() for person in people))
@@ -397,7 +351,7 @@ def main() -> int:
                 thread.join()
             runner.run(all_leave())
             time.sleep(chosen.leave)
-            left = memory(pids)
+            left = sum(map(resident, pids))
         log = "".join(server.log for server in servers)
     print(f"before: {machine_before}\nafter:  {pace()}")
     _print(
@@ -442,8 +396,6 @@ def _print(
         f"first picture after {firsts[len(firsts) // 2]:.1f} s (median), {firsts[-1]:.1f} s (last)"
     )
     print(f"drags {sum(one.drags for one in everyone)}, lost {sum(one.lost for one in everyone)}")
-    if chosen.jobs:
-        print(f"{chosen.jobs} sessions asked for {sum(one.jobs for one in clients)} speed runs")
     checked = sum(len(one.compared) for one in clients)
     leaks = sum(one.leaks for one in clients)
     print(f"leaks {leaks}; {checked} pictures computed anew, {wrong} differ")

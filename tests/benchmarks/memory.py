@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import os
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 
 from tests.benchmarks.machine import pace
+from tests.benchmarks.processor import resident
 from tests.browser.helpers import explorer_server, serving
 from tests.helpers.page_client import PageClient
 
@@ -26,12 +25,6 @@ TABS = ("load", "stiffness", "vibration")
 SETTLES = 30.0
 """After which sessions are dropped and a collection has been [s]."""
 MAY_GROW = 1.15
-
-
-def resident(process: int) -> float:
-    """The memory that a process holds [MB]."""
-    pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 async def person(url: str, number: int) -> float:

@@ -1,4 +1,4 @@
-"""Processor time of processes: what a machine that others use too cannot hide.
+"""Processor time and memory of processes: what a machine that others use too cannot hide.
 
 A clock counts what neighbours take as well. The system counts what each process has worked.
 """
@@ -9,7 +9,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-_TICK = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
+TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
 
 
 def worked(process: int) -> float:
@@ -19,7 +19,16 @@ def worked(process: int) -> float:
     except OSError:
         return 0.0
     fields = text.rsplit(")", 1)[1].split()  # its name may hold anything
-    return (int(fields[11]) + int(fields[12])) / _TICK
+    return (int(fields[11]) + int(fields[12])) / TICKS
+
+
+def resident(process: int) -> float:
+    """The memory that a process holds [MB]; 0 where it is gone."""
+    try:
+        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+    except OSError:
+        return 0.0
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def started_by(process: int) -> Iterator[int]:

@@ -21,7 +21,6 @@ from bearingcore.scene.packing import body_numbers
 
 SOURCES = Path(__file__).parent / "c_loops"
 FLAGS = ("-O3", "-march=native")
-FAST_MATH = ("-O3", "-march=native", "-ffast-math")
 ARC = {"published": 0.5, "chord": 1.0}
 
 Array = NDArray[np.float64]
@@ -33,13 +32,13 @@ def compiler() -> str | None:
     return shutil.which("gcc")
 
 
-def build(name: str, flags: tuple[str, ...]) -> Any:
+def build(name: str) -> Any:
     """Compile `c_loops/<name>.c` into a new temporary library and load it."""
     gcc = compiler()
     if gcc is None:
         raise RuntimeError("no gcc on this machine: install it to build the yardsticks")
     library = Path(tempfile.mkdtemp(prefix="yardstick-")) / f"{name}.so"
-    command = [gcc, *flags, "-shared", "-fPIC", "-o", str(library)]
+    command = [gcc, *FLAGS, "-shared", "-fPIC", "-o", str(library)]
     subprocess.run([*command, str(SOURCES / f"{name}.c"), "-lm"], check=True)
     return ctypes.CDLL(str(library))
 
@@ -61,8 +60,8 @@ def _outer_defect(scene: Scene) -> tuple[float, float, float, float]:
 class CStatics:
     """Static equilibrium and stiffness, five DOFs; outputs are kept from call to call."""
 
-    def __init__(self, flags: tuple[str, ...] = FLAGS, tolerance: float = 1e-12) -> None:
-        self._library = build("statics", flags)
+    def __init__(self, tolerance: float = 1e-12) -> None:
+        self._library = build("statics")
         self._tolerance = tolerance
 
     def _numbers(self, scene: Scene) -> Array:
@@ -125,8 +124,8 @@ class CStatics:
 class CMotion:
     """Motion of both bodies by classical Runge-Kutta, one step a sample."""
 
-    def __init__(self, flags: tuple[str, ...] = FLAGS, nodes: int = 2048) -> None:
-        self._library = build("motion", flags)
+    def __init__(self, nodes: int = 2048) -> None:
+        self._library = build("motion")
         self._nodes = nodes
 
     def march(

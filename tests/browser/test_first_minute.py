@@ -93,7 +93,7 @@ def test_the_first_screen_is_seen_at_a_glance(watch: tuple[Page, Watch], explore
     expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
 
 
-@pytest.mark.parametrize("width", [768, 960, 1199])
+@pytest.mark.parametrize("width", [768, 1199])
 def test_a_figure_is_near_the_top_where_there_is_less_room(
     watch: tuple[Page, Watch], explorer: Server, width: int
 ) -> None:

@@ -194,9 +194,13 @@ PROJECTED = """() => {
 }"""
 
 
-@pytest.mark.parametrize("size", [(1920, 1080), (1366, 768)])
 @pytest.mark.parametrize(
-    "link", ["?v=1&tab=overview", "?v=1&tab=vibration", "?lesson=what-a-ball-carries"]
+    ("link", "size"),
+    [
+        ("?v=1&tab=overview", (1920, 1080)),
+        ("?v=1&tab=vibration", (1366, 768)),
+        ("?lesson=what-a-ball-carries", (1366, 768)),
+    ],
 )
 def test_a_projector_has_large_type_and_large_figures(
     watch: tuple[Page, Watch], explorer: Server, link: str, size: tuple[int, int]

@@ -52,6 +52,14 @@ def test_good_messages_are_handed_on_as_they_are(component: str) -> None:
         ("Tabs", {}),
         ("Tabs", "load"),
         ("Controls", None),
+        ("Controls", {"mark": "x", "set": {"extent_deg": 1}}),
+        ("Controls", {"mark": 1e99, "set": {1: 2, None: 3}}),
+        ("Controls", {"reset": "yes"}),
+        ("Controls", {"floor": {"name": 5, "text": "1 2"}}),
+        ("ShareBar", {"mark": 1, "undo": 1}),
+        ("ShareBar", {"open": {"name": ["x"], "text": {}}}),
+        ("ShareBar", {"keep": {"name": 1}}),
+        ("ShareBar", {"report": {"base": 1}}),
     ],
 )
 def test_others_are_ignored_with_a_line(

@@ -561,16 +561,4 @@ def _formula(latex: str, display: bool, line: int) -> str:
             element.text = re.sub(
                 r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text
             )
-    _lower_subscripts(root)
     return ElementTree.tostring(root, encoding="unicode")
-
-
-def _lower_subscripts(root: ElementTree.Element) -> None:
-    """Subscripts a little lower: without a font for mathematics browsers set them on the line."""
-    for element in root.iter():
-        if element.tag in ("msub", "msubsup") and len(element) > 1:
-            below = element[1]
-            box = ElementTree.Element("mpadded", {"voffset": "-0.2em"})
-            element.remove(below)
-            box.append(below)
-            element.insert(1, box)

@@ -316,12 +316,7 @@ def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str,
     """Columns of several shapes as one, polygons with NaN between those that are not empty."""
     if not gaps:
         return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
-    parts = [part for part in parts if part["x"].size] or parts[:1]
-    gap = np.array([np.nan])
-    return {
-        column: np.concatenate([piece for part in parts for piece in (part[column], gap)][:-1])
-        for column in parts[0]
-    }
+    return with_gaps(((part["x"], part["y"]) for part in parts if part["x"].size), "x", "y")
 
 
 def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:

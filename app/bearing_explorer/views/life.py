@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
+from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
 from bearing_explorer.serve.packed_source import PackedSource
@@ -171,19 +172,11 @@ class LifeOfBearing(View):
 
 def read(field: Field, given: object) -> float | None:
     """The number [SI] a person gave; ValueError with a sentence for the page."""
-    text = str(given)[:40].strip().replace("−", "-").replace(",", ".")
+    text = str(given)[:40].strip()
     if not text and field.name in MAY_BE_EMPTY:
         return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not field.least <= value <= field.most:
-        raise ValueError(
-            f"“{text}” is not possible: {field.label.lower()} goes from {field.least:g} to "
-            f"{field.most:g} {field.unit}."
-        )
-    return value * field.unit_si
+    words = f"The {field.label.lower()}"
+    return number_of(text, words, field.unit, field.least, field.most) * field.unit_si
 
 
 def groups_of(results: Results) -> list[FactGroup]:

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import element_name
-from bearing_explorer.plots.layers import add_all, curve, sources_of, uprights
-from bearing_explorer.plots.levels import SHOWN
+from bearing_explorer.plots.layers import draw, uprights
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import Excerpt
 from bearing_explorer.results.results import Results
@@ -28,8 +27,13 @@ from bearing_explorer.views.bearing import (
     Shapes,
     load_words,
 )
-from bearing_explorer.views.passage_view import TIME, event_lines, event_names, traces
-from bearing_explorer.views.vibration_time import ACCELERATION, EVENT_WORDS, NARROW, event_rows
+from bearing_explorer.views.passage_view import TIME, traces
+from bearing_explorer.views.vibration_time import (
+    ACCELERATION,
+    event_rows,
+    motion_layers,
+    signals_of,
+)
 from bearing_explorer.widgets.form import stack
 from bearingcore import Bearing
 from bearingcore.common.table import table_of
@@ -89,14 +93,8 @@ class SlowPassage(BearingDrawing):
             height=200,
             name="slow_drawing",
         )
-        lines = [curve("slow_motion", "time", d, style.color_along(d), 1.4) for d in SHOWN[::-1]]
-        layers = [
-            event_lines("slow"),
-            *lines,
-            event_names("slow", EVENT_WORDS, ("enters",), NARROW),
-            uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0),
-        ]
-        add_all(motion, sources_of(packed, layers), layers)
+        cursor = uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0)
+        draw(motion, packed, [*motion_layers("slow"), cursor])
         return [SlowMotion(), stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])]
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
@@ -120,8 +118,7 @@ class SlowPassage(BearingDrawing):
             "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
         }
         loudest = max(shown.acceleration.values(), key=_peak, default=np.zeros(2))
-        missing = np.full(shown.time.size, np.nan)
-        signals = {dof: shown.acceleration.get(dof, missing) for dof in SHOWN}
+        signals = signals_of(shown)
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
             "slow_load_words": load_words(scene.load, drawn.depth_scale),

@@ -48,14 +48,8 @@ class VibrationInTime(PassageView):
     prefix = "vibration"
 
     def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
-        lines = [
-            curve("vibration_motion", "time", dof, style.color_along(dof), 1.4)
-            for dof in reversed(SHOWN)
-        ]
-        names = event_names("vibration", EVENT_WORDS, ("enters",), NARROW)
         compared = compared_curves.curves("vibration", "time", *SHOWN, width=1.1)
-        layers = [event_lines("vibration"), *compared, *lines, names]
-        return [(ACCELERATION, 270, layers)]
+        return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
         lines = [
@@ -121,6 +115,18 @@ class VibrationInTime(PassageView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.excerpt.table().named()
+
+
+def motion_layers(prefix: str) -> list[Layer]:
+    """Acceleration along x and y, with the events, of the sources of that prefix."""
+    return [
+        event_lines(prefix),
+        *(
+            curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
+            for dof in reversed(SHOWN)
+        ),
+        event_names(prefix, EVENT_WORDS, ("enters",), NARROW),
+    ]
 
 
 def signals_of(shown: Excerpt) -> dict[str, np.ndarray]:

@@ -10,6 +10,7 @@ import time
 from functools import cache
 
 import numpy as np
+import panel as pn
 import pytest
 from bearing_explorer.measurement.background import true_part
 from bearing_explorer.measurement.diagnoses import SLIP, Answers, Question, answered
@@ -34,6 +35,7 @@ from bearing_explorer.views.part_lines import (
 )
 
 from bearingcore import Diagnosis, Recording, Scene, presets
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.helpers.measuring import measuring
 
 MOTOR = presets["6205"]
@@ -269,6 +271,28 @@ def test_a_peak_of_a_fine_spectrum_is_not_lost():
 
 
 # -- the evidence ----------------------------------------------------------------------------------
+
+
+def test_a_search_of_the_list_shows_its_progress_and_can_be_cancelled():
+    found = dataclasses.replace(diagnosed("outer race"), status=DiagnosisStatus.OTHER_SOURCE)
+    view = view_of(heard("outer race"), found)
+
+    def said() -> str:
+        view.say(RESULTS, "")
+        return " ".join(pane.object for pane in view.candidates.select(pn.pane.HTML))
+
+    assert "Looking for listed bearings" in said()
+    wanted = view.measurement.listed.wanted
+    assert wanted.progress.goes_on(3, 40)
+    assert "3 of 40 …" in said()
+    (cancel,) = view.candidates.select(pn.widgets.Button)
+    assert cancel.label == "Cancel the search"
+    cancel.clicks += 1
+    assert not wanted.progress.goes_on(4, 40)
+    said()
+    assert view.candidates.select(pn.widgets.Button) == []
+    view.measurement.listed.keep(wanted, ())
+    assert "cancelled after 3 of 40 listed bearings" in said()
 
 
 def test_the_evidence_is_listed_for_each_part():

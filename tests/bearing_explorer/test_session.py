@@ -3,14 +3,16 @@
 import asyncio
 import math
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import pytest
 from bearing_explorer.messages import SceneChange, take
 from bearing_explorer.results.results import Results
-from bearing_explorer.session import Explorer
+from bearing_explorer.session import Explorer, Section
+from bearing_explorer.views.alternatives import OtherModels, takeable
 
 from bearingcore import presets
+from bearingcore.experiments.alternatives import alternatives
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
 
@@ -25,11 +27,16 @@ def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
     return news
 
 
-def session(*acts: Callable[[Explorer], None], rest: bool = False) -> Explorer:
+def session(
+    *acts: Callable[[Explorer], None],
+    rest: bool = False,
+    sections: Sequence[Section] = SECTIONS,
+    preset: str = "fan-rig",
+) -> Explorer:
     """A session in which `acts` happened and all was drawn, also for the hand's `rest`."""
 
     async def live() -> Explorer:
-        explorer = Explorer(SECTIONS)
+        explorer = Explorer(sections, preset)
         explorer.draw()
         await idle(explorer)
         for act in acts:
@@ -204,3 +211,25 @@ def test_limits_are_looked_at_when_the_hand_rests(
     assert heavy.limits.rows[0]["state"] == "crossed"
     assert looked[-1] == -20000.0
     assert not {-130.0, -140.0} & set(looked), "not while it moves"
+
+
+@pytest.mark.parametrize(
+    ("preset", "kinds"), [("fan-rig", {"step_rate", "balls"}), ("liew-lim", {"step_rate", "dofs"})]
+)
+def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -> None:
+    """Each row of the table, in a session: its model becomes that of the scene."""
+    section = (Section("accuracy", "Accuracy", (OtherModels,)),)
+    found = alternatives(presets[preset])
+    models = {one.name: one.changes for one in takeable(found.rows)}
+    assert {kind for changes in models.values() for kind in changes} == kinds
+    for name, changes in models.items():
+
+        def take_it(explorer: Explorer, name: str = name) -> None:
+            (view,) = explorer._views["accuracy"]
+            view.found = found
+            view._use(name)  # type: ignore[attr-defined]
+
+        explorer = session(take_it, sections=section, preset=preset)
+        fields = {kind: value for kind, value in changes.items() if kind != "step_rate"}
+        assert {kind: getattr(explorer.scene, kind) for kind in fields} == fields
+        assert explorer.inputs.settings.step_rate == changes.get("step_rate")

@@ -162,7 +162,7 @@ def reasons(table: Table) -> dict[str, str]:
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     found = dict.fromkeys(choice.columns, choice.reason)
-    found["unit"] = _because(contents.unit) if contents.unit.stated else "The file does not say it."
+    found["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
     found["sensitivity"] = "See the label of the sensor."

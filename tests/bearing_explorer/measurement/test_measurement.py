@@ -314,7 +314,9 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     assert made.state.line == (
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
     )
+    assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
     answer(made, sample_rate="48000", unit="m/s²", bearing="")
+    assert made.source_of("unit") == "Typed in"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.measured.bearing is None
     answer(made, x="1")

@@ -21,7 +21,7 @@ from bearingcore import Limit, Scene
 
 log = logging.getLogger(__name__)
 
-BROKEN = "This could not be computed; what is shown belongs to an earlier position."
+BROKEN = "This could not be computed; what is shown belongs to an earlier scene."
 _DRAWN_LATER = "This is drawn by itself as soon as that is done."
 
 

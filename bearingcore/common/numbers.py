@@ -133,6 +133,15 @@ def span(low: float, high: float, unit: str, digits: int = 3) -> str:
     return f"{one} {unit}" if one == other else f"{one} to {other} {unit}"
 
 
+def prefixed_span(low: float, high: float, unit: str) -> str:
+    """From the least to the greatest number with a prefix: "11.1 to 20.1 MN/m"."""
+    one, other = with_prefix(low, unit), with_prefix(high, unit)
+    first, its_unit = one.rsplit(" ", 1)
+    if one == other or not (math.isfinite(low) and math.isfinite(high)):
+        return other
+    return f"{first if low == 0.0 or other.endswith(f' {its_unit}') else one} to {other}"
+
+
 def with_deviation(value: float, deviation: float, unit: str) -> str:
     """A number and its standard deviation, to the digit in which the deviation shows itself.
 

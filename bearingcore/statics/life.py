@@ -455,7 +455,7 @@ def million_revolutions(
 
 LEFT_OUT = (
     "This counts the changed load distribution only. The standard rates smooth races: pressure on "
-    "the edges of a defect, the blow of each ball and debris are left out, so that a damaged "
+    "the edges of a defect, the impact of each ball and debris are left out, so that a damaged "
     "bearing fails sooner. Treat it as an upper limit."
 )
 

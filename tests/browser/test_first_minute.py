@@ -59,8 +59,8 @@ COUNTS = """() => {
     }
     for (const { glyph, data_source } of model.renderers) {
       if (glyph?.type !== "Text") continue
-      const { expr, field } = glyph.text
-      const texts = [...(expr?.v_compute(data_source) ?? data_source.data[field])]
+      const { expr, field, value } = glyph.text
+      const texts = [...(expr?.v_compute(data_source) ?? data_source.data[field] ?? [value])]
       found.drawn.push(...texts.flatMap(words_of))
       size(parseFloat(glyph.text_font_size.value ?? glyph.text_font_size), texts.join(" "))
     }

@@ -87,7 +87,8 @@ class DofDifferences(View):
         static = [value for value in found.static.values() if math.isfinite(value)]
         if not static:
             return f"{text}; with {against} there is no answer to compare with."
-        return f"{text}; against {against} static answers differ by {share(max(static))} at most."
+        differ = f"differ by {share(max(static))} at most" if any(static) else "are the same"
+        return f"{text}; with {against} static answers {differ}."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

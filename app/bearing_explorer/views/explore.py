@@ -6,6 +6,7 @@ refines it level by level.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -255,6 +256,7 @@ def summary(plane: Plane) -> str:
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
+    words = re.sub("^k", "k_", words)  # with its directions below
     return f"{size}. {words}: {ends}.{missing}"
 
 

@@ -315,5 +315,6 @@ def _film(results: Results, found: Endurance) -> FactGroup:
     words = found.film.sentence
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
+        words = words[0].lower() + words[1:]
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
     return FactGroup(title, words, facts)

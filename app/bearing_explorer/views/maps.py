@@ -406,7 +406,7 @@ if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
 _ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
-_FLAT = "return row.kind == 3 ? 'zero everywhere' : ''"
+_FLAT = f"return row.kind == 3 ? '{matrix_cells.ZERO}' : ''"
 _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 
 

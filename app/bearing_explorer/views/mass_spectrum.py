@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.plots import style
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.mass_time import MASSLESS
 from bearing_explorer.views.wide_spectrum import WideSpectra
+from bearingcore.common.numbers import prefixed_span
 
 
 class MassInSpectrum(View):
@@ -46,8 +46,8 @@ class MassInSpectrum(View):
         if high > 0.0:
             above = "" if low < 0.5 * found.sample_rate else ", above this range"
             resonance = (
-                f"Loaded balls resonate between their contacts at {style.with_prefix(low, 'Hz')} "
-                f"to {style.with_prefix(high, 'Hz')}{above}. "
+                f"Loaded balls resonate between their contacts at "
+                f"{prefixed_span(low, high, 'Hz')}{above}. "
             )
         comparison = found.comparison
         if comparison is None:

@@ -20,7 +20,7 @@ from bearing_explorer.state.address import Place, write
 from bearing_explorer.state.compared import Compared, usual_name
 from bearing_explorer.views.modes import FREQUENCY, lines
 from bearingcore import STIFFNESS_TERMS, Maps, Scene, presets, stiffness_maps
-from bearingcore.common.numbers import number, span
+from bearingcore.common.numbers import number, prefixed_span, span
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 from bearingcore.statics.passes import crossings
 
@@ -218,7 +218,7 @@ def _diagram(scene: Scene) -> list[Line]:
 def _ends(values: Array, unit: str) -> str:
     """From the least to the greatest."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    return f"{style.with_prefix(low, unit)} to {style.with_prefix(high, unit)}"
+    return prefixed_span(low, high, unit)
 
 
 def _drawn(curves: Callable[[Scene], list[Line]], unit: str, scenes: Sequence[Scene]) -> str:

@@ -23,6 +23,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS, Scene
+from bearingcore.common.numbers import prefixed_span
 from bearingcore.statics.equilibrium import TERM_UNITS
 
 NARROWEST = 700
@@ -41,7 +42,7 @@ _PLACE_COLUMNS = {
     **matrix_cells.sides_of(_FRAMES),
     "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
 }
-_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero")
+_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat")
 
 
 class Stiffness(View):
@@ -94,7 +95,7 @@ class Stiffness(View):
         )
         lines: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
-        heads: list[tuple[float, float, float, float]] = []
+        heads: list[tuple[float, float, float, float, float]] = []
 
         def put(
             cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
@@ -112,7 +113,8 @@ class Stiffness(View):
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
-            heads.append((limits[0], limits[1], at_now, zero))
+            flat = not np.nan_to_num(np.concatenate(terms)).any()
+            heads.append((*limits, at_now, zero, flat))
 
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
         low, high = self._ball_limits.fit(*counts)
@@ -126,7 +128,7 @@ class Stiffness(View):
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
         at = float(_BALLS.y(np.array(balls), limits))
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
-        heads.append((limits[0], limits[1], balls, _BALLS.bottom))
+        heads.append((*limits, balls, _BALLS.bottom, False))
 
         drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
         mark, head = np.array(marks).T, np.array(heads).T
@@ -138,7 +140,7 @@ class Stiffness(View):
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
                 "foot": _IS_FOOT * float(results.along(last)),
-                **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
+                **dict(zip(("low", "high", "now", "zero", "flat"), head, strict=True)),
             },
             "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
         }, {}
@@ -152,8 +154,7 @@ class Stiffness(View):
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
             values, healthy_values = found.term(term), healthy.term(term)
             least, most = np.nanmin(values), np.nanmax(values)
-            line = f"{name} {term} goes from {with_prefix(least, 'N/m')}"
-            line += f" to {with_prefix(most, 'N/m')}"
+            line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
             if results.reference_label and healthy.converged.any():
                 mean = over_turn(healthy.cage_angles, healthy_values)
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
@@ -235,12 +236,12 @@ def _legend_words(scene: Scene) -> list[str]:
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
 _LIMIT = f"""{_UNIT}
-if (isNaN(row.low)) return ''
+if (isNaN(row.low) || row.flat) return ''
 const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """
 _NOW = f"""{_UNIT}
-if (narrow) return ''  // it would lie on the symbol
+if (narrow || row.flat) return ''  // it would lie on the symbol
 if (isNaN(row.now)) return 'no value'
 if (!unit) return rounded(row.now, 3)
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
@@ -257,6 +258,8 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     write(plot, cells, words_of(cells, _LIMIT % "high"), y="top", text_baseline="top", **left)
     now = style.fitting_words(plot, cells, _NOW, NARROWEST)
     write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
+    flat = words_of(cells, f"return row.flat ? '{matrix_cells.ZERO}' : ''")
+    write(plot, cells, flat, x="left", y="top", x_offset=6, y_offset=6, text_baseline="top")
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
     write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
     last = words_of(cells, _FOOT % "row.foot")

@@ -252,7 +252,7 @@ def loudest_words(results: Results) -> str:
     if results.moving:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")
-    return f"{text}. It is of a motion integrated in time, without its first {start}."
+    return f"{text}. Computed by time integration, without the first {start}."
 
 
 def passed(scene: Scene) -> list[tuple[str, int, float]]:

@@ -282,7 +282,7 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     assert sources["explore_cells"]["packed"][6] == 1.0  # as opaque as can be
     assert packed.pack(sources, ranges).size > 3
     words = view.sentence(results)
-    assert words.startswith("9 × 7 points. kyy, mean: least")
+    assert words.startswith("9 × 7 points. k_yy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
     view.found = coarse(view._request.of(results))
     table = view.table(results)

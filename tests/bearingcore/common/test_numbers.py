@@ -129,6 +129,10 @@ def test_counts_and_spans() -> None:
     assert numbers.span(0.0, 0.0, "Hz") == "0 Hz"
     assert numbers.span(670.1, 670.2, "Hz") == "670 Hz"
     assert numbers.span(math.nan, 1.0, "Hz") == "no value"
+    assert numbers.prefixed_span(11.1e6, 20.1e6, "N/m") == "11.1 to 20.1 MN/m"
+    assert numbers.prefixed_span(962.0, 20.1e3, "N/m") == "962 N/m to 20.1 kN/m"
+    assert numbers.prefixed_span(0.0, 1.56e3, "N") == "0 to 1.56 kN"
+    assert numbers.prefixed_span(math.nan, math.nan, "N") == "no value"
     assert numbers.thousands(65536.0) == "65\u202f536"
 
 

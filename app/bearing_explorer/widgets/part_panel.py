@@ -66,9 +66,13 @@ class ListedBearings(pn.Column):
     """
 
     def __init__(self, take: Callable[[str], None], cancel: Callable[[], None]) -> None:
-        self._take, self._cancel = take, cancel
+        self._take = take
         self._shown: object = None
-        super().__init__(visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
+        # both stay while the search goes on: a click on what is replaced meanwhile is lost
+        self._head = _words("")
+        self._cancel = button("Cancel the search", cancel, visible=False)
+        head = row(self._head, self._cancel)
+        super().__init__(head, visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
 
     def show(
         self, words: str, bearings: Sequence[tuple[str, str]] = (), searching: bool = False
@@ -78,17 +82,16 @@ class ListedBearings(pn.Column):
             return
         self._shown = (words, list(bearings), searching)
         self.visible = bool(words)
-        head = _words(f'<p role="status">{html.escape(words)}</p>')
-        self[:] = [
-            row(head, *([button("Cancel the search", self._cancel)] if searching else [])),
-            *(
+        self._head.object = f'<p role="status">{html.escape(words)}</p>'
+        self._cancel.visible = searching
+        if bearings or len(self) > 1:
+            self[1:] = [
                 row(
                     button(f"Take {name}", partial(self._take, name)),
                     _words(f"<p>{html.escape(why)}</p>"),
                 )
                 for name, why in bearings
-            ),
-        ]
+            ]
 
 
 def _words(content: str) -> pn.pane.HTML:

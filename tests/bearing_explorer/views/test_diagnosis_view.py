@@ -286,13 +286,17 @@ def test_a_search_of_the_list_shows_its_progress_and_can_be_cancelled():
     assert wanted.progress.goes_on(3, 40)
     assert "3 of 40 …" in said()
     (cancel,) = view.candidates.select(pn.widgets.Button)
+    assert wanted.progress.goes_on(4, 40)
+    assert "4 of 40 …" in said()
+    assert view.candidates.select(pn.widgets.Button) == [cancel]  # a new one would lose a click
+    assert cancel.visible
     assert cancel.label == "Cancel the search"
     cancel.clicks += 1
-    assert not wanted.progress.goes_on(4, 40)
+    assert not wanted.progress.goes_on(5, 40)
     said()
-    assert view.candidates.select(pn.widgets.Button) == []
+    assert not cancel.visible
     view.measurement.listed.keep(wanted, ())
-    assert "cancelled after 3 of 40 listed bearings" in said()
+    assert "cancelled after 4 of 40 listed bearings" in said()
 
 
 def test_the_evidence_is_listed_for_each_part():

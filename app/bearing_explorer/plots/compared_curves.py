@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from bokeh.models import GlyphRenderer, Legend, LegendItem, Plot
@@ -79,7 +79,7 @@ class CurveKey:
             LegendItem(label="", renderers=[lines[slot]], visible=False) for slot in sorted(lines)
         ]
         if self.items:
-            self._legend = key_of(self.items, visible=False)
+            self._legend = _legend(self.items)
             plot.add_layout(self._legend, "above")
 
     def show(self, names: Sequence[str]) -> None:
@@ -93,13 +93,13 @@ class CurveKey:
         self._legend.visible = bool(shown)
 
 
-def key_of(items: list[LegendItem], **look: Any) -> Legend:
-    """A key of curves above a figure, in the house style."""
-    usual: dict[str, Any] = {"ncols": 2, **look}
+def _legend(items: list[LegendItem]) -> Legend:
     return Legend(
         items=items,
+        visible=False,
         orientation="horizontal",
         location="top_left",
+        ncols=2,
         border_line_color=None,
         background_fill_color=style.PAPER,
         label_text_font=style.FONT,
@@ -111,7 +111,6 @@ def key_of(items: list[LegendItem], **look: Any) -> Legend:
         padding=2,
         margin=2,
         spacing=10,
-        **usual,
     )
 
 

@@ -165,15 +165,17 @@ def test_only_terms_that_matter_are_lively() -> None:
 def test_curves_and_bands_of_the_spectrum_are_named_in_the_figure() -> None:
     for scene in (FAN_RIG, presets["liew-lim"]):
         results = Results(scene, 0.1)
-        view = OverviewSpectrum(PackedSource())
-        drawn, _ = view.data(results)
+        drawn, ranges = OverviewSpectrum(PackedSource()).data(results)
         full = VibrationSpectra(PackedSource()).data(results)[0]["spectrum_lines"]
         np.testing.assert_array_equal(drawn["overview_lines"]["y"], full["y"])
-        bands = drawn["overview_bands"]
+        bands, names = drawn["overview_bands"], drawn["overview_names"]
         assert len(bands["low"]) == len(results.bands)
-        view.say(results, "")
-        key = [item.label.value for item in view.figures[0].legend[0].items if item.visible]
-        assert key == ["horizontal", "vertical", "without defect"]
+        assert {0.0, 1.0} <= set(names["which"]), "horizontal and vertical"
+        low, high = ranges["overview_level"]
+        assert ((names["y"] > low) & (names["y"] < high)).all()
+        at_end = names["which"] < 2.0
+        assert abs(np.diff(names["y"][at_end])) > 0.05 * (high - low)
+        assert (names["x"][~at_end] <= 0.8 * ranges["overview_frequency"][1]).all()
         for line in set(bands["line"]):
             own = np.flatnonzero(bands["line"] == line)
             ends = bands["low"][own] + bands["room"][own]

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from bokeh.models import LegendItem
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import compared_curves, style
-from bearing_explorer.plots.layers import Layer, Words, by_number, curve, draw, strips
+from bearing_explorer.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.plots.levels import (
     FREQUENCY,
     HIGHEST,
@@ -33,6 +32,12 @@ LEFT = 68
 """[px] left of the frame: the widest numbers fit, so that no drag moves it."""
 TOP_ROOM = 16.0
 """[dB] above the loudest line, for the names of the bands."""
+NAME_ROOM = 0.06
+"""Of the height of the frame: what the name of a curve needs."""
+NAME_WIDTH = 0.16
+"""Of the width of the frame."""
+END = 0.8
+"""Of the frequencies: beyond, a curve makes room for its name."""
 
 _BAND_WORDS = f"""
 const name = (() => {{ {BAND_NAME} return name }})()
@@ -41,12 +46,15 @@ let room = 0
 try {{ room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width/6.5 }} catch {{}}
 return whole.length < room ? whole : name.length < room ? name : ''
 """
+_CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect'][row.which]"
+_OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK)
 
 
 def layers() -> list[Layer]:
-    """From the lowest to the highest: bands, grey, curves, names of the bands."""
+    """From the lowest to the highest: bands, grey, curves, names."""
     blue, orange = style.DIRECTION_COLORS[:2]
     of_band = by_number("direction", style.DIRECTION_COLORS)
+    of_curve = by_number("which", _OF_CURVES)
     return [
         strips("overview_bands", of_band, 0.13, reads=("direction",)),
         *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
@@ -62,6 +70,14 @@ def layers() -> list[Layer]:
             y_share=True,
             fitting=style.NARROW,
             look={"text_color": of_band, "y_offset": style.text_offset("line")},
+        ),
+        Words(
+            "overview_names",
+            "x",
+            "y",
+            _CURVE_WORDS,
+            ("which",),
+            look={"text_color": of_curve, "text_align": "right", **ON_PAPER},
         ),
     ]
 
@@ -93,11 +109,7 @@ class OverviewSpectrum(View):
             height=120,
         )
         plot.min_border_left = LEFT
-        _, grey, *_, x, y, _ = draw(plot, packed, layers())
-        named = {"horizontal": x, "vertical": y, "without defect": grey}
-        items = [LegendItem(label=name, renderers=[one]) for name, one in named.items()]
-        self._grey = items[-1]
-        plot.add_layout(compared_curves.key_of(items, ncols=3), "above")
+        draw(plot, packed, layers())
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -106,17 +118,17 @@ class OverviewSpectrum(View):
         healthy = drawn_levels(results.healthy.late_spectra, top)
         compared = levels_of_compared("overview_spectrum", results, top)
         shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
+        names = end_names(drawn, shown, top)
+        if results.reference_label:
+            names += grey_name(healthy, drawn, shown)
+        x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
         return {
             **compared,
             "overview_lines": drawn,
             "overview_healthy_lines": healthy,
             "overview_bands": named_bands(results, top),
+            "overview_names": {"x": x, "y": y, "which": which},
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
-
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            self._grey.visible = bool(results.reference_label)
 
     def sentence(self, results: Results) -> str:
         moving = [
@@ -143,3 +155,53 @@ def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
     ]
     named = {name: column[order] for name, column in bands.items()}
     return {**named, "room": np.array(room, dtype=float), "line": 8.0 + 14.0 * line}
+
+
+def end_names(
+    drawn: dict[str, NDArray[np.float64]], shown: tuple[float, float], top: float
+) -> list[tuple[float, float, int]]:
+    """Names of the curves at their right ends: above the upper one, below the lower one."""
+    at_end = drawn["frequency"] > END * top
+    ends = {
+        dof: drawn[dof][at_end]
+        for dof in SHOWN
+        if at_end.any() and np.isfinite(drawn[dof][at_end]).all()
+    }
+    room = NAME_ROOM * (shown[1] - shown[0])
+    upper = max(ends, key=lambda dof: float(ends[dof].mean()), default="")
+    places = {
+        dof: float(end.max()) + room if dof == upper else float(end.min()) - room
+        for dof, end in ends.items()
+    }
+    return [
+        (top, min(max(y, shown[0] + room), shown[1] - 2.0 * room), SHOWN.index(dof))
+        for dof, y in places.items()
+    ]
+
+
+def grey_name(
+    healthy: dict[str, NDArray[np.float64]],
+    drawn: dict[str, NDArray[np.float64]],
+    shown: tuple[float, float],
+) -> list[tuple[float, float, int]]:
+    """Name of the grey curves, over one of their peaks, as far from all curves as it can be.
+
+    None where they are out of view.
+    """
+    if not healthy["frequency"].size or not drawn["frequency"].size:
+        return []
+    room = NAME_ROOM * (shown[1] - shown[0])
+    level = np.fmax(healthy["x"], healthy["y"])
+    wide = int(NAME_WIDTH * level.size)
+    free = []
+    for i in range(wide, int(END * level.size)):  # beyond are the names of the others
+        y = level[i] + room
+        under = slice(i - wide, i + 1)
+        others = [level[under], *(drawn[dof][under] for dof in SHOWN)]
+        apart = min(float(np.nanmin(np.abs(other - y), initial=np.inf)) for other in others)
+        if shown[0] < level[i] < shown[1] - 4.0 * room:
+            free.append((min(apart, room), float(level[i]), i))
+    if not free:
+        return []
+    _, y, i = max(free)
+    return [(float(healthy["frequency"][i]), y + room, 2)]

@@ -704,7 +704,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     visitor.page.keyboard.press("Escape")
     visitor.type("Extent", "30")
     names = "12.9°, 50 µm, long"
-    for tab in ("Load", "Stiffness", "Frequencies", "Vibration", "Overview"):
+    for tab in ("Load", "Stiffness", "Frequencies", "Orbits", "Ball mass", "Vibration", "Overview"):
         visitor.go_to(tab)
         visitor.wait(lambda: names in _keys(visitor))
     other = visitor.page.context.new_page()

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import Layer, by_number, curve, strips
 from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.results.ball_mass import BallMass
@@ -60,7 +60,8 @@ class MassInTime(PassageView):
             quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
             own = curve("mass_motion", "time", dof, style.color_along(dof), 1.4)
             other = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
-            figures.append((quantity, 210, [event_lines("mass"), other, own]))
+            compared = compared_curves.curves("mass_motion", "time", dof)
+            figures.append((quantity, 210, [event_lines("mass"), other, *compared, own]))
         figures[0][2].append(event_names("mass", _EVENT_WORDS, ("kind",), style.NARROW))
         return figures
 
@@ -78,12 +79,8 @@ class MassInTime(PassageView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
         missing = np.full(shown.time.size, np.nan)
-        kinds = {"": shown.with_mass, "_massless": shown.massless}
-        signals = {
-            f"{dof}{kind}": of_kind.get(dof, missing)
-            for kind, of_kind in kinds.items()
-            for dof in SHOWN
-        }
+        signals = signals_of(shown)
+        signals |= {f"{dof}_massless": shown.massless.get(dof, missing) for dof in SHOWN}
         balls = shown.balls[:SLOTS]
         loads = {f"{race}{i}": missing for race in RACES_OF_LOADS for i in range(SLOTS)}
         for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
@@ -91,14 +88,22 @@ class MassInTime(PassageView):
         slot_of = {int(ball): float(slot) for slot, ball in enumerate(balls)}
         free = [(f.begin, f.end, slot_of[f.ball]) for f in shown.flights if f.ball in slot_of]
         flights = np.array(free, dtype=float).reshape(-1, 3).T
+        compared = compared_curves.sources(
+            "mass_motion",
+            ("time", *SHOWN),
+            results.of_compared,
+            lambda other: traces(other.ball_mass.time, signals_of(other.ball_mass)),
+        )
         sources: Sources = {
+            **compared,
             "mass_motion": traces(shown.time, signals),
             "mass_loads": traces(shown.time, loads),
             "mass_flights": dict(zip(("from", "to", "slot"), flights, strict=True)),
             "mass_ball_names": ball_names(balls, bearing),
             "mass_events": event_rows(shown, float(shown.time[0]), float(shown.time[-1])),
         }
-        return sources, self.ranges(shown.time, np.stack(list(signals.values())), shown.loads)
+        drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
+        return sources, self.ranges(shown.time, np.concatenate(drawn), shown.loads)
 
     def sentence(self, results: Results) -> str:
         shown = results.ball_mass
@@ -119,6 +124,12 @@ class MassInTime(PassageView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.table().named()
+
+
+def signals_of(shown: BallMass) -> dict[str, np.ndarray]:
+    """Acceleration along x and y with mass; NaN where the housing cannot move."""
+    missing = np.full(shown.time.size, np.nan)
+    return {dof: shown.with_mass.get(dof, missing) for dof in SHOWN}
 
 
 def way_of_the_ball(shown: BallMass) -> str:

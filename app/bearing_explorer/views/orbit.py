@@ -10,7 +10,7 @@ from bokeh.models import ColumnDataSource, Range1d, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.plots import style
+from bearing_explorer.plots import compared_curves, style
 from bearing_explorer.plots.layers import Glyph, curve, draw, filled
 from bearing_explorer.plots.levels import (
     FREQUENCY,
@@ -49,10 +49,12 @@ MULTIPLIERS = [
 ]
 PATHS = [
     curve("orbit_marched", "x", "y", style.HEALTHY, 3.0),
+    *compared_curves.curves("orbit_path", *SHOWN),
     curve("orbit_path", "x", "y", style.DEFECTIVE, 1.4),
 ]
 SPECTRA = [
     *(curve("orbit_marched_levels", "frequency", dof, style.HEALTHY, 4.0) for dof in SHOWN),
+    *compared_curves.curves("orbit_levels", "frequency", *SHOWN),
     *(curve("orbit_levels", "frequency", dof, style.color_along(dof), 1.6) for dof in SHOWN),
 ]
 """Layers of the three figures, from the lowest to the highest."""
@@ -147,13 +149,22 @@ class SteadyOrbit(View):
         round_about = self._multiplier_range.fit(-1.05 * reach, 1.05 * reach)
         outside = np.abs(multipliers) >= 1.0
         path, marched = orbit_path(results), marched_path(results)
+        paths = compared_curves.sources("orbit_path", SHOWN, results.of_compared, orbit_path)
+        levels = compared_curves.sources(
+            "orbit_levels",
+            ("frequency", *SHOWN),
+            results.of_compared,
+            lambda other: drawn_levels(other.orbit_spectra, HIGHEST),
+        )
         x_range, y_range = (
-            fit.fit(path[dof], marched[dof])
+            fit.fit(path[dof], np.append(marched[dof], compared_curves.numbers(paths, dof)))
             for fit, dof in zip(self._displacement, SHOWN, strict=True)
         )
         found = drawn_levels(results.orbit_spectra, HIGHEST)
         late = drawn_levels(results.late_spectra, HIGHEST)
         return {
+            **paths,
+            **levels,
             "orbit_inside": _points(multipliers[~outside]),
             "orbit_outside": _points(multipliers[outside]),
             "orbit_path": path,
@@ -165,7 +176,7 @@ class SteadyOrbit(View):
             "orbit_multipliers_up": round_about,
             "orbit_x": x_range,
             "orbit_y": y_range,
-            "orbit_level": self._levels.fit(*seen_levels(3.0, found, late)),
+            "orbit_level": self._levels.fit(*seen_levels(3.0, found, late, *levels.values())),
         }
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -9,8 +9,12 @@ from bearing_explorer.results import motions
 from bearing_explorer.results.cache import Overtaken
 from bearing_explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.results.results import Results
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.settings import Settings
+from bearing_explorer.views.base import View
+from bearing_explorer.views.mass_time import MassInTime
+from bearing_explorer.views.orbit import SteadyOrbit
 
 from bearingcore import equilibrium, presets
 from bearingcore.dynamics.speed_run import speed_run
@@ -51,6 +55,26 @@ def test_compared_scenes_have_results_of_their_own() -> None:
     (own,) = results.of_compared
     assert own.equilibrium.cage_angles[-1] == pytest.approx(2.0 * np.pi / 9)
     assert Results(scene, 0.1).of_compared == []
+
+
+@pytest.mark.parametrize(
+    ("view", "drawn", "compared"),
+    [
+        (SteadyOrbit, "orbit_path", "orbit_path_compared_0"),
+        (SteadyOrbit, "orbit_levels", "orbit_levels_compared_0"),
+        (MassInTime, "mass_motion", "mass_motion_compared_0"),
+    ],
+)
+def test_curves_of_a_compared_scene_are_those_that_it_has_alone(
+    view: type[View], drawn: str, compared: str
+) -> None:
+    scene, other = presets["fan-rig"], presets["fan-rig"].replace(extent=0.1)
+    both, _ = view(PackedSource()).data(Results(scene, compared=[Compared(other, "shorter")]))
+    alone, _ = view(PackedSource()).data(Results(other))
+    for column, values in both[compared].items():
+        assert values.size
+        np.testing.assert_array_equal(values, alone[drawn][column])
+    assert not np.array_equal(both[drawn]["y"], both[compared]["y"])
 
 
 def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_theirs() -> None:

@@ -287,7 +287,7 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(
     visitor.reads(re.compile("14 kN"))
     visitor.main.get_by_label("Viscosity of the oil").fill("much")
     visitor.page.keyboard.press("Enter")
-    visitor.reads(re.compile("goes from|not a number"))
+    visitor.reads("must be a number, not “much”")
 
 
 def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: Server) -> None:

@@ -48,5 +48,5 @@ _SENTENCES = {
         "ring's place within its clearance is not determined"
     ),
     StaticStatus.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
-    StaticStatus.REFUSED: "a scene with this extent cannot be",
+    StaticStatus.REFUSED: "this extent is not possible in this scene",
 }

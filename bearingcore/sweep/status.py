@@ -53,7 +53,7 @@ _SENTENCES = {
     SweepStatus.FREE_DIRECTION: "the ring can move without resistance in some direction",
     SweepStatus.LOAD_NOT_CARRIED: "no contact can carry this load",
     SweepStatus.STATIC_STATE_NOT_CONVERGED: "no static state was found",
-    SweepStatus.SCENE_REFUSED: "there can be no such scene",
+    SweepStatus.SCENE_REFUSED: "such a scene is not possible",
     SweepStatus.COMPUTATION_REFUSED: (
         "this cannot be computed here: the shaft must turn, mass, stiffness and damping be known "
         "in each direction that moves, for life and pressure the groove radii, and balls be "

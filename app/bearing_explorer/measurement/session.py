@@ -434,7 +434,7 @@ class Measurement:
         self, texts: dict[str, str], found: FormResult | FormError, left: list[str]
     ) -> None:
         if isinstance(found, FormError):
-            stays = " What is drawn is the signal as it was." if self.measured else ""
+            stays = " The figures still show the signal as it was before." if self.measured else ""
             self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
             return
         table = self._table

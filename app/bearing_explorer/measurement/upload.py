@@ -63,10 +63,10 @@ class Upload:
     def take(self, piece: Any) -> None:
         """Add a piece; ValueError with a sentence for one that cannot be a part of the file."""
         if not isinstance(piece, bytes | bytearray | memoryview):
-            raise ValueError(f"{self.name} did not arrive whole.")
+            raise ValueError(f"{self.name} was not received in full.")
         data = bytes(piece)
         if not data or len(data) > PIECE or self._length + len(data) > self.size:
-            raise ValueError(f"{self.name} did not arrive whole.")
+            raise ValueError(f"{self.name} was not received in full.")
         self._pieces.append(data)
         self._length += len(data)
 

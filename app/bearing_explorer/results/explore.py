@@ -101,9 +101,8 @@ class MapOutput:
         most = 0.5 * _SETTINGS.sample_rate
         if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
             raise ValueError(
-                f"A band goes from {LOWEST_BAND / 1e3:g} kHz or more to "
-                f"{number(most / 1e3, 4)} kHz or less, and ends at {NARROWEST_BAND:g} times "
-                "its beginning or above."
+                f"A band lies between {LOWEST_BAND / 1e3:g} and {number(most / 1e3, 4)} kHz, and "
+                f"its upper end is at least {NARROWEST_BAND:g} times its lower end."
             )
         label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
         return dataclasses.replace(self, label=label, band=(low, high))

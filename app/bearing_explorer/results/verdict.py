@@ -88,7 +88,7 @@ def of_orbit(results: Results) -> Verdict:
     """Whether there is a steady orbit, and whether it is stable."""
     orbit = results.orbit
     if orbit is None:
-        return Verdict("bad", "No orbit looked for")
+        return Verdict("bad", "Orbit not searched")
     if orbit.multipliers.size:
         if orbit.stable:
             return Verdict("good", "Stable orbit")

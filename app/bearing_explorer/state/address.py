@@ -132,19 +132,21 @@ def read(text: str) -> Place | None:
     try:
         pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
     except ValueError:
-        raise ValueError("It has far too many parts, or signs that do not belong there.") from None
+        raise ValueError(
+            "It has far too many parts, or characters that do not belong in it."
+        ) from None
     strange = [name for name, _ in pairs if not _is_known(name)]
     given: dict[str, str] = {}
     for name, value in pairs:
         if name in given:
-            raise ValueError(f"“{_shown(name)}” stands there twice.")
+            raise ValueError(f"“{_shown(name)}” is given twice.")
         if _is_known(name):
             given[name] = value
     if not given:
         return None
     place = _read(given)
     if strange:
-        note = f"“{_shown(strange[0])}” in the address means nothing here and was passed over."
+        note = f"“{_shown(strange[0])}” in the address is not known and was ignored."
         place = dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
     return place
 
@@ -325,12 +327,12 @@ def _read(given: dict[str, str]) -> Place:
     compared = _compared(given)
     version = given.pop("v", None)
     if version is None:
-        raise ValueError("It does not say its version (v=1).")
+        raise ValueError("Its version is missing (v=1).")
     if version == TOO_LONG:
         raise ValueError("It is far too long.")
     if version != VERSION:
         raise ValueError(
-            f"It is of version “{_shown(version)}”, and this program knows version {VERSION} only."
+            f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
         )
     preset = given.pop("preset", "fan-rig")
     if preset not in presets:
@@ -350,7 +352,7 @@ def _read(given: dict[str, str]) -> Place:
         defects.append(_defect(own, defects_of(base)[0]))
     fields = {part: _taken(entries, given) for part, entries in _SCENE.items()}
     if given:
-        raise ValueError(f"“{_shown(next(iter(given)))}” is about a defect that is not there.")
+        raise ValueError(f"“{_shown(next(iter(given)))}” belongs to a defect that is missing.")
     own_fields = fields.pop("scene")
     if fields["bearing"]:
         fields["bearing"]["kind"] = ""  # links do not say it: the numbers do
@@ -381,7 +383,7 @@ def _rows(text: str) -> tuple[Row, ...]:
         numbers = word.split("_")
         few = not _ALWAYS_OF_ROW <= len(numbers) <= len(_OF_ROW)
         if few or "" in numbers[:_ALWAYS_OF_ROW] or len(rows) == MOST_SHOWN_ROWS:
-            raise ValueError(f"“{_shown(text)}” are not the rows of a bearing.")
+            raise ValueError(f"“{_shown(text)}” does not describe the rows of a bearing.")
         given: dict[str, Any] = {
             name: _parsed(number, "rows")[0]
             for name, number in zip(_OF_ROW, numbers, strict=False)
@@ -433,7 +435,7 @@ def _parsed(text: str, name: str) -> tuple[float, bool]:
     found = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
     value = float(found[1]) if found else math.nan
     if found is None or not math.isfinite(value):
-        raise ValueError(f"“{_shown(text)}” is not a number that {name} could have.")
+        raise ValueError(f"“{_shown(text)}” is not a number for {name}.")
     return value, found[2] is not None
 
 
@@ -459,7 +461,7 @@ def _dofs(text: str) -> tuple[str, ...] | None:
         return None
     names = tuple(text.split("."))
     if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
-        raise ValueError(f"“{_shown(text)}” are not directions that can move.")
+        raise ValueError(f"“{_shown(text)}” is not a list of directions that can move.")
     return names
 
 

@@ -210,7 +210,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             _hours(lasts.hours)
             if math.isfinite(lasts.hours)
             else "no hours: "
-            + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "without an end"),
+            + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "unlimited"),
             "The same in hours.",
         ),
         Fact(
@@ -245,7 +245,7 @@ def _damaged_words(damaged: Life) -> str:
 
 
 def _million(value: float) -> str:
-    return "without an end" if math.isinf(value) else f"{_long(value)} million turns"
+    return "unlimited" if math.isinf(value) else f"{_long(value)} million turns"
 
 
 def _hours(value: float) -> str:

@@ -143,8 +143,8 @@ def telling(shown: Shown, sets: Sequence[Mapping[str, float]], unit: str, size: 
     _, line, multiple, title = min(lines)
     if abs(at - line) > max(_NEAR * line, shown.resolution):
         return (
-            f"{words} is at none of the bearing's frequencies: shaft speed or bearing may be "
-            "others."
+            f"{words} is at none of the bearing's frequencies: check the shaft speed and the "
+            "bearing."
         )
     words += f" is {'' if multiple == 1 else f'{multiple}×'}{title}"
     if abs(at - line) > 1.5 * shown.resolution:

@@ -228,7 +228,7 @@ class MeasuredSpectrogram(MeasuredView):
         _, (first, last) = self.speed(measured)
         words = f"{style.number(first, 4)} Hz throughout"
         if self.look.last is not None:
-            words = f"{style.number(first, 4)} Hz at first and {style.number(last, 4)} Hz at last"
+            words = f"from {style.number(first, 4)} Hz to {style.number(last, 4)} Hz"
         return f"Shaft speed {words}, as given."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -66,9 +66,9 @@ def plain(found: Diagnosis, question: Question) -> str:
         )
     if found.fault == NONE_SEEN:
         return (
-            "Nothing in this signal repeats as a damaged outer race, inner race or ball would "
-            "make it. Damage whose impacts make the vibration swing by "
-            f"{swing(found.detectable_depth)} would have shown.{_counted(question)}"
+            "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
+            f"that modulate the vibration by {swing(found.detectable_depth)} would have shown."
+            f"{_counted(question)}"
         )
     return found.detail
 

@@ -317,23 +317,23 @@ def words_on(shown: Trend) -> str:
         top = style.number(float(shown.rms_change[most]), 3)
         words += f"; {top} times at most, in {shown.points[most].name}"
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
-    words += f". Kurtosis {kurtosis[0]} at first, {kurtosis[1]} at last. "
+    words += f". Kurtosis {kurtosis[0]} in the first, {kurtosis[1]} in the last. "
     return words + part_words(shown)
 
 
 def part_words(shown: Trend) -> str:
-    """The part named as damaged at last, and the lines above noise."""
+    """The part named as damaged in the last recording, and the lines above noise."""
     last = shown.points[-1]
     clear = [
         LABELS[line] for k, line in enumerate(LINES) if np.isfinite(shown.clear_lines[:, k]).any()
     ]
     seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
     if last.extent.race and math.isfinite(last.extent.high):
-        return f"{seen} At last: {last.extent.answer}."
+        return f"{seen} In the last: {last.extent.answer}."
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
     if not named:
-        return f"{seen} No part is named at last ({last.fault})."
-    return f"{seen} At last: {named}, {100.0 * last.probability:.0f} % probable."
+        return f"{seen} No part is named in the last ({last.fault})."
+    return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
 
 
 def python_lines(found: FoundTrend, results: Results) -> str:

@@ -62,20 +62,20 @@ _SENTENCES = {
     ExtentStatus.EITHER: "Entry and exit are separate, but it is not clear which is which.",
     ExtentStatus.SHORTER: "Entry and exit are too close together to be separated.",
     ExtentStatus.ONE_KNOCK: (
-        "There is one knock a ball pass: of a pit, or of a longer spall with a faint entry."
+        "There is one impact a ball pass: from a pit, or a longer spall with a faint entry."
     ),
     ExtentStatus.UNCLEAR: (
-        "Frequency bands do not agree on two knocks a ball pass: what rings hides them, or balls "
-        "do not meet the damage alike."
+        "Frequency bands do not agree on two impacts a ball pass: ringing hides them, or the balls "
+        "meet the damage differently."
     ),
     ExtentStatus.BOUNCES: (
-        "Two knocks a ball pass have one spectrum and differ in height: a ball that bounces, not "
+        "Two impacts a ball pass have one spectrum and differ in height: a ball that bounces, not "
         "entry and exit."
     ),
     ExtentStatus.NO_RACE: "No damaged race is named, so there is no extent to measure.",
     ExtentStatus.NOT_VISIBLE: "Nothing repeats clearly with the ball passes of this race.",
     ExtentStatus.TOO_SHORT: "The recording holds too few ball passes for a mean.",
-    ExtentStatus.TOO_COARSE: "The sample rate is too low to locate knocks on the race.",
+    ExtentStatus.TOO_COARSE: "The sample rate is too low to locate impacts on the race.",
 }
 
 

@@ -21,7 +21,7 @@ from bearingcore.diagnosis.part.probability import DEVIATIONS
 def dropout_message(share: float) -> str:
     """Status where a `share` of the samples dropped out, too many to analyse the rest."""
     return (
-        f"{percent(share, 2)} of the signal is one and the same number, as if the "
+        f"{percent(share, 2)} of the signal is the same number throughout, as if the "
         "sensor had dropped out."
     )
 
@@ -44,7 +44,7 @@ def too_slow(rate: float, needed: float) -> str:
     """Sampled too slowly."""
     return (
         f"Sampled at {number(rate, 4)} Hz, the signal does not reach high enough to "
-        f"show how knocks repeat at this speed; {number(needed, 4)} Hz or more are needed."
+        f"show how impacts repeat at this speed; {number(needed, 4)} Hz or more are needed."
     )
 
 
@@ -54,11 +54,11 @@ def damaged(own: PartEvidence) -> str:
     clear = (
         f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
         if own.part == BALL and own.deviations >= DEVIATIONS
-        else f"{decibels(own.level)} above what surrounds them, {shown} of {len(own.harmonics)} "
+        else f"{decibels(own.level)} above local noise, {shown} of {len(own.harmonics)} "
         "harmonics clear"
     )
     return (
-        f"Damage on the {own.part}: knocks repeat {number(own.frequency, 4)} times a second "
+        f"Damage on the {own.part}: impacts at {number(own.frequency, 4)} Hz "
         f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), {clear}, "
         f"demodulation band {span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
     )
@@ -72,46 +72,45 @@ def perhaps_a_ball() -> str:
 def marked(own: PartEvidence) -> str:
     """The lines of a race, too faint for its own damage."""
     return (
-        f"Lines of the {own.part} are there ({number(own.frequency, 4)} Hz, {decibels(own.level)} "
-        f"above what surrounds them), but swing the envelope by {percent(own.swing, 2)} only. A "
-        "ball may have made them, or a sound bearing. Measure again, nearer to the bearing."
+        f"Lines of the {own.part} show ({number(own.frequency, 4)} Hz, {decibels(own.level)} above "
+        f"local noise), but modulate the envelope by {percent(own.swing, 2)} only. A damaged ball "
+        "or a healthy bearing may make them. Measure again, closer to the bearing."
     )
 
 
 def alike(one: PartEvidence, other: PartEvidence) -> str:
     """The lines of two parts are seen."""
     return (
-        f"Something knocks, but the lines of {one.part} ({decibels(one.level)}) and {other.part} "
-        f"({decibels(other.level)}) are too much alike. A damaged ball marks both races."
+        f"There are impacts, but the lines of {one.part} ({decibels(one.level)}) and {other.part} "
+        f"({decibels(other.level)}) are about as strong. A damaged ball marks both races."
     )
 
 
 def not_alone(own: PartEvidence, other: OtherLines) -> str:
     """Lines at a part's frequency that others reach, or without its sidebands."""
     return (
-        f"Lines are where the {own.part} would have them ({decibels(own.level)}), but others, "
-        f"which repeat {number(other.order)} times a turn ({decibels(other.level)}), are as "
-        "strong, or the sidebands are not its own. Check the bearing's geometry and speed."
+        f"There are lines where damage of the {own.part} has them ({decibels(own.level)}), but "
+        f"others, at {number(other.order)} times a turn ({decibels(other.level)}), are as strong, "
+        "or the sidebands do not fit. Check the bearing's geometry and speed."
     )
 
 
 def not_carried(own: PartEvidence) -> str:
     """Lines at a ball's frequency that are none of a ball."""
     return (
-        f"Lines repeat {number(own.order, 4)} times a turn ({decibels(own.level)} above what "
-        "surrounds them), as those of a damaged ball would, but stand out too little, or without "
-        "the sidebands of the cage that carries a ball through the load. Another bearing may have "
-        "them as those of a race. Check the bearing's geometry and speed."
+        f"There are lines at {number(own.order, 4)} times a turn ({decibels(own.level)} above "
+        "local noise), as of a damaged ball, but they are too weak or lack its sidebands at the "
+        "cage frequency. They may be those of a race of another bearing. Check the bearing's "
+        "geometry and speed."
     )
 
 
 def unexplained(other: OtherLines) -> str:
     """Something else knocks."""
     return (
-        f"Something repeats {number(other.order)} times a turn "
-        f"({number(other.frequency, 4)} Hz, {decibels(other.level)} above what surrounds it), "
-        "which is no line of this bearing. Check its geometry and speed, or look for another "
-        "source."
+        f"A line at {number(other.order)} times a turn ({number(other.frequency, 4)} Hz, "
+        f"{decibels(other.level)} above local noise) is none of this bearing. Check its geometry "
+        "and speed, or look for another source."
     )
 
 
@@ -123,17 +122,17 @@ def nothing_but(why: str, share: float) -> str:
 def blows(kurtosis: float, duration: float) -> str:
     """Knocks that do not repeat as a part's do."""
     return (
-        f"The signal knocks (kurtosis {number(kurtosis, 2)}, where smooth running has "
-        f"2), but in {number(duration)} s not at the rate of any part of this bearing. Blows from "
-        "elsewhere and wide-spread wear do that. Measure again, longer."
+        f"There are impacts (kurtosis {number(kurtosis, 2)}; smooth running has 2), but in "
+        f"{number(duration)} s not at the rate of any part of this bearing. Other sources and "
+        "widespread wear do that. Measure again, longer."
     )
 
 
 def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (
-        f"No damage shows, but in {number(duration)} s it would only if it made the "
-        f"envelope swing by {percent(detectable, 2)} or more. A longer recording shows more."
+        f"No damage shows, but {number(duration)} s are enough only for damage that modulates the "
+        f"envelope by {percent(detectable, 2)} or more. A longer recording shows more."
     )
 
 
@@ -141,16 +140,16 @@ def healthy(detectable: float) -> str:
     """None seen."""
     return (
         "No damage seen on outer race, inner race or balls: their lines do not show, and "
-        f"knocks that make the envelope swing by {percent(detectable, 2)} would have been seen."
+        f"impacts that modulate the envelope by {percent(detectable, 2)} would have been seen."
     )
 
 
 def faint(own: PartEvidence) -> str:
     """Lines too faint to name a part."""
     return (
-        f"Faint lines are where damage on the {own.part} would have them "
-        f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above what surrounds them; noise "
-        f"reaches {decibels(own.noise)}). Measure again, longer or nearer to the bearing."
+        f"There are faint lines where damage of the {own.part} has them "
+        f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above local noise; noise itself "
+        f"reaches {decibels(own.noise)}). Measure again, longer or closer to the bearing."
     )
 
 
@@ -158,6 +157,6 @@ def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
     """Knocks, but the speed decides whose they are."""
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
-        f"Knocks repeat {number(frequency, 4)} times a second, which may be {ways} "
-        "turns a minute. Enter the shaft speed."
+        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm. Enter the shaft "
+        "speed."
     )

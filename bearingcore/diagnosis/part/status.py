@@ -31,22 +31,22 @@ class DiagnosisStatus(Status):
 
 
 _SENTENCES = {
-    DiagnosisStatus.PART_NAMED: "One part's lines stand out as those of damage do.",
-    DiagnosisStatus.NONE_SEEN: "No part's lines show, and those of damage would have.",
+    DiagnosisStatus.PART_NAMED: "The lines of one part stand out as those of damage do.",
+    DiagnosisStatus.NONE_SEEN: "No lines of a part show; lines of damage would have.",
     DiagnosisStatus.PERHAPS_A_BALL: (
-        "The lines of a race are there, but faint: marks of a damaged ball or a sound bearing may "
-        "make them."
+        "The lines of a race are there, but faint: a damaged ball or a healthy bearing "
+        "may make them."
     ),
-    DiagnosisStatus.ALIKE: "The lines of both races are there, neither much stronger.",
-    DiagnosisStatus.NOT_ALONE: "Lines are where a part has them, but do not stand out as its own.",
-    DiagnosisStatus.FAINT: "Lines are where a part has them, too faint to be sure.",
+    DiagnosisStatus.ALIKE: "The lines of both races show, neither much stronger.",
+    DiagnosisStatus.NOT_ALONE: "Lines of a part show, but others are as strong.",
+    DiagnosisStatus.FAINT: "Lines of a part show, but too faint to be sure.",
     DiagnosisStatus.OTHER_SOURCE: "Something repeats that is no line of this bearing.",
-    DiagnosisStatus.IRREGULAR: "The signal knocks, but not at the rate of any part.",
+    DiagnosisStatus.IRREGULAR: "There are impacts, but not at the rate of any part.",
     DiagnosisStatus.DROPPED_OUT: "Parts of the signal dropped out, which may hide damage.",
     DiagnosisStatus.CLIPPED: "The signal is clipped, which may hide damage.",
-    DiagnosisStatus.INSENSITIVE: "Nothing shows, but the signal is too short to show damage.",
+    DiagnosisStatus.INSENSITIVE: "No damage shows, but the signal is too short to exclude it.",
     DiagnosisStatus.TOO_SHORT: "The recording holds too few ball passes.",
-    DiagnosisStatus.TOO_COARSE: "The sample rate is too low to show how knocks repeat.",
+    DiagnosisStatus.TOO_COARSE: "The sample rate is too low to show how impacts repeat.",
     DiagnosisStatus.TOO_LONG: "The recording has more samples than are allowed.",
     DiagnosisStatus.SPEED_OPEN: "Which part knocks depends on the shaft speed, which is not known.",
 }

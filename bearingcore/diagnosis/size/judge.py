@@ -95,7 +95,7 @@ def _refusal(sized: Sizing) -> Judgement | None:
         decibels = 10.0 / math.log(10.0) * abs(best.level)
         than = "weaker" if best.level > 0.0 else "stronger"
         words = (
-            f"most like {_size(sized)}, but the signal is {decibels:.0f} dB {than} than such a "
+            f"best match {_size(sized)}, but the signal is {decibels:.0f} dB {than} than such a "
             "defect gives: it may be in another unit, or have another cause."
         )
     else:
@@ -116,15 +116,15 @@ def _several(sized: Sizing) -> Judgement | None:
         low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
         return Judgement(
             SizingStatus.WIDE,
-            f"{_CANNOT}most like {_size(sized)}, but extents from {max(low, 0.0):.0f}° to "
+            f"{_CANNOT}best match {_size(sized)}, but extents from {max(low, 0.0):.0f}° to "
             f"{high:.0f}° explain it nearly as well.",
         )
     pit = _like_a_pit(sized)
     if pit:
         return Judgement(
             SizingStatus.LIKE_A_PIT,
-            f"{_CANNOT}most like {_size(sized)}, but as one ball enters another leaves then, and "
-            f"a pit shorter than {math.degrees(pit):.1f}° gives nearly the same.",
+            f"{_CANNOT}best match {_size(sized)}, but there one ball enters as another leaves, "
+            f"and a pit shorter than {math.degrees(pit):.1f}° gives nearly the same.",
         )
     return None
 
@@ -176,7 +176,7 @@ def confirmed(sized: Sizing, knocks: MeasuredExtent, support_known: bool) -> Jud
     if sized.status == AT_MOST and twice:
         return Judgement(
             SizingStatus.TWO_KNOCKS,
-            f"{_CANNOT}most like {size}, but the envelope has two knocks a ball pass, as a ball's "
+            f"{_CANNOT}best match {size}, but the envelope has two knocks a ball pass, as a ball's "
             "entry and exit give.",
         )
     alone = len(sized.recording.directions) == 1
@@ -184,13 +184,13 @@ def confirmed(sized: Sizing, knocks: MeasuredExtent, support_known: bool) -> Jud
         if alone and sized.best.turns > 0:
             return Judgement(
                 SizingStatus.WHOLE_SPACINGS,
-                f"{_CANNOT}most like {size}, but with one sensor and a support that is not known "
+                f"{_CANNOT}best match {size}, but with one sensor and a support that is not known "
                 "whole ball spacings cannot be counted.",
             )
         if sized.status == AT_MOST or not _agree(sized, knocks, alone):
             return Judgement(
                 SizingStatus.UNCONFIRMED,
-                f"{_CANNOT}most like {size}, but the support is not known, and entry and exit in "
+                f"{_CANNOT}best match {size}, but the support is not known, and entry and exit in "
                 "the envelope do not confirm it.",
             )
     return Judgement(sized.status, sized.sentence)

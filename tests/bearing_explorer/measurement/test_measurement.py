@@ -468,7 +468,7 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
     made.begin_upload("a.csv", 100)
     made.take_piece(piece, 1)
     assert made.state.bad
-    assert "did not arrive whole" in made.state.words
+    assert "was not received in full" in made.state.words
     said = made.state.words
     made.take_piece(bytes(10), 1)  # nobody asked for it
     assert made.state.words == said

@@ -304,7 +304,7 @@ def test_the_share_of_mass_is_that_of_the_band_that_was_chosen() -> None:
     assert abs(shares[0]) < 0.2
     assert shares[1] > 0.8
     for band in ((10.0, 100.0), (5e3, 5.1e3), (5e3, 40e3), (9e3, 5e3)):
-        with pytest.raises(ValueError, match="A band goes from"):
+        with pytest.raises(ValueError, match="A band lies between"):
             output.in_band(*band)
 
 
@@ -328,7 +328,7 @@ def test_the_form_of_explore_asks_for_a_band_with_the_share_of_mass_alone() -> N
     editor = SceneEditor("fan-rig")
     given = {**view.form(editor)[0], "output": "mass_share", "band_from": "10", "band_to": "20"}
     assert view.request_of(given, editor).output.band == (10e3, 20e3)
-    with pytest.raises(ValueError, match="A band goes from"):
+    with pytest.raises(ValueError, match="A band lies between"):
         view.request_of({**given, "band_to": "5"}, editor)
     with pytest.raises(ValueError, match="must be a number"):
         view.request_of({**given, "band_from": "low"}, editor)

@@ -140,7 +140,7 @@ def test_a_link_holds_the_compared_scenes(editor: SceneEditor, bookmarks: Bookma
 def test_what_compares_nothing_is_passed_over(editor: SceneEditor, address: str) -> None:
     bookmarks = Bookmarks(editor, f"v=1&preset=6205&{address}")
     assert bookmarks.compared == ()
-    assert "passed over" in bookmarks.state()["said"]["words"]
+    assert "ignored" in bookmarks.state()["said"]["words"]
 
 
 def test_a_file_is_the_scene_and_a_bad_one_a_sentence(

@@ -148,7 +148,7 @@ def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_the
     assert own.lead > 1.2
     assert own.swing < 0.138
     assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.PERHAPS_A_BALL)
-    assert "ball may have made them" in found.sentence
+    assert "A damaged ball or a healthy bearing may make them" in found.sentence
     stronger = answer(made("outer race", -14.0, 3))
     assert stronger.perhaps_a_ball
     assert "ball may have marked" in stronger.sentence

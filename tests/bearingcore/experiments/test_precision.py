@@ -54,6 +54,23 @@ def test_the_reference_meets_the_one_that_was_stored() -> None:
     assert np.abs(found - expected).max() / swing < 1e-8
 
 
+@pytest.mark.parametrize(
+    ("method", "evaluations"),
+    [
+        ("scipy LSODA", 10464),
+        ("scipy DOP853", 15365),
+        pytest.param(
+            "CVODE Adams", 5239, marks=pytest.mark.skipif(not HAS_CVODE, reason="no scikit-sundae")
+        ),
+    ],
+)
+def test_methods_work_as_hard_as_elsewhere(method: str, evaluations: int) -> None:
+    """Right-hand sides for 0.2 s at a tolerance of 1e-6, counted by a program written elsewhere."""
+    march = METHODS[method].march(motion_problem(FAN_RIG), 1e-6, 0.2, 65536.0)
+    assert not march.failure
+    assert march.calls == pytest.approx(evaluations, rel=0.03)
+
+
 @pytest.mark.parametrize("scene", [FAN_RIG, LIEW_LIM], ids=["fan-rig", "liew-lim"])
 def test_contacts_in_numpy_are_those_of_the_kernel(scene) -> None:  # type: ignore[no-untyped-def]
     angles = default_cage_angles(scene, 31)

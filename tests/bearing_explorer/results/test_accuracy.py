@@ -147,7 +147,7 @@ def test_of_another_scene_it_says_whose_numbers_these_are() -> None:
     assert preset_like(other) == "fan-rig"
     assert "Nothing is shipped for this scene" in view.sentence(Results(other))
     assert "Nothing is shipped" not in view.sentence(Results(RIG))
-    unlike = Results(presets["30206-back-to-back"])
+    unlike = Results(RIG.replace(n_balls=11))
     words = view.sentence(unlike)
     assert "those of Fan rig, deep groove bearing as it comes" in words
     view.say(unlike, words)

@@ -119,7 +119,7 @@ def motion_reference(
     trusted = not unfinished and all(
         one[name] <= TRUSTED[name] for one in apart for name in TRUSTED
     )
-    note = f"CVODE is apart by {scientific(apart[1]['spectrum'], 2)} dB" if apart[1:] else ""
+    note = f"CVODE is {scientific(apart[1]['spectrum'], 2)} dB from the first" if apart[1:] else ""
     if unfinished:
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:

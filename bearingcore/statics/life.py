@@ -460,9 +460,18 @@ LEFT_OUT = (
 )
 
 
-def _long(value: float) -> str:
-    """A number to four digits, in groups of three where it is long."""
-    return number(value, 4) if value < 1e4 else thousands(float(f"{value:.4g}"))
+A_CENTURY = 876_600.0
+"""[h] of a life beyond which its number means nothing."""
+
+
+def long_number(value: float) -> str:
+    """To three digits, in groups of three where it is long: of lives no more is known."""
+    return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
+
+
+def hours_in_words(hours: float) -> str:
+    """Hours of a life [h], up to a century."""
+    return f"{long_number(hours)} hours" if hours < A_CENTURY else "more than 100 years"
 
 
 def _sentence(
@@ -472,12 +481,12 @@ def _sentence(
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
         return "No ball carries load: nothing tires."
-    words = f"Nine of ten bearings reach {_long(L)} million turns"
+    words = f"Nine of ten bearings reach {long_number(L)} million turns"
     if math.isnan(hours):
         words += "; the shaft stands still, so there are no hours."
     else:
         rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
-        words += f", {_long(hours)} hours at {number(rpm, 4)} rpm."
+        words += f", {hours_in_words(hours)} at {number(rpm, 4)} rpm."
     if share > HEAVIEST_SHARE:
         words += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
@@ -485,7 +494,7 @@ def _sentence(
         )
     if scene.defects:
         words += (
-            f" That is {percent(L / L_healthy)} of the healthy bearing's {_long(L_healthy)} "
+            f" That is {percent(L / L_healthy)} of the healthy bearing's {long_number(L_healthy)} "
             f"million. {LEFT_OUT}"
         )
     return words

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import threading
 import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
 from bearing_explorer.page import page
+from bearing_explorer.results.executors import POOL_SIZE, in_thread
 from bearing_explorer.serve.serving import Limits, make_server
 from bearing_explorer.serve.websocket import LiveSocket
 from tornado.httpclient import AsyncHTTPClient, HTTPResponse
@@ -31,6 +34,9 @@ def served(
             for socket in list(LiveSocket.connected):
                 socket.close()
             server.stop()
+            # a view that is still being made in a thread would disturb the next test
+            idle = threading.Barrier(POOL_SIZE)
+            await asyncio.gather(*(in_thread(idle.wait, 60.0) for _ in range(POOL_SIZE)))
 
     run(both())
 

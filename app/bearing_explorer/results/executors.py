@@ -16,7 +16,8 @@ Result = TypeVar("Result")
 
 _CORES = os.cpu_count() or 2
 
-PICTURES = Pool(2 * _CORES, "compute")
+POOL_SIZE = 2 * _CORES
+PICTURES = Pool(POOL_SIZE, "compute")
 """Pictures, and what a message of the browser needs. More threads than processors, so that a quick
 picture need not wait for a motion."""
 JOBS = Pool(max(2, _CORES // 2), "job")

@@ -17,9 +17,8 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.widgets.form import Fields, entry, row
-from bearingcore.common.numbers import percent, thousands
-from bearingcore.statics.film import TOUCHING
-from bearingcore.statics.life import LEFT_OUT
+from bearingcore.common.numbers import percent
+from bearingcore.statics.life import LEFT_OUT, hours_in_words, long_number
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -79,8 +78,6 @@ FIELDS = (
     ),
 )
 
-A_CENTURY = 876_600.0
-"""[h] of a life beyond which its number means nothing."""
 
 MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
 """Fields of which the program takes a number of its own where none is given."""
@@ -207,7 +204,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
         Fact(
             "at the speed of the scene",
-            _hours(lasts.hours)
+            hours_in_words(lasts.hours)
             if math.isfinite(lasts.hours)
             else "no hours: "
             + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "unlimited"),
@@ -220,7 +217,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
     ]
     if len(lasts.rows) > 1 and known:
-        each = " and ".join(f"{_long(L)}" if math.isfinite(L) else "endless" for L in lasts.rows)
+        each = " and ".join(long_number(L) if math.isfinite(L) else "endless" for L in lasts.rows)
         facts.append(
             Fact(
                 f"of rows 1 to {len(lasts.rows)} on their own",
@@ -245,16 +242,7 @@ def _damaged_words(damaged: Life) -> str:
 
 
 def _million(value: float) -> str:
-    return "unlimited" if math.isinf(value) else f"{_long(value)} million turns"
-
-
-def _hours(value: float) -> str:
-    return f"{_long(value)} h" if value < A_CENTURY else "more than 100 years"
-
-
-def _long(value: float) -> str:
-    """A number of three digits: of lives no more is known."""
-    return thousands(float(f"{value:.3g}")) if value >= 1e4 else style.number(value, 3)
+    return "unlimited" if math.isinf(value) else f"{long_number(value)} million turns"
 
 
 def _pressures(results: Results, found: Endurance) -> FactGroup:
@@ -295,7 +283,6 @@ def _film(results: Results, found: Endurance) -> FactGroup:
         return FactGroup(title, found.no_film, [])
     facts = []
     for film in (found.film.inner, found.film.outer):
-        crossed = film.film_parameter < TOUCHING
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
         facts.append(
             Fact(
@@ -307,7 +294,7 @@ def _film(results: Results, found: Endurance) -> FactGroup:
         facts.append(
             Fact(
                 "film parameter Λ",
-                f"{parameter} ({film.lubrication or 'no film'})" + (": below 1" if crossed else ""),
+                f"{parameter} ({film.lubrication or 'no film'})",
                 "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
                 "above 3 hardly ever.",
             )

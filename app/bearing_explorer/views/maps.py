@@ -189,9 +189,11 @@ class StiffnessMaps(View):
         if most - least < 0.05:
             words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
         else:
-            fewest = maps.extents[int(np.nanargmin(mean))]
+            at = int(np.nanargmin(mean))
+            fewest = maps.extents[at]
             words = (
-                f"Fewest {names} carry load at an extent of {in_degrees(fewest, 0)}: "
+                f"Fewest {names} carry load at an extent of {in_degrees(fewest, 0)}"
+                f"{', the longest of the map' if at == mean.size - 1 else ''}: "
                 f"{least:.1f} of {n_balls} on average over the cage angle"
             )
             if np.isfinite(mean[0]):

@@ -36,7 +36,9 @@ MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆"
            "plus": "✚", "star": "★"}  # fmt: skip
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
-BEYOND = "the error is infinite"
+UNORDERED = 1.0
+"""Order of convergence below which shorter steps gain little."""
+BEYOND = "no vibration at all, so no error in dB"
 NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
@@ -315,6 +317,10 @@ def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
         parts.append(f"Order of convergence: {words}; 4 in theory while no force jumps")
+        if min(known.values()) < UNORDERED:
+            parts.append(
+                "Below 1 the errors are at their floor, or a force jumps: shorter steps gain little"
+            )
     failed = {point.method: point for point in one.points if point.failed}
     parts += [", ".join(filter(None, (m, p.setting, p.status))) for m, p in failed.items()]
     endless = [p for p in one.points if p.errors.get(error) == math.inf]

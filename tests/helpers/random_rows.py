@@ -19,16 +19,9 @@ from bearingcore import (
 )
 from bearingcore.bearings.rows import ARRANGEMENTS, Row
 
-Long = np.longdouble
 OWN_ANGLES = "rows with angles of their own"
 UNLIKE = "rows of unlike balls"
 KINDS = (*ARRANGEMENTS, "self-aligning", "rollers", OWN_ANGLES, UNLIKE)
-
-RESIDUAL = 1e-9
-STEP = 1e-10
-"""[m] of the finite differences; in extended precision they are then right to 1e-8."""
-NEAR_A_KINK = 1e-8
-"""[m] A ball so near to touching has a stiffness that differences over a step cannot tell."""
 
 
 def random_scene(rng: np.random.Generator, kind: str) -> Scene:

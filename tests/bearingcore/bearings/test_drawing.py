@@ -127,27 +127,6 @@ def test_clearance_and_free_angle_are_one_bearing(load: Load, play: float) -> No
     assert np.abs(one.contact_angle - other.contact_angle)[same].max() < 1e-7
 
 
-def test_with_a_defect_they_differ_by_the_direction_of_the_drop() -> None:
-    """The drop d acts along the unloaded line of contact, at 0 in one and at α_f in the other."""
-    load = Load(fy=-2000.0, fz=800.0)
-    defect = Defect(math.radians(30.0), 20e-6, math.radians(270.0))
-    flat = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
-    angles = [math.radians(270.0)]
-    one = equilibrium(scene_of(flat, load, defect), angles, ALL)
-    other = equilibrium(scene_of(flat.seated(), load, defect), angles, ALL)
-    heaviest = one.ball_load.max()
-    assert one.converged.all()
-    assert other.converged.all()
-    assert np.abs(one.ball_load - other.ball_load).max() > 1e-3 * heaviest
-    # the centre sinks d cos α_f instead of d, and the groove centres part by d sin α_f along z
-    sunk = np.array([20e-6, 0.0]) - 20e-6 * np.array(
-        [math.cos(flat.free_contact_angle), math.sin(flat.free_contact_angle)]
-    )
-    assert np.linalg.norm(sunk) == pytest.approx(
-        2 * 20e-6 * math.sin(0.5 * flat.free_contact_angle), rel=1e-12
-    )
-
-
 # --- what follows from the drawing ---
 
 

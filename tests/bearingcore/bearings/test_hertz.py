@@ -82,33 +82,6 @@ def test_contact_fulfils_hertz_integrals(
     assert contact.curvature_sum == pytest.approx(float(along + across), rel=1e-14)
 
 
-@every_groove
-def test_ellipse_ratio_at_high_precision(
-    race: str, conformity: float, D_p: float, angle: float
-) -> None:
-    """χ of 1 − 2/(χ²−1)·(K/E − 1) = F(ρ), solved with 40 digits."""
-    contact = race_contact(race, D_B, D_p, conformity * D_B, angle, *STEEL)
-    with mpmath.workdps(40):
-        along, across = principal_curvatures(race, conformity, D_p, angle)
-        F = (along - across) / (along + across)
-
-        def off(chi: mpmath.mpf) -> mpmath.mpf:
-            m = 1 - 1 / chi**2
-            ratio = mpmath.ellipk(m) / mpmath.ellipe(m)
-            return mpmath.log(2 / (chi**2 - 1) * (ratio - 1) / (1 - F))
-
-        guess = contact.ellipse_ratio
-        chi = mpmath.findroot(off, (guess * (1 - 1e-6), guess * (1 + 1e-6)))
-        m = 1 - 1 / chi**2
-        first, second = mpmath.ellipk(m), mpmath.ellipe(m)
-        E, nu = map(mpmath.mpf, STEEL)
-        K = mpmath.pi / mpmath.sqrt(4.5) * chi * E / (1 - nu**2)
-        K *= mpmath.sqrt(second / ((along + across) * first**3))
-    assert contact.ellipse_ratio == pytest.approx(float(chi), rel=1e-13)
-    assert contact.curvature_difference == pytest.approx(float(F), rel=1e-14)
-    assert contact.load_deflection_factor == pytest.approx(float(K), rel=1e-13)
-
-
 def test_a_groove_as_round_as_the_race_makes_a_circle() -> None:
     """Where both curvatures are equal the contact is a circle: χ = 1, K as of two spheres.
 

@@ -8,10 +8,9 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, Defect, Scene, equilibrium, modes, orbit, presets, simulate
+from bearingcore import Bearing, Scene, equilibrium, modes, orbit, presets, simulate
 from bearingcore.bearings.hertz import spherical_contact
 from bearingcore.bearings.rows import Row
-from bearingcore.statics.passes import crossings
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 UNLOADED = LIEW_LIM.replace(fy=0.0, fz=0.0, extent=0.0)
@@ -35,41 +34,6 @@ def test_pairs_have_the_stiffness_that_an_independent_program_found(arrangement:
     assert np.abs(state.term("k_yrx")).max() < 1e-9 * state.term("k_yy").max()
 
 
-def test_a_single_row_at_the_middle_is_the_bearing_itself() -> None:
-    one = LIEW_LIM.replace(bearing=LIEW_LIM.bearing.replace(rows=(Row(),)))
-    ours, theirs = equilibrium(one), equilibrium(LIEW_LIM)
-    np.testing.assert_array_equal(ours.ball_load, theirs.ball_load)
-    np.testing.assert_array_equal(ours.stiffness, theirs.stiffness)
-
-
-def test_two_rows_in_tandem_carry_half_the_load_each() -> None:
-    tandem = LIEW_LIM.bearing.paired(0.0, "tandem")
-    load = LIEW_LIM.load
-    double = LIEW_LIM.replace(bearing=tandem, fy=2.0 * load.fy, fz=2.0 * load.fz)
-    ours, theirs = equilibrium(double, [0.0, 0.2]), equilibrium(LIEW_LIM, [0.0, 0.2])
-    for row in (slice(0, 12), slice(12, 24)):
-        np.testing.assert_allclose(ours.ball_load[:, row], theirs.ball_load, rtol=1e-10, atol=1e-9)
-    np.testing.assert_allclose(ours.displacement, theirs.displacement, rtol=1e-10, atol=1e-17)
-    np.testing.assert_allclose(
-        ours.stiffness, 2.0 * theirs.stiffness, rtol=1e-10, atol=1e-10 * ours.stiffness.max()
-    )
-
-
-def test_rows_far_apart_move_as_rigid_geometry_says() -> None:
-    """A moment about x on rows ±z apart, without contact angle: ± load pairs, no sideways move."""
-    wide = FAN_RIG.bearing.replace(rows=(Row(-0.5), Row(0.5)))
-    tight = preloaded(wide, 4e-6)
-    scene = FAN_RIG.replace(bearing=tight, fy=0.0, mx=100.0, extent=0.0, dofs=("x", "y", "rx"))
-    state = equilibrium(scene, [0.0])
-    moment = 0.0
-    for row, place in ((slice(0, 14), -0.5), (slice(14, 28), 0.5)):
-        push = (state.ball_load[0, row] * np.sin(state.ball_angle[0, row])).sum()
-        moment -= push * place  # y-force times z turns about −x
-    # contacts lean by a compression over A0, and with it takes the rest
-    assert moment == pytest.approx(100.0, rel=3e-4)
-    assert abs(state.displacement[0, 1]) < 1e-12
-
-
 def test_a_preload_by_distance_presses_both_rows_and_not_in_tandem() -> None:
     for arrangement in LOW_HIGH:
         pair = LIEW_LIM.bearing.paired(16e-3, arrangement, preload=8e-6)
@@ -81,15 +45,6 @@ def test_a_preload_by_distance_presses_both_rows_and_not_in_tandem() -> None:
         LIEW_LIM.bearing.paired(16e-3, "tandem", preload=8e-6)
     with pytest.raises(ValueError, match="arrangement is 'side by side'"):
         LIEW_LIM.bearing.paired(16e-3, "side by side")
-
-
-def test_the_axial_preload_is_the_push_between_two_single_bearings() -> None:
-    """Each half of a pair, held axially by half the preload, carries the same as the pair."""
-    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back", preload=8e-6)
-    together = equilibrium(UNLOADED.replace(bearing=pair), [0.0])
-    axial = together.ball_load[0, :12] @ np.sin(together.contact_angle[0, :12])
-    alone = equilibrium(UNLOADED.replace(fz=axial), [0.0])
-    assert alone.displacement[0, 2] == pytest.approx(4e-6, rel=1e-9)
 
 
 def test_turning_a_self_aligning_bearing_moves_no_ball() -> None:
@@ -114,41 +69,6 @@ def test_a_ball_in_a_sphere_is_hertz_for_two_spheres() -> None:
     radius = 1.0 / (2.0 / D - 1.0 / R)
     expected = 4.0 / 3.0 * E / (2.0 * (1.0 - nu**2)) * math.sqrt(radius)
     assert spherical_contact(D, R, E, nu).load_deflection_factor == pytest.approx(expected)
-
-
-@pytest.mark.parametrize("n", [6, 9])
-def test_stiffness_of_pairs_is_the_slope_of_their_loads(n: int) -> None:
-    pair = LIEW_LIM.bearing.replace(n_balls=n).paired(14e-3, "back-to-back", preload=6e-6)
-    scene = LIEW_LIM.replace(bearing=pair, fx=150.0, mx=3.0, my=-2.0)
-    state = equilibrium(scene, [0.11])
-    K = state.stiffness[0]
-    assert np.linalg.eigvalsh(K / np.sqrt(np.outer(K.diagonal(), K.diagonal()))).min() > 0.0
-    for i, name in enumerate(("fx", "fy", "fz", "mx", "my")):
-        step = 1e-3 * (1.0 if name.startswith("f") else 0.01)
-        value = getattr(scene.load, name)
-        high, low = (
-            equilibrium(scene.replace(**{name: value + s}), [0.11]).displacement[0]
-            for s in (step, -step)
-        )
-        push = K @ ((high - low) / (2.0 * step))
-        np.testing.assert_allclose(push, np.eye(5)[i], atol=2e-5)
-
-
-def test_a_defect_in_one_row_is_met_by_its_balls_alone() -> None:
-    pair = LIEW_LIM.bearing.paired(16e-3, "back-to-back", preload=6e-6)
-    both = LIEW_LIM.replace(bearing=pair, fz=0.0)
-    defect = LIEW_LIM.defect
-    assert isinstance(defect, Defect)
-    lower = both.replace(defect=dataclasses.replace(defect, row=0))
-    upper = both.replace(defect=dataclasses.replace(defect, row=1))
-    first, second = equilibrium(lower, [0.1]), equilibrium(upper, [0.1])
-    np.testing.assert_allclose(
-        first.ball_load[0, :12], second.ball_load[0, 12:], rtol=1e-8, atol=1e-6
-    )
-    assert not np.allclose(first.ball_load[0, :12], first.ball_load[0, 12:], rtol=0.01)
-    assert {crossing.ball // 12 for crossing in crossings(upper, 0.0, 1.0)} == {1}
-    with pytest.raises(ValueError, match="row of a defect is 2"):
-        both.replace(defect=dataclasses.replace(defect, row=2))
 
 
 def test_rows_move_and_come_back_from_files() -> None:

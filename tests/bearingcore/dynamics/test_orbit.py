@@ -164,16 +164,6 @@ def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
     assert error < (1e-5 if smooth else 2e-3) * np.abs(scaled * differences).max()
 
 
-def test_smooth_variables_march_the_same_motion_as_plain_ones() -> None:
-    """The smooth kernel and the general one approach each other as the step shrinks."""
-    smooth = simulate(RIG, 0.05, step_rate=65536.0 * 16).inner_displacement
-    wide = RIG.replace(dofs=("x", "y", "z"))  # z stays zero, but the general kernel is used
-    plain = simulate(wide, 0.05, step_rate=65536.0 * 16)
-    assert np.abs(plain.inner_displacement[:, 2]).max() < 1e-15
-    size = np.ptp(smooth, axis=0).max()
-    assert np.abs(smooth - plain.inner_displacement[:, :2]).max() < 5e-4 * size
-
-
 def test_an_orbit_nearby_shortens_the_way() -> None:
     first = orbit(at(20.0, 12.9))
     nearby = at(20.0, 12.9).replace(depth=49.5e-6, fy=-101.0)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq, minimize
+from scipy.optimize import brentq
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
 from bearingcore.statics.ball_positions import (
@@ -99,27 +99,6 @@ def test_stiffness_is_the_derivative_of_the_load() -> None:
     size = np.sqrt(np.abs(np.diag(found.stiffness[0])))
     error = (found.stiffness[0] @ flexibility - np.eye(5)) * np.outer(1.0 / size, size)
     assert np.abs(error).max() < 1e-4
-
-
-def test_the_state_is_the_least_energy_that_another_method_finds() -> None:
-    """BFGS over the ring and all balls together, on the independent energy."""
-    scene = presets["7208-15deg"].replace(shaft_speed=14_000 * math.pi / 30.0)
-    found = ball_positions(scene, [0.1])
-    n, scale = scene.bearing.n_balls, 1e-6
-    F = scene.load.vector[:3]
-
-    def energy(unknown: np.ndarray) -> float:
-        q = np.concatenate([scale * unknown[:3], np.zeros(2)])
-        place = scale * unknown[3:].reshape(2, n)
-        sums = TwoContacts(scene, 0.1, q, np.zeros(5), place)
-        return 1e3 * (sums.energy - found.centrifugal_load * place[0].sum() - F @ q[:3])
-
-    answer = np.concatenate([found.displacement[0, :3], found.position[0].ravel()]) / scale
-    away = answer + np.random.default_rng(3).normal(0.0, 0.3, answer.size)
-    other = minimize(energy, away, method="BFGS", options={"gtol": 1e-7, "maxiter": 2000})
-    assert energy(answer) <= other.fun + 1e-9 * abs(other.fun)
-    assert other.fun == pytest.approx(energy(answer), rel=1e-7)
-    assert np.abs(other.x[:3] - answer[:3]).max() < 5e-3
 
 
 def test_force_balance_of_harris_and_mindel() -> None:
@@ -225,15 +204,6 @@ def test_the_static_state_is_what_the_scene_asks_for() -> None:
     assert np.array_equal(found.loaded_balls, carries.sum(axis=1))
     changed = np.abs(found.term("k_yy") / static_state(massless).term("k_yy") - 1.0)
     assert changed.max() > 1e-3
-
-
-def test_the_static_state_of_a_standing_shaft_has_no_centrifugal_load() -> None:
-    still = FAST.replace(shaft_speed=0.0)
-    found, plain = static_state(still), equilibrium(still)
-    assert found.ball_load == pytest.approx(plain.ball_load, abs=1e-9 * plain.ball_load.max())
-    assert np.array_equal(found.loaded_balls, plain.loaded_balls)
-    for term in ("k_xx", "k_yy", "k_zz", "k_yrx"):
-        assert found.term(term) == pytest.approx(plain.term(term), rel=1e-9)
 
 
 def test_a_state_that_costs_too_much_is_not_begun() -> None:

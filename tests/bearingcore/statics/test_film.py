@@ -137,13 +137,6 @@ def test_how_it_scales() -> None:
     assert heavier.thickness / before == pytest.approx(ratio**-0.073)
 
 
-def test_the_inner_race_has_the_thinner_film() -> None:
-    """As it curves away from the ball."""
-    for name in ("6205", "6206", "7208-25deg", "seven-ball"):
-        found = film(presets[name], **OIL)
-        assert found.inner.thickness < found.outer.thickness
-
-
 @pytest.mark.parametrize(
     ("viscosity", "kind"), [(2e-3, LUBRICATION[0]), (3e-2, LUBRICATION[1]), (0.3, LUBRICATION[2])]
 )

@@ -16,7 +16,6 @@ from bearingcore.statics.life import (
     dynamic_load_rating,
     life,
     million_revolutions,
-    race_ratings,
     ratings_of_races,
 )
 from bearingcore.statics.race_loads import race_loads
@@ -153,19 +152,6 @@ def test_a_load_of_the_rating_lasts_a_million_turns(
     assert chain * million_revolutions(contact, ratings, loads) == pytest.approx(1.0, rel=tolerance)
 
 
-def test_life_falls_as_the_cube_of_the_load_where_the_load_zone_stays() -> None:
-    """Without clearance a radial load is carried by the same balls, in the same shares."""
-    one = life(many_balls(), 10_000.0, positions="all").million_revolutions
-    two = life(many_balls().replace(fx=1000.0), 10_000.0, positions="all").million_revolutions
-    assert one / two == pytest.approx(8.0, rel=2e-3)  # 2e-3: the shares change with A, a little
-
-
-def test_life_grows_as_the_cube_of_the_rating() -> None:
-    scene = presets["6206"]
-    ratio = life(scene, 20_000.0).million_revolutions / life(scene, 10_000.0).million_revolutions
-    assert ratio == pytest.approx(8.0, rel=1e-12)
-
-
 # --- the averages ---------------------------------------------------------------------------
 
 
@@ -207,14 +193,6 @@ def by_counting(scene: Scene, places: int, every: int) -> tuple[float, float]:
     )
 
 
-def test_a_defect_of_the_inner_race_by_counting() -> None:
-    scene = damaged("inner", extent=math.radians(20.0))
-    found = race_loads(scene, P, E)
-    inner, outer = by_counting(scene, places=24, every=4)
-    assert found.inner[0] == pytest.approx(inner, rel=2e-3)
-    assert found.outer[0] == pytest.approx(outer, rel=2e-3)
-
-
 def test_defects_of_both_races_by_counting() -> None:
     scene = damaged("inner", extent=math.radians(20.0))
     assert isinstance(scene.defect, Defect)
@@ -236,14 +214,6 @@ def test_a_defect_of_the_outer_race_by_equal_steps(name: str) -> None:
     assert found.outer[0] == pytest.approx(float(np.mean(Q ** (P * E)) ** (1 / (P * E))), rel=2e-5)
 
 
-def test_a_defect_that_no_ball_feels_changes_nothing() -> None:
-    """1 nm deep, in the turning race: the other sum gives the healthy bearing's loads."""
-    scene = damaged("inner", depth=1e-9)
-    found, healthy = race_loads(scene, P, E), race_loads(scene.healthy(), P, E)
-    assert found.inner[0] == pytest.approx(healthy.inner[0], rel=1e-4)
-    assert found.outer[0] == pytest.approx(healthy.outer[0], rel=1e-4)
-
-
 @pytest.mark.parametrize("race", ["inner", "outer"])
 def test_turning_the_whole_scene_changes_nothing(race: str) -> None:
     scene = damaged(race)
@@ -256,22 +226,6 @@ def test_turning_the_whole_scene_changes_nothing(race: str) -> None:
     )
     before, after = life(scene, 19_500.0), life(turned, 19_500.0)
     assert after.million_revolutions == pytest.approx(before.million_revolutions, rel=2e-4)
-
-
-def test_where_a_defect_of_the_turning_race_begins_does_not_matter() -> None:
-    lives = [
-        life(damaged("inner", center=center), 19_500.0).million_revolutions
-        for center in (0.0, 1.0, 4.0)
-    ]
-    assert lives == pytest.approx([lives[0]] * 3, rel=2e-4)
-
-
-def test_a_wider_defect_in_the_load_zone_costs_more() -> None:
-    shares = [
-        life(damaged("outer", extent=math.radians(extent)), 19_500.0).share_of_healthy
-        for extent in (2.0, 6.0, 12.0)
-    ]
-    assert 1.0 > shares[0] > shares[1] > shares[2] > 0.3
 
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
@@ -410,11 +364,6 @@ def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
     rating = dynamic_load_rating(usual)
     assert dynamic_load_rating(usual.replace(inner_groove_radius=0.54 * D)) < 0.9 * rating
     assert dynamic_load_rating(usual.replace(inner_groove_radius=0.51 * D)) == rating
-
-
-def test_ratings_of_the_races_need_the_drawing() -> None:
-    with pytest.raises(ValueError, match="inner_groove_radius"):
-        race_ratings(presets["fan-rig"].bearing, 1e4)
 
 
 def test_two_rows_live_as_the_rating_of_two_rows_says() -> None:

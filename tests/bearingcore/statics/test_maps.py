@@ -88,17 +88,6 @@ def test_most_points_are_known_from_the_extent_before(name: str) -> None:
     np.testing.assert_array_equal(maps.loaded_balls, everywhere.loaded_balls[::-1])
 
 
-def test_fewest_balls_carry_load_where_three_fit_into_the_defect() -> None:
-    """The paper: the number of loaded balls falls up to about 64 degrees and rises after it."""
-    maps = stiffness_maps(LIEW_LIM)
-    mean = maps.mean_loaded_balls
-    fewest = math.degrees(maps.extents[int(np.argmin(mean))])
-    assert fewest == pytest.approx(64.0, abs=1.0)
-    assert np.all(np.diff(mean[3:63]) < 0.02)
-    assert np.all(np.diff(mean[64:]) > -0.02)
-    assert mean[0] == pytest.approx(10.45, abs=0.01)
-
-
 def test_mean_stiffness_follows_the_extent_as_published() -> None:
     """Up to 64 degrees k_xx rises on average, k_yy, k_zz and k_rxrx fall; past it k_yy rises."""
     maps = stiffness_maps(LIEW_LIM)

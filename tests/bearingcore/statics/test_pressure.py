@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -27,35 +26,6 @@ def test_the_ellipse_carries_the_load(name: str) -> None:
         a, b, p = contact.semi_axis_across, contact.semi_axis_along, contact.greatest_pressure
         assert 2.0 / 3.0 * math.pi * a * b * p == pytest.approx(found.ball.load, rel=1e-12)
         assert a > b > 0.0
-
-
-def test_by_mpmath() -> None:
-    """The 6205 at 1 kN: ellipse ratio from the curvatures by elliptic integrals at 30 digits."""
-    scene = presets["6205"].healthy()
-    b = scene.bearing
-    found = contact_pressures(scene)
-    assert b.inner_groove_radius is not None
-    assert b.youngs_modulus is not None
-    assert b.poisson is not None
-    with mpmath.workdps(30):
-        D, gamma = mpmath.mpf(b.ball_diameter), mpmath.mpf(b.ball_diameter) / b.pitch_diameter
-        groove, around = 1 / mpmath.mpf(b.inner_groove_radius), 2 * gamma / ((1 - gamma) * D)
-        total = 4 / D + around - groove
-        difference = (groove + around) / total
-
-        def off(chi: mpmath.mpf) -> mpmath.mpf:
-            m = 1 - 1 / chi**2
-            ratio = mpmath.ellipk(m) / mpmath.ellipe(m)
-            return 1 - 2 / (chi**2 - 1) * (ratio - 1) - difference
-
-        chi = mpmath.findroot(off, (5, 15), solver="anderson")
-        compliance = (1 - mpmath.mpf(b.poisson) ** 2) / b.youngs_modulus
-        size = mpmath.cbrt(3 * mpmath.mpf(found.ball.load) * compliance / total)
-        across = mpmath.cbrt(2 * chi**2 * mpmath.ellipe(1 - 1 / chi**2) / mpmath.pi) * size
-        pressure = 1.5 * found.ball.load / (mpmath.pi * across * across / chi)
-    assert found.inner.semi_axis_across == pytest.approx(float(across), rel=1e-10)
-    assert found.inner.semi_axis_along == pytest.approx(float(across / chi), rel=1e-10)
-    assert found.inner.greatest_pressure == pytest.approx(float(pressure), rel=1e-10)
 
 
 def test_the_same_pressure_as_among_the_limits() -> None:

@@ -22,6 +22,7 @@ from bearingcore.dynamics.modes import (
     undamped_bands,
 )
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, default_cage_angles
+from bearingcore.statics.maps import stiffness_maps
 
 RIG, ANGULAR = presets["fan-rig"], presets["liew-lim"]
 SCENES = {
@@ -58,6 +59,20 @@ def test_damping_moves_them_by_the_square_of_its_ratio() -> None:
     with_damping = np.array([found.bands()[label] for label in found.label]).T
     for without, edge in ((least[0], with_damping[0]), (greatest[0], with_damping[1])):
         np.testing.assert_allclose(without, edge, rtol=float(np.nanmax(found.damping_ratio)) ** 2)
+
+
+def test_extents_together_are_extents_alone() -> None:
+    extents = np.radians([5.0, 12.9, 38.6, 64.0, 85.0])
+    angles = default_cage_angles(ANGULAR, 61)
+    maps = stiffness_maps(ANGULAR, extents, angles)
+    least, greatest, labels = undamped_bands(ANGULAR, maps.stiffness)
+    for i, extent in enumerate(extents.tolist()):
+        scene = ANGULAR.replace(extent=extent)
+        low, high, [names] = undamped_bands(scene, terms_of(scene, 61))
+        assert labels[i] == names
+        # the map's stiffness is the curve's to rounding of an iteration
+        np.testing.assert_allclose(least[i], low[0], rtol=1e-7)
+        np.testing.assert_allclose(greatest[i], high[0], rtol=1e-7)
 
 
 # ------------------------------------------------------------------------- the matrices themselves

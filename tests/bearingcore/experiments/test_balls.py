@@ -8,8 +8,15 @@ import pytest
 from bearingcore import presets
 from bearingcore.experiments import balls
 from bearingcore.experiments.balls import BALL_METHODS, NO_MASS, balls_experiment
+from tests.helpers.timing import measure_once
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
+
+
+@pytest.fixture(autouse=True)
+def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Work is not repeated for the sake of its time."""
+    measure_once(monkeypatch)
 
 
 def test_methods_for_balls_agree_and_too_long_steps_are_shown_as_failed() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ from bearingcore.experiments import (
 )
 from bearingcore.experiments.integrators import HAS_CVODE, METHODS
 from bearingcore.experiments.points import Experiment
-from bearingcore.experiments.references import motion_reference
+from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.experiments.stability import DIVERGED, amplification
 from bearingcore.experiments.statics import (
     contacts,
@@ -33,9 +34,17 @@ from bearingcore.experiments.statics import (
     static_reference,
 )
 from bearingcore.statics.equilibrium import default_cage_angles
+from tests.helpers.timing import measure_once
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 STORED = np.load(Path(__file__).parents[2] / "reference" / "motion_reference.npz")
+
+
+@pytest.fixture(autouse=True)
+def timed_once(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Work is not repeated for the sake of its time, but in one test."""
+    if request.function is not test_angles:
+        measure_once(monkeypatch)
 
 
 # --- references -----------------------------------------------------------------------------------
@@ -44,7 +53,7 @@ STORED = np.load(Path(__file__).parents[2] / "reference" / "motion_reference.npz
 def test_the_reference_meets_the_one_that_was_stored() -> None:
     """Computed by other code, stopping at every event, with other integrators."""
     scene = FAN_RIG.replace(contact_damping=122.0)
-    reference = motion_reference(motion_problem(scene), 0.25, 65536.0, 2200.0)
+    reference = motion_reference(motion_problem(scene), 0.1, 65536.0, 2200.0)
     assert reference.reference.trusted
     assert reference.reference.agreement["displacement"] < 1e-8
     assert reference.reference.agreement["spectrum"] < 1e-5
@@ -86,10 +95,10 @@ def test_contacts_in_numpy_are_those_of_the_kernel(scene) -> None:  # type: igno
 def test_the_march_without_jumps_is_the_same_motion() -> None:
     """In five directions, against the multistep reference: ten times nearer than velocities."""
     problem = motion_problem(LIEW_LIM)
-    reference = motion_reference(problem, 0.1, 65536.0, 3200.0)
+    reference = motion_reference(problem, 0.05, 65536.0, 3200.0)
     assert reference.reference.trusted
     errors = {
-        name: reference.errors(METHODS[name].march(problem, 65536.0, 0.1, 65536.0).history)
+        name: reference.errors(METHODS[name].march(problem, 65536.0, 0.05, 65536.0).history)
         for name in ("RK4", "RK4 in velocities")
     }
     assert errors["RK4"]["displacement"] < 1e-5
@@ -98,6 +107,17 @@ def test_the_march_without_jumps_is_the_same_motion() -> None:
 
 
 # --- orders and stability -------------------------------------------------------------------------
+
+
+@cache
+def ringing(switching: bool) -> MotionReference:
+    """A motion in which the ring starts off its place, so that all modes ring."""
+    loaded = LIEW_LIM.replace(fy=-200.0, fz=3000.0, contact_damping=300.0).healthy()
+    scene = FAN_RIG.replace(contact_damping=122.0) if switching else loaded
+    problem = motion_problem(scene)
+    problem.start[: len(problem.dofs)] += 0.02 * problem.scale[0]
+    highest = highest_natural_frequency(scene)
+    return motion_reference(problem, 0.06, 10.0 * highest, 1.25 * highest)
 
 
 @pytest.mark.parametrize(
@@ -111,14 +131,8 @@ def test_the_march_without_jumps_is_the_same_motion() -> None:
 )
 def test_orders(method: str, switching: bool, order: float, within: float) -> None:
     """4 while all balls are loaded; damping that switches as a ball touches leaves velocities 1."""
-    loaded = LIEW_LIM.replace(fy=-200.0, fz=3000.0, contact_damping=300.0).healthy()
-    scene = FAN_RIG.replace(contact_damping=122.0) if switching else loaded
-    problem = motion_problem(scene)
-    # the ring starts off its place, so that all modes ring
-    problem.start[: len(problem.dofs)] += 0.02 * problem.scale[0]
-    highest = highest_natural_frequency(scene)
-    rate = 10.0 * highest
-    reference = motion_reference(problem, 0.06, rate, 1.25 * highest)
+    reference = ringing(switching)
+    problem, rate = reference.problem, reference.sample_rate
     truth = reference.history[:, (0, 3)]
     floor = 5.0 * reference.reference.agreement["displacement"] * np.ptp(truth)
     steps, errors = [], []
@@ -146,7 +160,7 @@ def test_the_linear_limit_of_an_undamped_oscillator() -> None:
 
 
 def test_methods_break_where_linear_theory_says() -> None:
-    chart = stability_chart(FAN_RIG, duration=0.1)
+    chart = stability_chart(FAN_RIG, duration=0.05)
     assert chart.completed
     assert chart.reference.trusted
     assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
@@ -180,7 +194,7 @@ def check_that_all_is_given(experiment: Experiment) -> None:
 
 
 def test_statics() -> None:
-    experiment = statics_experiment(LIEW_LIM, n_angles=13)
+    experiment = statics_experiment(LIEW_LIM, n_angles=7)
     check_that_all_is_given(experiment)
     scene = experiment.per_reference()[""]
     (compiled,) = scene.of("compiled energy Newton")
@@ -220,7 +234,7 @@ def test_angles() -> None:
 def test_motion() -> None:
     cvode = ("CVODE Adams", "CVODE BDF") if HAS_CVODE else ()
     names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA", *cvode)
-    experiment = motion_experiment(FAN_RIG, duration=0.1, methods=names)
+    experiment = motion_experiment(FAN_RIG, duration=0.05, methods=names)
     check_that_all_is_given(experiment)
     assert experiment.methods == names
     for name in names:
@@ -236,7 +250,7 @@ def test_motion() -> None:
 
 
 def test_models() -> None:
-    experiment = models_experiment(LIEW_LIM, duration=0.1)
+    experiment = models_experiment(LIEW_LIM.replace(edge="exact"), duration=0.05)
     check_that_all_is_given(experiment)
     points = {point.method: point for point in experiment.points}
     assert points["5 DOF"].errors["spectrum"] < 0.1 < points["2 DOF"].errors["spectrum"]
@@ -247,7 +261,7 @@ def test_models() -> None:
 
 def test_a_motion_that_does_not_settle_makes_a_named_failure() -> None:
     fast = FAN_RIG.replace(shaft_speed=2.0 * math.pi * 30.0, contact_damping=130.0)
-    experiment = models_experiment(fast, duration=0.05)
+    experiment = models_experiment(fast, duration=0.035)
     (orbit,) = experiment.of("orbit")
     assert orbit.status == "failed: unstable orbit: period doubling"
     assert orbit.against == "settled motion"

@@ -13,11 +13,27 @@ from scipy.io import savemat, wavfile
 
 from bearingcore.files import child, formats, table
 from bearingcore.files.table import read_table
+from tests.helpers.reading import read_in_this_process
 
 RATE = 12_800.0
 N = 3000
 SIGNAL = np.random.default_rng(5).standard_normal((N, 2))
 TIME = np.arange(N) / RATE
+
+
+IN_A_PROCESS_OF_ITS_OWN = {
+    "test_matlab_7_3_is_read_like_the_versions_before",
+    "test_hdf5_names_no_other_files",
+    "test_huge_files_are_refused_before_they_are_read",
+    "test_damaged_files_never_end_this_process",
+}
+
+
+@pytest.fixture(autouse=True)
+def quickly(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process for each file is tested with some of them, and in `test_child.py`."""
+    if request.function.__name__ not in IN_A_PROCESS_OF_ITS_OWN:
+        read_in_this_process(monkeypatch)
 
 
 def text(rows, delimiter=",", heading="", decimal=".") -> bytes:

@@ -19,6 +19,7 @@ from bearingcore import (
     equilibrium,
     modes,
     presets,
+    stiffness_maps,
 )
 
 TABLES = Path(__file__).parents[2] / "reference"
@@ -154,15 +155,14 @@ def test_fewest_loaded_balls_and_least_stiffness(edge: str, extent_deg: float) -
     Looked at finely both minima are at 61.75° (`chord`), at 63.50° and 63.75° (`published`).
     """
     extents = np.arange(60.0, 67.0, 0.25)
-    loaded, k_yy = [], []
-    for extent in extents:
-        scene = presets["liew-lim"].replace(extent=math.radians(extent), edge=edge)
-        angles = np.arange(240) * scene.bearing.ball_spacing / 240
-        answer = equilibrium(scene, angles)
-        loaded.append(answer.loaded_balls.mean())
-        k_yy.append(answer.term("k_yy").mean())
-    assert extents[int(np.argmin(loaded))] == pytest.approx(extent_deg, abs=0.5)
-    assert extents[int(np.argmin(k_yy))] == pytest.approx(extent_deg, abs=0.5)
+    maps = stiffness_maps(
+        presets["liew-lim"].replace(edge=edge), np.radians([0.0, *extents]).tolist()
+    )
+    loaded = maps.mean_loaded_balls
+    assert loaded[0] == pytest.approx(10.45, abs=0.01)
+    assert extents[int(np.argmin(loaded[1:]))] == pytest.approx(extent_deg, abs=0.5)
+    k_yy = maps.term("k_yy").mean(axis=1)
+    assert extents[int(np.argmin(k_yy[1:]))] == pytest.approx(extent_deg, abs=0.5)
 
 
 @pytest.mark.parametrize("depth_um", [50.0, 75.0, 100.0, 150.0, 200.0, 300.0, 400.0, 500.0])

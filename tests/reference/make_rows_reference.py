@@ -11,6 +11,7 @@ import math
 from typing import Any
 
 from tests.reference.make_static_reference import LIEW_LIM as SMALL
+from tests.reference.make_static_reference import case as one_row
 from tests.reference.statics import DOFS, row, write
 
 ALL, XYZ, XY = DOFS, DOFS[:3], DOFS[:2]
@@ -97,32 +98,14 @@ def case(
     bearing: dict[str, Any],
     rows: list[dict[str, Any]],
     load: tuple[float, float, float, float, float],
-    cage_deg: float,
-    extent_deg: float = 0.0,
-    depth_um: float = 50.0,
-    center_deg: float = 270.0,
-    race: str = "outer",
-    edge: str = "exact",
+    *numbers: Any,
     defect_row: int | None = None,
-    dofs: tuple[str, ...] = ALL,
+    **more: Any,
 ) -> dict[str, Any]:
-    """One scene in plain floats [SI, rad]."""
-    return {
-        "name": name,
-        "bearing": bearing,
-        "rows": rows,
-        "load": dict(zip(("fx", "fy", "fz", "mx", "my"), load, strict=True)),
-        "defect": {
-            "extent": math.radians(extent_deg),
-            "depth": depth_um * 1e-6,
-            "center": math.radians(center_deg),
-            "race": race,
-            "edge": edge,
-            "row": defect_row,
-        },
-        "dofs": list(dofs),
-        "cage_angle": math.radians(cage_deg),
-    }
+    """As of one row, with exact edges; the load is fx, fy, fz, mx, my."""
+    loads = dict(zip(("fx", "fy", "fz", "mx", "my"), load, strict=True))
+    made = one_row(name, bearing, loads, *numbers, **{"edge": "exact", **more})
+    return {**made, "rows": rows, "defect": {**made["defect"], "row": defect_row}}
 
 
 def scenes() -> list[dict[str, Any]]:

@@ -7,13 +7,12 @@ import pickle
 
 import pytest
 
-from bearingcore import Scene, equilibrium, presets
+from bearingcore import Scene, presets
 from bearingcore.bearings import KINDS
 from bearingcore.bearings.kind import kind_named
 from bearingcore.errors import FieldError
 
 every_preset = pytest.mark.parametrize("name", list(presets))
-ROLLERS = presets["nu208"]
 
 
 @every_preset
@@ -41,14 +40,3 @@ def test_a_name_or_numbers_of_another_kind_are_refused() -> None:
         with pytest.raises(FieldError) as refused:
             dataclasses.replace(presets["6205"].bearing, kind=name)
         assert refused.value.field == field
-
-
-def test_directions_that_a_kind_cannot_have_are_refused_in_words() -> None:
-    said = "x and y, as cylindrical rollers carry radial loads only"
-    for ask in (
-        lambda: ROLLERS.replace(dofs=("x", "y", "z")),
-        lambda: equilibrium(ROLLERS, dofs=("x", "y", "z")),
-    ):
-        with pytest.raises(FieldError, match=said) as refused:
-            ask()
-        assert refused.value.field == "dofs"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import pytest
 from bearingcore import Bearing, Scene, equilibrium, modes, orbit, presets, simulate
 from bearingcore.bearings.hertz import spherical_contact
 from bearingcore.bearings.rows import Row
+from bearingcore.errors import FieldError
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 UNLOADED = LIEW_LIM.replace(fy=0.0, fz=0.0, extent=0.0)
@@ -125,8 +127,11 @@ def test_rollers_carry_radial_loads_only_and_say_so() -> None:
     assert simulate(scene, 0.02).completed
     with pytest.raises(ValueError, match="cylindrical rollers carry radial loads only"):
         scene.replace(fz=10.0)
-    with pytest.raises(ValueError, match="x and y, as cylindrical rollers carry radial loads only"):
-        scene.replace(dofs=("x", "y", "z"))
+    words = "x and y, as cylindrical rollers carry radial loads only"
+    for ask in (scene.replace, partial(equilibrium, scene)):
+        with pytest.raises(FieldError, match=words) as found:
+            ask(dofs=("x", "y", "z"))
+        assert found.value.field == "dofs"
     assert Scene.from_toml(scene.to_toml()) == scene
 
 

@@ -33,7 +33,6 @@ from bearingcore.bearings.rows import Row
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.scene import packing
 from bearingcore.statics.ball_positions import ball_positions, static_state
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.film import rolling_speed
@@ -72,20 +71,6 @@ def test_a_row_of_the_bearings_own_angle_is_as_if_none_were_given() -> None:
     assert life(told, 4e4).million_revolutions == life(plain, 4e4).million_revolutions
     fewer = told.replace(n_balls=n - 1).bearing
     assert fewer.of_row(0).n_balls == n, "what is a row's own stays, whatever the bearing's is"
-
-
-def test_what_follows_from_the_angle_follows_for_the_row() -> None:
-    bearing = UNLIKE.bearing
-    steep = ONE.bearing.replace(contact_angle=STEEP)
-    assert bearing.of_row(0) == bearing.replace(rows=()) == ONE.bearing
-    assert bearing.of_row(1) == steep
-    contacts, n = packing.contacts(bearing), bearing.n_balls
-    assert contacts.line_r[n] == math.cos(STEEP)
-    assert contacts.line_z[0] == -math.sin(bearing.contact_angle)
-    assert contacts.factor[n] == steep.load_deflection_factor != contacts.factor[0]
-    lever = bearing.groove_center_radius
-    assert contacts.reach[n] * lever == pytest.approx(steep.groove_center_radius)
-    assert steep.bpfo(10.0) > bearing.bpfo(10.0), "its cage turns faster"
 
 
 def test_a_row_of_other_balls_is_a_bearing_of_them() -> None:

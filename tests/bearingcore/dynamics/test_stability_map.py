@@ -122,26 +122,6 @@ def test_a_speed_run_takes_orbits_where_they_are_stable_and_marches_elsewhere() 
     assert run.ball_pass_frequency[0] == pytest.approx(40.289, abs=1e-3)
 
 
-@pytest.mark.parametrize(("shaft_hz", "doubled"), [(30.0, True), (20.0, False)])
-def test_a_doubled_period_shows_as_lines_at_half_the_ball_pass_frequency(
-    shaft_hz: float, doubled: bool
-) -> None:
-    """What the map's sentence tells a vibration engineer, seen in a fine spectrum."""
-    scene = RIG.replace(shaft_speed=2.0 * math.pi * shaft_hz)
-    motion = simulate(scene, 4.0)
-    late = motion.outer_acceleration[len(motion.time) // 2 :, 1]
-    found = spectrum(late, motion.sample_rate, 4.0)
-    passing = scene.bearing.bpfo(scene.shaft_speed)
-
-    def lines(part: float) -> float:
-        """Power of the lines at (k + part) times the ball-pass frequency."""
-        near = [np.abs(found.frequency - (k + part) * passing) < 6.0 for k in range(2, 8)]
-        return float(sum(found.density[mask].max() for mask in near))
-
-    assert (lines(0.5) > 30.0 * lines(0.25)) == doubled
-    assert lines(0.0) > 1000.0 * lines(0.25)
-
-
 def test_speeds_must_be_above_zero() -> None:
     with pytest.raises(ValueError, match="shaft_speeds"):
         speed_run(RIG, [0.0, 10.0])

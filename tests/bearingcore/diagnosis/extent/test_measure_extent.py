@@ -73,6 +73,9 @@ def test_the_time_between_knocks_and_the_offset_are_the_extent(race):
     )
     assert found.race == race
     assert f"{math.degrees(found.extent):.1f}°" in found.sentence
+    table = found.table()
+    assert table["extent"][0] == found.extent
+    assert len(table["envelope"]) == len(table["angle"])
 
 
 def test_the_exit_is_what_grows_with_frequency():
@@ -110,24 +113,14 @@ def test_a_known_load_narrows_the_interval():
 
 
 def test_a_pit_has_no_extent_to_measure():
-    for seed in (1, 2):
-        found = measured(signal(entry=0.0, seed=seed))
-        assert not found.measured
-        assert math.isnan(found.extent)
-        assert found.status in (
-            ExtentStatus.ONE_KNOCK,
-            ExtentStatus.UNCLEAR,
-            ExtentStatus.SHORTER,
-        )
-
-
-def test_what_does_not_resolve_is_given_a_bound_that_holds():
     pit = measured(signal(entry=0.0))
+    assert not pit.measured
+    assert math.isnan(pit.extent)
     assert pit.status == ExtentStatus.SHORTER
     bound = f"{math.degrees(pit.high):.0f}°"
     assert pit.answer == f"shorter than about {bound} or near whole ball spacings, outer race"
     assert pit.low == 0.0
-    for apart_deg in (0.7, 1.5):
+    for apart_deg in (0.7, 1.5):  # what does not resolve has a bound that holds
         close = measured(signal(apart_deg=apart_deg))
         assert not close.high < math.radians(apart_deg)
 
@@ -160,12 +153,6 @@ def test_too_few_ball_passes_and_too_few_samples():
 def test_what_cannot_be_is_refused(given):
     with pytest.raises(ValueError, match=next(iter(given))):
         measured(signal(), **given)
-
-
-def test_the_table_holds_the_answer_and_the_mean_pass():
-    table = spall().table()
-    assert table["extent"][0] == spall().extent
-    assert len(table["envelope"]) == len(table["angle"])
 
 
 @needs_records

@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import fftconvolve
 
 from bearingcore import Recording, diagnose, presets
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.part.listed import explaining_bearings
 from bearingcore.diagnosis.part.parts import PARTS, part_lines
 from bearingcore.diagnosis.part.status import DiagnosisStatus
@@ -391,7 +391,3 @@ def test_no_measured_record_is_answered_conclusively_and_wrongly():
     assert [record.name for record, one in found if verdict(record, one) == WRONG] == []
     named = [record.truth == one.fault for record, one in found if record.truth in PARTS]
     assert sum(named) >= 0.88 * len(named)
-
-
-def test_the_words_for_faults_are_the_five():
-    assert FAULTS == ("outer race", "inner race", "ball", "none seen", "cannot tell")

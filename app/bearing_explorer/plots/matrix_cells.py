@@ -38,7 +38,7 @@ UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
 NEGLIGIBLE = 1e-6
 """Of the geometric mean of the two diagonal terms: rounding, not coupling."""
-ZERO = "zero by symmetry"
+ZERO = "0 by symmetry"
 """Why a cell is empty."""
 
 PLACES = [(i, j) for i in range(5) for j in range(i, 5)]

@@ -34,6 +34,7 @@ def _cell(row: int, column: int) -> Cell:
     return Cell(column + 0.215, column + 0.985, -row - 0.86, -row - 0.27)
 
 
+_NARROWEST = ":host { min-width: 560px; }"
 _CELLS = [_cell(i, j) for i, j in PLACES]
 _BALLS = Cell(0.215, 2.6, -4.86, -3.5)
 _FRAMES = [*_CELLS, _BALLS]
@@ -63,7 +64,7 @@ class Stiffness(View):
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.08, 0.0), height=524, name="stiffness_drawing"
+            (-0.05, 5.03), (-5.08, 0.0), _NARROWEST, height=524, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -43,6 +44,9 @@ SCENES = {
     "all around": presets["fan-rig"].replace(extent=2.0 * math.pi),
 }
 
+diagnosed, measured_extent = cache(answered), cache(extent_of)
+"""Answers about a bearing, which several scenes have."""
+
 
 def test_names_are_one_per_page() -> None:
     for names in ([s.name for s in SECTIONS], [view.name for view in VIEWS]):
@@ -80,10 +84,10 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
         made.measure(measuring(signal()))
     if isinstance(made, PartDiagnosis | SpallExtent):  # whose answers come from the background
         about = Question.about(signal(), results.scene.bearing)
-        made.measurement.diagnoses.keep(about, answered(about))
+        made.measurement.diagnoses.keep(about, diagnosed(about))
     if isinstance(made, SpallExtent):
         question = made.question(results.scene.bearing)
-        made.measurement.extents.keep(question, extent_of(question))
+        made.measurement.extents.keep(question, measured_extent(question))
     if "ball_mass" in view.needs and results.scene.bearing.kind.mass_unknown:
         drawing = drawing_of(results, made)
         assert drawing.data is None

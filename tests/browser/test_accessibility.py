@@ -82,33 +82,29 @@ def colors(page: Page) -> set[str]:
     return {str(color).upper() for color in found if color is not None}
 
 
-@pytest.mark.proof
-def test_every_tab_in_light_in_dark_and_on_a_phone(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    """One walk through the tabs, as opening them is what takes the time."""
-    page, _ = watch
-    page.emulate_media(color_scheme="light")
-    open_page(page, explorer)
+def make_ready(page: Page) -> None:
+    """What `hold_to_rules` needs on an open page."""
+    page.evaluate(DEEP)
     page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
+
+
+def hold_to_rules(page: Page, where: str = "main") -> None:
+    """The open tab by the rules of axe, in light, in dark and on a phone."""
+    # what is hidden is looked at when it is shown, and would only be waded through here
+    page.evaluate("[...deep(document, '.off-screen')].forEach(section => section.remove())")
     root = page.locator("html")
-    button = page.get_by_role("button", name="Dark colours")
-    for number, name in enumerate(NAMES):
-        show(page, name)
-        # what is hidden is looked at when it is shown, and would only be waded through here
-        page.evaluate("[...deep(document, '.off-screen')].forEach(section => section.remove())")
-        where = "main" if number else "html"
-        assert findings(page, where) == [], f"{name}, {root.get_attribute('data-theme')}"
-        button.click()
-        theme = "light" if number % 2 else "dark"
-        expect(root).to_have_attribute("data-theme", theme)
-        assert findings(page, where, "color-contrast") == [], f"{name}, {theme}"
-        assert colors(page) <= PAPERS[theme], name
-        assert silent_figures(page) == [], name
-        assert sideways(page) == [], name
-        page.set_viewport_size(PHONE)
-        fits(page, f"{name} on a phone")
-        page.set_viewport_size(LAPTOP)
+    before = root.get_attribute("data-theme")
+    assert findings(page, where) == [], before
+    page.get_by_role("button", name="Dark colours").click()
+    theme = "light" if before == "dark" else "dark"
+    expect(root).to_have_attribute("data-theme", theme)
+    assert findings(page, where, "color-contrast") == [], theme
+    assert colors(page) <= PAPERS[theme]
+    assert silent_figures(page) == []
+    assert sideways(page) == []
+    page.set_viewport_size(PHONE)
+    fits(page)
+    page.set_viewport_size(LAPTOP)
     page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
 
 
@@ -130,12 +126,12 @@ def silent_figures(page: Page) -> list[str]:
     )
 
 
-def fits(page: Page, what: str) -> None:
+def fits(page: Page) -> None:
     """Figures take their time to follow a change of the screen, and then all fits."""
     end = time.monotonic() + 120.0
     while sideways(page) and time.monotonic() < end:
         page.wait_for_timeout(50)
-    assert sideways(page) == [], what
+    assert sideways(page) == []
 
 
 def sideways(page: Page) -> list[str]:

@@ -20,6 +20,7 @@ from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
 from tests.browser.helpers import ROOT, Server, Watch
+from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
 
 FAN = presets["fan-rig"]
@@ -88,7 +89,9 @@ def walk(browser: BrowserContext, explorer: Server) -> Iterator[tuple[Visitor, W
     page, watching = browser.new_page(), Watch()
     watching.follow(page)
     visitor = Visitor(page)
+    page.emulate_media(color_scheme="light")
     visitor.open(explorer)
+    make_ready(page)
     yield visitor, watching
     page.close()
 
@@ -114,6 +117,8 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
         visitor.sees_change(lambda: visitor.slider(moved).press("PageUp"))
         visitor.press("Reset", visitor.scene)
         expect(visitor.box("Extent")).to_have_value("12.9")
+        visitor.steady()
+    hold_to_rules(visitor.page, "html" if tab == "Overview" else "main")
     watching.assert_clean()
 
 

@@ -469,6 +469,11 @@ def long_number(value: float) -> str:
     return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
 
 
+def turns_in_words(L: float) -> str:
+    """A life [10⁶ turns], up to a million of millions."""
+    return f"{long_number(L)} million turns" if L < 1e6 else "more than a million million turns"
+
+
 def hours_in_words(hours: float) -> str:
     """Hours of a life [h], up to a century."""
     return f"{long_number(hours)} hours" if hours < A_CENTURY else "more than 100 years"
@@ -481,7 +486,7 @@ def _sentence(
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
         return "No ball carries load: nothing tires."
-    words = f"Nine of ten bearings reach {long_number(L)} million turns"
+    words = f"Nine of ten bearings reach {turns_in_words(L)}"
     if math.isnan(hours):
         words += "; the shaft stands still, so there are no hours."
     else:
@@ -493,8 +498,5 @@ def _sentence(
             f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
         )
     if scene.defects:
-        words += (
-            f" That is {percent(L / L_healthy)} of the healthy bearing's {long_number(L_healthy)} "
-            f"million. {LEFT_OUT}"
-        )
+        words += f" That is {percent(L / L_healthy)} of the healthy bearing's life. {LEFT_OUT}"
     return words

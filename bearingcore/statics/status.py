@@ -43,10 +43,7 @@ class StaticStatus(enum.IntEnum):
 
 
 _SENTENCES = {
-    StaticStatus.NOTHING_TOUCHES: (
-        "nothing touches: no load acts along the free directions, so no ball is pressed and the "
-        "ring's place within its clearance is not determined"
-    ),
+    StaticStatus.NOTHING_TOUCHES: "nothing touches: no load presses a ball",
     StaticStatus.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
     StaticStatus.REFUSED: "this extent is not possible in this scene",
 }

@@ -26,6 +26,8 @@ def words_of(error: ValueError) -> str:
     """
     if not isinstance(error, FieldError):
         return str(error).removesuffix(".")
+    if error.field == "shaft_speed" and error.value == 0.0:
+        return "the shaft speed is 0 Hz, so nothing turns"
     field = field_of(error)
     si = error.unit or (field.unit if field else "")
 

@@ -30,6 +30,7 @@ HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
 NUMBER_START = 0.09  # beyond a bar: the middle of its number
+MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
@@ -292,8 +293,12 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
         own = balls[(balls >= its.start) & (balls < its.stop)] - its.start + 1
         if own.size:
             of_row = f" of row {row + 1}" if bearing.rows else ""
-            names = style.list_words([str(ball) for ball in own])
-            words.append(f"{elements(bearing, own.size)} {names}{of_row}")
+            balls_of_row = elements(bearing, own.size)
+            if own.size > MOST_NAMED:
+                words.append(f"{own.size} {balls_of_row}{of_row}")
+            else:
+                names = style.list_words([str(ball) for ball in own])
+                words.append(f"{balls_of_row} {names}{of_row}")
     return f"; {style.list_words(words)} {_in_defect(balls.size)}"
 
 

@@ -18,7 +18,7 @@ from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.widgets.form import Fields, entry, row
 from bearingcore.common.numbers import percent
-from bearingcore.statics.life import LEFT_OUT, hours_in_words, long_number
+from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -217,11 +217,11 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
     ]
     if len(lasts.rows) > 1 and known:
-        each = " and ".join(long_number(L) if math.isfinite(L) else "endless" for L in lasts.rows)
+        each = " and ".join(map(_million, lasts.rows))
         facts.append(
             Fact(
                 f"of rows 1 to {len(lasts.rows)} on their own",
-                f"{each} million turns",
+                each,
                 "Of each row under what it carries: the bearing fails with the first.",
             )
         )
@@ -242,7 +242,7 @@ def _damaged_words(damaged: Life) -> str:
 
 
 def _million(value: float) -> str:
-    return "unlimited" if math.isinf(value) else f"{long_number(value)} million turns"
+    return "unlimited" if math.isinf(value) else turns_in_words(value)
 
 
 def _pressures(results: Results, found: Endurance) -> FactGroup:

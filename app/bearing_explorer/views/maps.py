@@ -191,12 +191,13 @@ class StiffnessMaps(View):
         else:
             at = int(np.nanargmin(mean))
             fewest = maps.extents[at]
+            where = f"at an extent of {in_degrees(fewest, 0)}" if at else "without a defect"
             words = (
-                f"Fewest {names} carry load at an extent of {in_degrees(fewest, 0)}"
+                f"Fewest {names} carry load {where}"
                 f"{', the longest of the map' if at == mean.size - 1 else ''}: "
                 f"{least:.1f} of {n_balls} on average over the cage angle"
             )
-            if np.isfinite(mean[0]):
+            if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
         words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
         words += in_degrees(results.cage_angle)

@@ -118,6 +118,23 @@ def test_a_scene_without_an_answer_gets_words_from_every_view(view: type[View]) 
     assert drawing.sentence != BROKEN
 
 
+@pytest.mark.parametrize(
+    "view", [view for view in VIEWS if issubclass(view, MeasuredView)], ids=lambda view: view.name
+)
+def test_that_there_is_no_signal_is_said_once_by_what_asks_for_it(view: type[MeasuredView]) -> None:
+    results = Results(presets["fan-rig"])
+    made = view(PackedSource())
+    made.measure(measuring())
+    assert made.sentence(results) == ""
+    assert made.table(results) == {}
+    drawn = [column for own in made.all_data(results)[0].values() for column in own.values()]
+    assert not any(np.size(column) for column in drawn)
+    made.say(results, "")
+    assert not made.hidden.visible
+    assert made.is_empty
+    assert made._caption.nothing
+
+
 @pytest.mark.parametrize("view", VIEWS, ids=lambda view: view.name)
 def test_views_say_which_slow_answers_they_read(view: type[View]) -> None:
     """Otherwise they would be computed among the quick ones and hold them up."""

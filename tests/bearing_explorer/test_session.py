@@ -133,21 +133,6 @@ def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> 
     assert explorer._drawn_mark == 9, "a refusal is answered too, or the browser would wait"
 
 
-def test_what_the_scene_refuses_stays_as_it_was(
-    news: list[dict], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(*_: object, **__: object) -> None:
-        raise ValueError("extent is 3; allowed: less")
-
-    def act(explorer: Explorer) -> None:
-        monkeypatch.setattr("bearing_explorer.state.scene_editor.scene_with_fields", refuse)
-        explorer.requests.change_scene({"mark": 1, "set": {"extent_deg": 40}})
-
-    explorer = session(act)
-    assert explorer.values["extent_deg"] == pytest.approx(12.9)
-    assert "allowed: less" in news[0]["refused"]["extent_deg"]
-
-
 @pytest.mark.parametrize(
     ("depth_um", "words"), [(400, "more than this view can show"), (5, "could not be computed")]
 )

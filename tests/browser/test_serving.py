@@ -69,6 +69,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         outside = [
             one for one in watching.requests if "/bearing/" not in one and "blob:" not in one
         ]
+        assert missing == []
         assert not outside, f"asked for beside the path of the proxy: {outside}"
 
         second = page.context.new_page()
@@ -82,7 +83,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         expect(third.locator("p").first).to_contain_text("Try again in a minute")
         second.close()
         third.close()
-    assert "Traceback" not in server.log
+        ends_cleanly(server, signal.SIGINT)
 
 
 @pytest.mark.proof
@@ -124,15 +125,12 @@ def test_a_connection_that_is_over_is_told_on_the_page(
     page.close()
 
 
-@pytest.mark.proof
-def test_the_server_says_what_it_does_and_ends_cleanly() -> None:
-    for number_ in (signal.SIGTERM, signal.SIGINT):
-        server = explorer_server()
-        server.wait()
-        assert server.stop(number_) == 0, server.log
-        for words in ("Loading the page", "Ready after", str(server.port), "Stopped."):
-            assert words in server.log
-        assert "Traceback" not in server.log
+def ends_cleanly(server: Server, by: signal.Signals) -> None:
+    """Its log says what it did, and nothing of an error."""
+    assert server.stop(by) == 0, server.log
+    for words in ("Loading the page", "Ready after", str(server.port), "Stopped."):
+        assert words in server.log
+    assert "Traceback" not in server.log
 
 
 def test_the_page_works_without_the_speedups(watch: tuple[Page, Watch]) -> None:
@@ -147,4 +145,4 @@ def test_the_page_works_without_the_speedups(watch: tuple[Page, Watch]) -> None:
         expect(page.get_by_text("The greatest load of a ball is").first).to_be_attached()
         source = "Bokeh.documents[0].get_model_by_name('load_distribution_balls')"
         assert page.evaluate(f"Object.values({source}.data)[0].length") > 3, "drawn without packets"
-    assert "Traceback" not in server.log
+        ends_cleanly(server, signal.SIGTERM)

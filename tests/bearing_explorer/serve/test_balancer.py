@@ -5,11 +5,7 @@ from __future__ import annotations
 import asyncio
 import re
 import shutil
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from threading import Thread
-from urllib.request import Request, urlopen
+from contextlib import ExitStack
 
 import pytest
 
@@ -20,51 +16,6 @@ from tests.helpers.page_client import PageClient
 
 HAPROXY = bool(shutil.which("haproxy") or shutil.which("haproxy", path="/usr/sbin"))
 WAYS = [False, pytest.param(True, marks=pytest.mark.skipif(not HAPROXY, reason="no haproxy"))]
-
-
-@contextmanager
-def named(name: str) -> Iterator[int]:
-    """A server that answers with its name, on a port of its own."""
-
-    class Answer(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:
-            self.send_response(200)
-            self.send_header("Content-Length", str(len(name)))
-            self.end_headers()
-            self.wfile.write(name.encode())
-
-        def log_message(self, *_: object) -> None:
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Answer)
-    thread = Thread(target=server.serve_forever)
-    thread.start()
-    try:
-        yield server.server_port
-    finally:
-        server.shutdown()
-        thread.join()
-        server.server_close()
-
-
-@pytest.mark.parametrize("haproxy", WAYS, ids=["a few lines", "haproxy"])
-def test_who_came_to_a_process_comes_to_it_again(haproxy: bool) -> None:
-    with ExitStack() as stack:
-        ports = [stack.enter_context(named(name)) for name in ("one", "two")]
-        port = stack.enter_context(balanced(ports, haproxy=haproxy))
-        url = f"http://127.0.0.1:{port}/"
-        seen = []
-        for _ in range(6):
-            with urlopen(url) as answer:
-                first = answer.read()
-                cookie = answer.headers["Set-Cookie"].split(";")[0]
-            for _ in range(5):
-                with urlopen(Request(url, headers={"Cookie": cookie})) as answer:
-                    assert answer.read() == first
-            seen.append(first)
-        assert set(seen) <= {b"one", b"two"}
-        if haproxy:
-            assert len(set(seen)) == 2, "not all in one process"
 
 
 def test_the_operators_page_has_what_is_tested() -> None:

@@ -103,12 +103,3 @@ def test_without_a_unit_there_is_neither_velocity_nor_zone():
     assert "mm/s" not in unknown._facts.object
     assert not [name for name in unknown.table(RESULTS) if "velocity" in name]
     assert "rms_as_in_file" in unknown.table(RESULTS)
-
-
-@pytest.mark.parametrize("kind", [MeasuredIndicators, MeasuredKurtogram, MeasuredSpectrogram])
-def test_without_a_signal_nothing_is_drawn(kind):
-    view = view_of(kind, None)
-    assert view.sentence(RESULTS) == ""
-    assert view.table(RESULTS) == {}
-    drawn = [column for own in view.all_data(RESULTS)[0].values() for column in own.values()]
-    assert not any(np.size(column) for column in drawn)

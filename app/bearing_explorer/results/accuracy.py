@@ -37,20 +37,16 @@ class Found:
 
 
 @cache
-def shipped(preset: str) -> Measurements | None:
-    """The measurements that come with the program for a preset; None where there are none."""
-    try:
-        path = asset_path(f"accuracy/{preset}.json")
-    except FileNotFoundError:
-        return None
-    return measurements_from(path.read_text(encoding="utf-8"))
+def shipped(preset: str) -> Measurements:
+    """The measurements that come with the program for a preset."""
+    return measurements_from(asset_path(f"accuracy/{preset}.json").read_text(encoding="utf-8"))
 
 
 def preset_like(scene: Scene) -> str:
-    """Of the shipped presets the one that is `scene`, or has its bearing, or else the fan rig."""
+    """The preset that is `scene`, or has its bearing, or else the fan rig."""
     same = [name for name, preset in presets.items() if preset == scene]
     alike = [name for name, preset in presets.items() if preset.bearing == scene.bearing]
-    return next(name for name in (*same, *alike, "fan-rig") if shipped(name) is not None)
+    return (*same, *alike, "fan-rig")[0]
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:

@@ -162,7 +162,7 @@ class Accuracy(JobView[Found]):
         """The experiments shown: of this machine, and shipped where there are none of it."""
         base = shipped(preset_like(results.scene))
         own = {} if self.found is None else self.found.result.experiments
-        return {**({} if base is None else base.experiments), **own}
+        return {**base.experiments, **own}
 
     def sentence(self, results: Results) -> str:
         found, scene = self.found, results.scene
@@ -186,7 +186,7 @@ class Accuracy(JobView[Found]):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         base = shipped(preset_like(results.scene))
         shown = base if self.found is None else self.found.result
-        return {} if shown is None else shown.table().named()
+        return shown.table().named()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -209,7 +209,7 @@ class Accuracy(JobView[Found]):
         base = shipped(preset)
         own = None if self.found is None else self.found.result
         reasons = {
-            **(base.refused if base is not None and presets[preset] == results.scene else {}),
+            **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
         cost, steps = self._cost.values["cost"], results.settings.step_rate

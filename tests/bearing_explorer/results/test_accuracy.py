@@ -127,7 +127,6 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     results = Results(presets[preset])
     view.say(results, view.sentence(results))
     base = shipped(preset)
-    assert base is not None
     for one, chart in view._charts:
         words = html.unescape(chart._words.object)
         assert chart.plot.visible or base.refused.get(one.experiment, NOT_YET) in words

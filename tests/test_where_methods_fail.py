@@ -174,7 +174,7 @@ def pushes(motion: Motion) -> tuple[Array, Array]:
     )
     least, apart = [], []
     for *now, force in zip(motion.time, x, v, felt, strict=True):
-        elastic, viscous, rays = contacts(scene, *now)
+        elastic, viscous, rays = contacts(scene, 500.0, *now)
         least.append((elastic + viscous).min())
         apart.append(np.abs(force - rays.T @ np.maximum(elastic + viscous, 0.0)).max())
     return np.array(least), np.array(apart)

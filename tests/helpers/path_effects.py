@@ -104,9 +104,6 @@ class PathEffects:
         return dataclasses.replace(self, **{name: off[name] for name in names})
 
 
-NO_EFFECTS = PathEffects(0.0, (), 0.0, shaft_tones=0.0, noise=None)
-
-
 def recorded_through(
     scene: Scene,
     effects: PathEffects,

@@ -117,14 +117,18 @@ def test_two_springs_in_series_share_one_load() -> None:
     assert in_series(inner, outer) * approach**1.5 == pytest.approx(load, rel=1e-14)
 
 
-def test_a_groove_tighter_than_the_ball_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"inner_groove_radius is 0.0057; .*0.00575 m"):
-        race_contact("inner", D_B, D_P, 5.7e-3, 0.0, *STEEL)
-
-
-def test_a_groove_wider_than_its_race_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"outer_groove_radius is 0.03; .*below 0.0275 m"):
-        race_contact("outer", D_B, D_P, 30e-3, 0.0, *STEEL)
+@pytest.mark.parametrize(
+    ("race", "radius", "words"),
+    [
+        ("inner", 5.7e-3, r"inner_groove_radius is 0.0057; .*0.00575 m"),
+        ("outer", 30e-3, r"outer_groove_radius is 0.03; .*below 0.0275 m"),
+    ],
+)
+def test_a_groove_tighter_than_its_ball_or_wider_than_its_race_is_refused(
+    race: str, radius: float, words: str
+) -> None:
+    with pytest.raises(ValueError, match=words):
+        race_contact(race, D_B, D_P, radius, 0.0, *STEEL)
 
 
 # --- a commercial code, values published in the repository minzhun/ISO16281 ---

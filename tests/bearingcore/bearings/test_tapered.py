@@ -7,7 +7,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import fsolve
 
 from bearingcore import (
     Bearing,
@@ -26,52 +25,11 @@ PAIR = presets["30206-back-to-back"].healthy()
 ROW = PAIR.bearing.replace(rows=())
 K, ALPHA, Z = ROW.load_deflection_factor, ROW.contact_angle, ROW.n_balls
 HELD = ("x", "y", "z")
-SCALE = np.array([1e-6, 1e-6, 1e-6, 1e-5, 1e-5])
 
 
 def of(bearing: Bearing, **changes: object) -> Scene:
     dofs = None if bearing.rows else HELD
     return dataclasses.replace(PAIR, bearing=bearing, dofs=dofs).replace(**changes)
-
-
-def forces(bearing: Bearing, moved: np.ndarray, cage_angle: float) -> np.ndarray:
-    """Forces and moments of rollers on the shaft that is moved, each along its own fixed line."""
-    found = np.zeros(5)
-    for row in bearing.all_rows:
-        for at in cage_angle + 2.0 * math.pi / Z * np.arange(Z):
-            radial = np.array([math.cos(at), math.sin(at), 0.0])
-            middle = 0.5 * bearing.pitch_diameter * radial + [0.0, 0.0, row.place]
-            line = math.cos(ALPHA) * radial + [0.0, 0.0, row.facing * math.sin(ALPHA)]
-            way = moved[:3] + np.cross([*moved[3:], 0.0], middle) + [0.0, 0.0, row.offset]
-            force = -K * max(float(way @ line), 0.0) ** (10.0 / 9.0) * line
-            found += [*force, *np.cross(middle, force)[:2]]
-    return found
-
-
-@pytest.mark.parametrize("arrangement", ["back-to-back", "face-to-face"])
-@pytest.mark.parametrize("load", [(0, -4000, 1000, 0, 0), (900, -6000, -2500, 60, -35)])
-def test_a_pair_is_moved_as_straight_races_move(arrangement: str, load: tuple[float, ...]) -> None:
-    bearing = ROW.paired(30e-3, arrangement, 6e-6)
-    names = ("fx", "fy", "fz", "mx", "my")
-    scene = of(bearing, **dict(zip(names, map(float, load), strict=True)))
-    found = equilibrium(scene, [0.05])
-    moved, _, known, words = fsolve(  # type: ignore[call-overload]
-        lambda v: (forces(bearing, v * SCALE, 0.05) + load) / [1.0, 1.0, 1.0, 0.01, 0.01],
-        [0.0, -5.0, 1.0, 0.0, 0.0],
-        full_output=True,
-        xtol=1e-12,
-    )
-    assert known == 1, words
-    assert found.displacement[0] == pytest.approx(moved * SCALE, rel=3e-5, abs=2e-10)
-    steps = 1e-9 * np.eye(5)
-    slope = np.array(
-        [
-            (forces(bearing, moved * SCALE - h, 0.05) - forces(bearing, moved * SCALE + h, 0.05))
-            / 2e-9
-            for h in steps
-        ]
-    )
-    assert found.stiffness[0] == pytest.approx(slope, rel=1e-3, abs=1e-4 * slope.max())
 
 
 def test_an_axial_load_is_shared_and_moves_the_ring_in_closed_form() -> None:

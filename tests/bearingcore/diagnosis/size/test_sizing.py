@@ -166,16 +166,17 @@ def test_one_direction_is_enough():
 
 @pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
+    rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
-    insisted = sized_by(Recording(noise, RATE), RIG, fault="outer race")
+    insisted = sized_by(Recording(noise, RATE), rig, fault="outer race")
     assert not insisted.conclusive
     assert "no lines stand out" in insisted.sentence
-    still = Recording(noisy(signal_of(RIG.healthy()), 20.0), RATE)
+    still = Recording(noisy(signal_of(rig.healthy()), 20.0), RATE)
+    elsewhere = rig.replace(shaft_speed=1.07 * rig.shaft_speed)
     for fault in (None, "outer race"):
-        assert not sized_by(still, RIG, fault=fault).conclusive
-    elsewhere = RIG.replace(shaft_speed=1.07 * RIG.shaft_speed)
-    for fault in (None, "outer race"):
-        assert not sized_by(Recording(signal_of(RIG), RATE), elsewhere, fault=fault).conclusive
+        assert not sized_by(still, rig, fault=fault).conclusive
+    recording = Recording(signal_of(rig), RATE)
+    assert not sized_by(recording, elsewhere, fault="outer race").conclusive
 
 
 def test_progress_rises_and_may_end_the_work():
@@ -257,21 +258,6 @@ def marched(scene, frequency, count, columns) -> BallPasses:
     each = coefficients(signal.reshape(passes, n, len(columns)), count)
     power = (np.abs(each) ** 2).mean(axis=0)
     return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
-
-
-def test_a_synthesised_pass_matches_itself_turned():
-    scene = RIG
-    band = comparison_band(scene, RATE)
-    frequency = scene.bearing.bpfo(scene.shaft_speed)
-    passes = marched(scene, frequency, 61, (0, 1))
-    target = Target(passes, band)
-    turn = np.exp(-1j * 1.234 * np.arange(1, 62))[:, None]
-    match = target.match((passes.harmonics * turn)[None], passes.power[None])
-    assert match.lag[0] == pytest.approx(1.234, abs=1e-3)
-    assert match.waveform_misfit.max() < 1e-4
-    assert match.spectrum_misfit.max() < 1e-4
-    other = marched(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
-    assert target.match(other.harmonics[None], other.power[None]).waveform_misfit.min() > 0.3
 
 
 def test_refining_finds_a_scene_whose_numbers_are_off():
@@ -373,9 +359,7 @@ def test_a_spall_of_whole_ball_spacings_is_not_told_from_a_pit(paper):
         assert told or "a pit shorter than" in words
 
 
-@pytest.mark.parametrize(
-    ("speed", "bounded"), [pytest.param(3.0, False, marks=pytest.mark.proof), (30.0, True)]
-)
+@pytest.mark.parametrize(("speed", "bounded"), [(9.0, False), (30.0, True)])
 def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed, bounded):
     """0.4 mm, 0.86°, of balls with mass, whose edges are others than those that are told."""
     rig = RIG.replace(shaft_speed=2.0 * math.pi * speed)

@@ -260,6 +260,21 @@ def marched(scene, frequency, count, columns) -> BallPasses:
     return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
 
 
+def test_a_synthesised_pass_matches_itself_turned():
+    scene = RIG
+    band = comparison_band(scene, RATE)
+    frequency = scene.bearing.bpfo(scene.shaft_speed)
+    passes = marched(scene, frequency, 61, (0, 1))
+    target = Target(passes, band)
+    turn = np.exp(-1j * 1.234 * np.arange(1, 62))[:, None]
+    match = target.match((passes.harmonics * turn)[None], passes.power[None])
+    assert match.lag[0] == pytest.approx(1.234, abs=1e-3)
+    assert match.waveform_misfit.max() < 1e-4
+    assert match.spectrum_misfit.max() < 1e-4
+    other = marched(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
+    assert target.match(other.harmonics[None], other.power[None]).waveform_misfit.min() > 0.3
+
+
 def test_refining_finds_a_scene_whose_numbers_are_off():
     """Load 8 % and stiffness 3 % off, extent half a step of the library: all three are found."""
     offsets = np.array([0.03, 0.0, 0.08, 0.0, 0.0])

@@ -314,11 +314,6 @@ def _shoulder_of(
     return upper_limit(name, value, limit, "rad", fact, ": the ball rides over its edge.", ".")
 
 
-def centrifugal_force(scene: Scene) -> float:
-    """Centrifugal force F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle."""
-    return scene.bearing.centrifugal_load(scene.shaft_speed)
-
-
 def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
     """Effect of centrifugal force, and its size against the load of the least loaded ball.
 
@@ -350,7 +345,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
 
 def _centrifugal_change(scene: Scene) -> Limit:
     """Change of loads and stiffness by centrifugal load, found by solving with it."""
-    force = centrifugal_force(scene)
+    force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     try:
         effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))

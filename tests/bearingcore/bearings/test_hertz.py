@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
+from bearingcore import Load, equilibrium, presets
 from bearingcore.bearings.hertz import in_series, race_contact
 
 D_B, D_P = 11.5e-3, 43.5e-3
@@ -134,30 +134,16 @@ def test_a_groove_tighter_than_its_ball_or_wider_than_its_race_is_refused(
 # --- a commercial code, values published in the repository minzhun/ISO16281 ---
 
 
-def commercial(clearance_mm: float) -> Bearing:
-    return Bearing.from_drawing(
-        n_balls=7,
-        ball_diameter=D_B,
-        pitch_diameter=D_P,
-        inner_groove_radius=0.52 * D_B,
-        outer_groove_radius=0.53 * D_B,
-        diametral_clearance=clearance_mm * 1e-3,
-        youngs_modulus=STEEL[0],
-        poisson=STEEL[1],
-        groove_center_radius=0.5 * D_P,
-    )
-
-
 def displaced(clearance_mm: float, load: Load) -> np.ndarray:
     """Displacement [m, rad] at a load along y, with a ball on that line (at 270°)."""
-    scene = Scene(commercial(clearance_mm), Defect.none(), load, 1.0, presets["fan-rig"].support)
+    scene = presets["seven-ball"].healthy().replace(load=load, radial_clearance=5e-4 * clearance_mm)
     answer = equilibrium(scene, [math.radians(270.0)], ("x", "y", "z", "rx", "ry"))
     assert answer.residual[0] < 1e-9
     return answer.displacement[0]
 
 
 def test_commercial_load_deflection_factors() -> None:
-    bearing = commercial(0.0)
+    bearing = presets["seven-ball"].bearing
     for race, expected in (("inner", 971_990.0), ("outer", 916_453.0)):
         factor = bearing.race_contact(race).load_deflection_factor
         assert factor * PER_MM == pytest.approx(expected, rel=COMMERCIAL)

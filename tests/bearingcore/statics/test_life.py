@@ -25,20 +25,9 @@ RATING = 23_400.0
 
 
 def seven_balls(clearance: float, **load: float) -> Scene:
-    """The bearing that the commercial code's results belong to."""
-    D = 11.5e-3
-    bearing = Bearing.from_drawing(
-        7,
-        D,
-        43.5e-3,
-        0.52 * D,
-        0.53 * D,
-        diametral_clearance=clearance,
-        groove_center_radius=0.5 * 43.5e-3,
-    )
-    return presets["seven-ball"].replace(
-        bearing=bearing, defect=Defect.none(), load=Load(**load), dofs=None
-    )
+    """The bearing that the commercial code's results belong to; its diametral clearance in m."""
+    scene = presets["seven-ball"].healthy().replace(radial_clearance=0.5 * clearance)
+    return scene.replace(load=Load(**load), dofs=None)
 
 
 COMMERCIAL = [

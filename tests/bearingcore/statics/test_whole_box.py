@@ -13,20 +13,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, example, given, settings
-from hypothesis import strategies as st
 
-from bearingcore import DOF_NAMES, EDGES, RACES, equilibrium, kernels
+from bearingcore import DOF_NAMES, equilibrium, kernels
 from bearingcore.statics.load_capacity import descent_direction
 from tests.helpers.box import (
-    DOF_SETS,
-    FACTORS,
-    FORCES,
-    GREATEST_CLEARANCE,
-    GREATEST_CONTACT_ANGLE_DEG,
-    GROOVE_DISTANCES,
-    MOST_BALLS,
-    PITCH_DIAMETERS,
     Point,
     cage_angles_at,
     draw,
@@ -58,40 +48,6 @@ PLAIN = Point(
 """An unremarkable bearing, for the cases below to differ from."""
 
 
-def decades(limits: tuple[float, float]) -> st.SearchStrategy[float]:
-    """Numbers between limits, evenly over their logarithms."""
-    low, high = (math.log10(limit) for limit in limits)
-    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
-
-
-def loads() -> st.SearchStrategy[float]:
-    """A load [N] of either sign, or none."""
-    return st.one_of(
-        st.just(0.0), st.tuples(decades(FORCES), st.sampled_from((1.0, -1.0))).map(math.prod)
-    )
-
-
-POINTS = st.builds(
-    Point,
-    n_balls=st.integers(1, MOST_BALLS),
-    pitch_diameter=decades(PITCH_DIAMETERS),
-    ball_size=st.floats(0.0, 1.0),
-    contact_angle=st.floats(0.0, math.radians(GREATEST_CONTACT_ANGLE_DEG)),
-    groove_center_radius=st.floats(0.8, 1.2),
-    groove_center_distance=decades(GROOVE_DISTANCES),
-    radial_clearance=st.floats(0.0, GREATEST_CLEARANCE),
-    load_deflection_factor=decades(FACTORS),
-    extent=st.floats(0.0, TURN),
-    depth=st.floats(0.0, 1.0),
-    center=st.floats(-TURN, TURN),
-    race=st.sampled_from(RACES),
-    edge=st.sampled_from(EDGES),
-    loads=st.tuples(*[loads()] * 5),
-    dofs=st.one_of(st.none(), st.sampled_from(DOF_SETS)),
-    cage_angle=st.floats(-TURN, TURN),
-)
-
-
 def check(point: Point) -> set[int]:
     """Judge the answers at a point; the statuses that occur."""
     answer = equilibrium(scene_at(point), cage_angles_at(point))
@@ -99,18 +55,6 @@ def check(point: Point) -> set[int]:
         wrong = verdict(answer, i)
         assert not wrong, f"cage angle {i}: {wrong}"
     return set(answer.status.tolist())
-
-
-@settings(
-    derandomize=True,
-    max_examples=400,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
-@given(POINTS)
-@example(PLAIN)
-def test_every_point_has_a_right_answer_or_a_true_reason(point: Point) -> None:
-    check(point)
 
 
 def test_points_drawn_at_random_meet_every_status() -> None:

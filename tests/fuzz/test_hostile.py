@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import random
 from typing import Any
 
 import pytest
@@ -60,11 +59,3 @@ def test_good_messages_of_the_page_are_taken(caplog: pytest.LogCaptureFixture) -
     with caplog.at_level(logging.WARNING):
         served(send, Limits())
     assert not any(record.exc_info for record in caplog.records)
-
-
-def test_what_is_sent_can_be_sent_again() -> None:
-    ids = {"Controls": "p1001", "ShareBar": "p1002"}
-    for make, _ in SHAPES.values():
-        for number in range(10):
-            once, again = (repr(make(random.Random(number), ids)) for _ in range(2))
-            assert once == again

@@ -67,7 +67,6 @@ def attributes_under_many_names() -> bytes:
     ("name", "content", "allowed"),
     [
         ("a.mat", lambda: cell_of_many_dimensions(300_000), "a whole MATLAB file"),
-        ("a.mat", lambda: cell_of_many_dimensions(3_000_000), "a whole MATLAB file"),
         ("a.mat", lambda: cell_of_many_dimensions(6_000_000), "a whole MATLAB file"),
         ("a.mat", long_name_of_many_texts, f"{MEMORY}|{TIME}"),
         ("a.mat", million_empty_variables, f"{TIME}|vector or matrix"),

@@ -14,9 +14,9 @@ from tests.helpers.random_rows import KINDS, random_scene
 def test_random_bearings_have_right_answers(kind: str) -> None:
     rng = np.random.default_rng([20_261_122, KINDS.index(kind)])
     converged = 0
-    for number in range(400):
+    for number in range(200):
         found = equilibrium(random_scene(rng, kind), [float(rng.uniform(0.0, 6.28))])
         fault = verdict(found, 0)
         assert not fault, f"scene {number}: {fault}"
         converged += found.status[0] == kernels.CONVERGED
-    assert converged > 300
+    assert converged > 150

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from bearingcore import Load, Recording, Scene, Support, measure_extent, presets
-from bearingcore.diagnosis.extent.measure import ExtentStatus
+from bearingcore.diagnosis.extent.measure import ExtentStatus, MeasuredExtent
 from bearingcore.diagnosis.size.answer import AT_MOST, Sizing, SizingStatus
 from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.sizing import size_defect
@@ -35,6 +35,14 @@ def made() -> Sizing:
     return size_defect(recording, scene, fault="outer race", support_known=True)
 
 
+@pytest.fixture(scope="module")
+def knocks() -> MeasuredExtent:
+    """What its envelope says."""
+    found = measure_extent(Recording(signal(), RATE, ("y",)), MOTOR, SPEED, race="outer")
+    assert found.measured
+    return found
+
+
 def test_a_spall_is_not_called_a_pit_where_the_envelope_knocks_twice(made):
     claim = judged(made)
     assert claim.status == AT_MOST
@@ -44,17 +52,14 @@ def test_a_spall_is_not_called_a_pit_where_the_envelope_knocks_twice(made):
     assert made.status.sentence.endswith(".")
 
 
-def test_no_bound_rests_on_a_support_that_is_not_known(made):
+def test_no_bound_rests_on_a_support_that_is_not_known(made, knocks):
     claim = dataclasses.replace(made, status=AT_MOST)
-    scene = made.best.scene
-    knocks = measure_extent(made.recording, MOTOR, scene.shaft_speed, race="outer")
-    assert knocks.measured
     silent = dataclasses.replace(knocks, status=ExtentStatus.ONE_KNOCK)
     assert confirmed(claim, silent, support_known=True).status == AT_MOST
     assert confirmed(claim, silent, support_known=False).status == SizingStatus.UNCONFIRMED
 
 
-def test_one_sensor_counts_no_ball_spacings_on_a_support_that_is_not_known():
+def test_one_sensor_counts_no_ball_spacings_on_a_support_that_is_not_known(knocks):
     """38.6° of the fan rig are a ball spacing and a rest."""
     spall = RIG.replace(extent=math.radians(38.6))
     recording = Recording(noisy(signal_of(spall), 20.0), recordings.RATE)
@@ -62,7 +67,6 @@ def test_one_sensor_counts_no_ball_spacings_on_a_support_that_is_not_known():
     assert both.best.turns == 1
     assert both.conclusive
     one = Recording(recording.acceleration[:, 1], recordings.RATE, ("y",))
-    knocks = measure_extent(one, RIG.bearing, RIG.shaft_speed, race="outer")
     silent = dataclasses.replace(knocks, status=ExtentStatus.ONE_KNOCK)
     alone = dataclasses.replace(both, recording=one)
     assert confirmed(alone, silent, False).status == SizingStatus.WHOLE_SPACINGS
@@ -70,9 +74,7 @@ def test_one_sensor_counts_no_ball_spacings_on_a_support_that_is_not_known():
     assert confirmed(both, silent, False).status == SizingStatus.SIZED
 
 
-def test_entry_and_exit_have_to_confirm_what_one_sensor_says(made):
-    recording = Recording(signal(), RATE, ("y",))
-    knocks = measure_extent(recording, MOTOR, SPEED, race="outer")
+def test_entry_and_exit_have_to_confirm_what_one_sensor_says(made, knocks):
     for extent_deg, status in ((6.0, SizingStatus.SIZED), (12.0, SizingStatus.UNCONFIRMED)):
         best = dataclasses.replace(made.best, extent=math.radians(extent_deg), probability=1.0)
         claim = dataclasses.replace(made, candidates=(best,), status=SizingStatus.SIZED)

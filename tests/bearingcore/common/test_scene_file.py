@@ -110,30 +110,6 @@ def test_nothing_but_a_clear_refusal_comes_of_junk(junk: object) -> None:
         Scene.from_data(junk)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "a=[" + "1," * 900_000 + "]",  # 5.6 s to read
-        "a" + ".a" * 30_000 + "=1",  # a minute
-        "\n".join("a." * 40 + f"k{k}=1" for k in range(9000)),
-        "\n" * 1_900_000,
-        "\n".join(f"[a{k}]" for k in range(200_000)),
-        "a=" + "[" * 900_000,
-        "a=" + "{b=" * 20_000,
-    ],
-    ids=range(7),
-)
-def test_what_would_take_long_to_read_is_counted_and_not_read(
-    text: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def begun(_: str) -> None:
-        raise AssertionError("it was read")
-
-    monkeypatch.setattr("bearingcore.common.scene_file.tomllib.loads", begun)
-    with pytest.raises(ValueError, match="in the text is"):
-        Scene.from_toml(text)
-
-
 def test_a_long_measured_floor_is_read() -> None:
     # as few characters as there can be: 2,000,000 are read
     places = np.linspace(-0.999, 0.999, 40_000).round(6)

@@ -389,24 +389,15 @@ def test_nothing_finished_is_computed_again(copied: Path) -> None:
     assert told[-1] == "12 of 12 scenes, 12 of them from before"
 
 
-def _cut(file: Path) -> None:
-    file.write_bytes(file.read_bytes()[:-5])
+HARMS: dict[str, Callable[[Path], object]] = {
+    "cut": lambda file: file.write_bytes(file.read_bytes()[:-5]),
+    "empty": lambda file: file.write_bytes(b""),
+    "removed": lambda file: file.unlink(),
+    "another region's": lambda file: shutil.copyfile(file.parent / "1", file),
+}
 
 
-def _empty(file: Path) -> None:
-    file.write_bytes(b"")
-
-
-def _remove(file: Path) -> None:
-    file.unlink()
-
-
-def _other(file: Path) -> None:
-    """Numbers that can be read but are another region's."""
-    shutil.copyfile(file.parent / "1", file)
-
-
-@pytest.mark.parametrize("harm", [_cut, _empty, _remove, _other])
+@pytest.mark.parametrize("harm", HARMS.values(), ids=HARMS)
 @pytest.mark.parametrize("where", ["k_yy_mean/c", "regions/finished/c"])
 def test_a_half_written_region_is_computed_again_and_no_other(
     copied: Path, harm: Callable[[Path], None], where: str

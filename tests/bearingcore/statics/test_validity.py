@@ -113,6 +113,7 @@ def test_what_centrifugal_force_changes_is_measured() -> None:
         assert value == pytest.approx(max(effect.load, effect.stiffness), rel=0.3)
     assert values[0] < 0.01 < 0.04 < values[1]
     assert "parts the contact angles" in found(fast, CHANGE).sentence
+    assert "of a ball, 224 mN," in found(HEALTHY_6205, CHANGE).sentence
 
 
 @pytest.mark.parametrize("conformity", [0.505, 0.52, 0.54, 0.58])

@@ -162,7 +162,7 @@ def test_what_a_scene_cannot_have_is_said_in_the_words_of_the_page() -> None:
     view.found = Found(still, found)
     view.say(Results(still), "")
     for one, chart in view._charts:
-        reason = "Not for this scene: shaft speed is 0 Hz; allowed: a finite number above 0 Hz"
+        reason = "Not for this scene: the shaft speed is 0 Hz, so nothing turns"
         assert (reason in chart._words.object) == (one.experiment in ("motion", "balls"))
     rollers = measure(presets["30206-back-to-back"], ["balls"])
     assert rollers.refused["balls"].startswith("there is no model with the mass of tapered rollers")
@@ -243,7 +243,7 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
 def test_a_scene_that_cannot_move_says_why() -> None:
     job = Work()
     job.started = time.monotonic()
-    with pytest.raises(ValueError, match="above 0"):
+    with pytest.raises(ValueError, match="nothing turns"):
         compute(job, RIG.replace(shaft_speed=0.0), "motion")
 
 

@@ -83,6 +83,12 @@ def watch(request: pytest.FixtureRequest, browser: BrowserContext) -> Iterator[t
         watching.assert_clean()
 
 
+@pytest.fixture
+def page(watch: tuple[Page, Watch]) -> Page:
+    """The page of `watch`, for tests that need no more of it."""
+    return watch[0]
+
+
 def _keep(request: pytest.FixtureRequest, page: Page, watching: Watch) -> None:
     FAILURES.mkdir(exist_ok=True)
     name = slug(request.node.name)

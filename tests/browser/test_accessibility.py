@@ -13,7 +13,7 @@ from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.explorer_page import export, settle, slider, status, value
-from tests.browser.helpers import Server, Watch, choose_tab
+from tests.browser.helpers import Server, choose_tab
 
 NAMES = [section.name for section in SECTIONS]
 
@@ -158,10 +158,7 @@ def sideways(page: Page) -> list[str]:
     )
 
 
-def test_a_phone_has_room_for_figures_and_lessons(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_a_phone_has_room_for_figures_and_lessons(page: Page, explorer: Server) -> None:
     page.set_viewport_size(PHONE)
     open_page(page, explorer)
     expect(page.get_by_role("tab", name="Load")).to_be_hidden()
@@ -179,8 +176,7 @@ def test_a_phone_has_room_for_figures_and_lessons(
 
 
 @pytest.mark.proof
-def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_everything_is_reached_by_keys(page: Page, explorer: Server) -> None:
     open_page(page, explorer)
     show(page, "load")
     extent = slider(page, "extent_deg")
@@ -255,8 +251,7 @@ def test_everything_is_reached_by_keys(watch: tuple[Page, Watch], explorer: Serv
     assert page.screenshot(clip=clip) != before
 
 
-def test_a_view_fills_the_page_and_the_screen(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_a_view_fills_the_page_and_the_screen(page: Page, explorer: Server) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
     open_page(page, explorer)
     show(page, "modes")
@@ -290,8 +285,7 @@ def test_a_view_fills_the_page_and_the_screen(watch: tuple[Page, Watch], explore
     assert view.locator("canvas").evaluate_all(heights) == before
 
 
-def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -> None:
     open_page(page, explorer)
     helps = page.locator("aside .control .symbol")
     assert helps.count() >= 10
@@ -313,11 +307,6 @@ def test_help_for_every_quantity(watch: tuple[Page, Watch], explorer: Server) ->
     )
     assert missing == []
 
-
-def test_menus_are_gone_through_by_keys(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
-    page.set_viewport_size(LAPTOP)
-    open_page(page, explorer)
     show(page, "stiffness")
     view = page.locator(".view-stiffness")
     line = view.locator("header .line").bounding_box()

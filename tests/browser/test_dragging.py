@@ -11,14 +11,11 @@ from tests.browser.explorer_page import (
     slider,
     value,
 )
-from tests.browser.helpers import Server, Watch, drag, move, unfold
+from tests.browser.helpers import Server, drag, move, unfold
 
 
-def test_a_queue_on_the_server_is_not_made_longer(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
+def test_a_queue_on_the_server_is_not_made_longer(page: Page, explorer: Server) -> None:
     """Two changes may be on their way; where the last waited for others the next waits here."""
-    page, _ = watch
     open_page(page, explorer)
     # The clock of the network is the test's own: each change takes 20 ms there, some wait longer.
     page.evaluate(
@@ -50,11 +47,8 @@ def test_a_queue_on_the_server_is_not_made_longer(
         assert sent in sent_at_once
 
 
-def test_a_repaint_writes_no_style_sheet_that_stays_the_same(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
+def test_a_repaint_writes_no_style_sheet_that_stays_the_same(page: Page, explorer: Server) -> None:
     """Each would have the browser work out the styles of the page anew."""
-    page, _ = watch
     open_page(page, explorer)
     page.evaluate(
         """() => {
@@ -102,10 +96,7 @@ def opened(page: Page, server: Server, text: str) -> None:
     settle(page)
 
 
-def test_the_address_follows_the_hand_and_steps_go_back(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_the_address_follows_the_hand_and_steps_go_back(page: Page, explorer: Server) -> None:
     opened(page, explorer, "")
     assert query(page) == "", "nothing is written before anything is done"
     entries = page.evaluate("history.length")
@@ -183,11 +174,8 @@ _NOTHING_IS_DRAWN = """() => {
 }"""
 
 
-def test_nothing_overtakes_a_position_that_waits(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
+def test_nothing_overtakes_a_position_that_waits(page: Page, explorer: Server) -> None:
     """A hand's last position may wait for the screen: a choice or an undo comes after it."""
-    page, _ = watch
     opened(page, explorer, "")
     page.evaluate(_NOTHING_IS_DRAWN)
     drag(page, slider(page, "depth_um"), 0.1, 0.4)

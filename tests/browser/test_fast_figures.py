@@ -3,7 +3,7 @@
 from playwright.sync_api import BrowserContext, Page
 
 from tests.browser.explorer_page import open_page, painted, rest, settle, show, slider
-from tests.browser.helpers import Server, Watch, move
+from tests.browser.helpers import Server, move
 
 _LINES = """() => [...Bokeh.index.query((view) => view.model.type === "GlyphRenderer")]
   .filter((view) => view.model.glyph.type === "Line" && view.model.data_source.length > 2)"""
@@ -22,9 +22,8 @@ _COMPARED = {"overview": ["overview-bearing", "overview-stiffness"], "load": ["l
 
 
 def test_every_pixel_is_as_bokeh_paints_it(
-    watch: tuple[Page, Watch], browser: BrowserContext, explorer: Server
+    page: Page, browser: BrowserContext, explorer: Server
 ) -> None:
-    page, _ = watch
     shown: list[list[list[list[int]]]] = []
     for plain in (False, True):
         if plain:  # not sooner: a page behind another one hardly draws
@@ -46,10 +45,7 @@ def test_every_pixel_is_as_bokeh_paints_it(
     assert shown[0] == shown[1]
 
 
-def test_hidden_glyphs_wait_until_they_are_to_be_seen(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_hidden_glyphs_wait_until_they_are_to_be_seen(page: Page, explorer: Server) -> None:
     open_page(page, explorer)
     page.evaluate(
         f"""() => {{
@@ -85,10 +81,7 @@ _SIZES = """() => [...Bokeh.index.query((view) => view.model.type === "Figure")]
 }).filter(([width]) => width)"""
 
 
-def test_figures_fill_their_place_whatever_grows_beside_them(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_figures_fill_their_place_whatever_grows_beside_them(page: Page, explorer: Server) -> None:
     open_page(page, explorer, "overview")
     for tab in ("overview", "orbits"):
         show(page, tab)

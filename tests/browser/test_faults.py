@@ -249,9 +249,8 @@ def test_two_processes_on_one_port(watch: tuple[Page, Watch]) -> None:
         assert "Traceback" not in server.log
 
 
-def test_a_disk_on_which_nothing_can_be_written(watch: tuple[Page, Watch], tmp_path: Path) -> None:
+def test_a_disk_on_which_nothing_can_be_written(page: Page, tmp_path: Path) -> None:
     """Home, program and all else; the folder for temporary files is in memory, as in containers."""
-    page, _ = watch
     alone = tmp_path / "package"  # without compiled kernels
     for part in ("bearingcore", "app", "assets"):
         ignored = shutil.ignore_patterns("__pycache__")
@@ -272,8 +271,7 @@ def test_a_disk_on_which_nothing_can_be_written(watch: tuple[Page, Watch], tmp_p
     assert not list(alone.rglob("*.kernel"))
 
 
-def test_a_disk_that_is_full_at_the_first_start(watch: tuple[Page, Watch], tmp_path: Path) -> None:
-    page, _ = watch
+def test_a_disk_that_is_full_at_the_first_start(page: Page, tmp_path: Path) -> None:
     small = mounted(f"mount -t tmpfs -o size=1m tmpfs {tmp_path}")
     with serving(started(small, {"NUMBA_CACHE_DIR": str(tmp_path)})) as server:
         first_picture(page, server.url)

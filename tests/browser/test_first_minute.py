@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import number, rest, settle, slider, value
-from tests.browser.helpers import Server, Watch, explorer_server, serving
+from tests.browser.helpers import Server, explorer_server, serving
 
 #: every element inside shadows too, and the ones that are seen
 SEEN = """
@@ -81,8 +81,7 @@ def first_screen(page: Page, server: Server) -> dict[str, Any]:
     return found
 
 
-def test_the_first_screen_is_seen_at_a_glance(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_the_first_screen_is_seen_at_a_glance(page: Page, explorer: Server) -> None:
     page.set_viewport_size({"width": 1440, "height": 900})
     found = first_screen(page, explorer)
     assert len(found["controls"]) <= 45, found["controls"]
@@ -93,10 +92,7 @@ def test_the_first_screen_is_seen_at_a_glance(watch: tuple[Page, Watch], explore
     expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
 
 
-def test_a_figure_is_near_the_top_where_there_is_less_room(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_a_figure_is_near_the_top_where_there_is_less_room(page: Page, explorer: Server) -> None:
     page.set_viewport_size({"width": 768, "height": 900})
     first_screen(page, explorer)
     expect(page.get_by_role("region", name="Introduction")).to_be_visible()
@@ -138,8 +134,7 @@ def samples(page: Page, server: Server) -> list[str]:
     return list(page.evaluate("[...window.__nonsense]"))
 
 
-def test_no_frame_says_undefined(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_no_frame_says_undefined(page: Page, explorer: Server) -> None:
     assert samples(page, explorer) == []
     # what is looked for is found
     page.evaluate("document.querySelector('footer').append(String(undefined))")
@@ -147,8 +142,7 @@ def test_no_frame_says_undefined(watch: tuple[Page, Watch], explorer: Server) ->
 
 
 @pytest.mark.proof
-def test_no_frame_of_a_cold_start_says_undefined(watch: tuple[Page, Watch]) -> None:
-    page, _ = watch
+def test_no_frame_of_a_cold_start_says_undefined(page: Page) -> None:
     with serving(explorer_server()) as server:
         assert samples(page, server) == []
 
@@ -156,10 +150,7 @@ def test_no_frame_of_a_cold_start_says_undefined(watch: tuple[Page, Watch]) -> N
 # --- it moves -------------------------------------------------------------------------------------
 
 
-def test_the_bearing_turns_until_the_first_touch(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_the_bearing_turns_until_the_first_touch(page: Page, explorer: Server) -> None:
     page.emulate_media(reduced_motion="no-preference")
     page.goto(explorer.url)
     undo = page.get_by_role("button", name="Undo", exact=True)
@@ -191,8 +182,7 @@ def test_the_bearing_turns_until_the_first_touch(
 # --- controls that are folded ---------------------------------------------------------------------
 
 
-def test_what_is_folded_and_changed_is_counted(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_what_is_folded_and_changed_is_counted(page: Page, explorer: Server) -> None:
     page.goto(f"{explorer.url}?v=1&preset=fan-rig&center_deg=250&edge=exact&tab=load")
     page.wait_for_function("window.__frames >= 1")
     more = page.locator("aside .more")

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import painted
-from tests.browser.helpers import PAGES, Server, Watch, page_server, serving
+from tests.browser.helpers import PAGES, Server, page_server, serving
 
 CHILDREN = ("first", "second", "third")
 _SHOWN = """all => all.map(one =>
@@ -22,9 +22,8 @@ def in_messages_page() -> Iterator[Server]:
 
 
 def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
-    watch: tuple[Page, Watch], in_messages_page: Server
+    page: Page, in_messages_page: Server
 ) -> None:
-    page, _ = watch
     page.goto(f"{in_messages_page.url}?boxes=2")
     children = page.locator(".child")
     expect(page.locator(".third-1").first).to_be_visible()
@@ -35,19 +34,15 @@ def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
 
 
 def test_callbacks_find_each_of_the_numbers_that_came_meanwhile(
-    watch: tuple[Page, Watch], in_messages_page: Server
+    page: Page, in_messages_page: Server
 ) -> None:
-    page, _ = watch
     page.goto(f"{in_messages_page.url}?boxes=2")
     page.wait_for_function("window.heard?.length === 3")
     assert page.evaluate("window.heard") == [3, 1, 4]
 
 
-def test_bokeh_alone_loses_what_comes_while_it_builds(
-    watch: tuple[Page, Watch], in_messages_page: Server
-) -> None:
+def test_bokeh_alone_loses_what_comes_while_it_builds(page: Page, in_messages_page: Server) -> None:
     """Where this fails, Bokeh hears of it, and the script can go."""
-    page, _ = watch
     page.goto(f"{in_messages_page.url}?plain=1")
     page.wait_for_function(_KNOWN, arg=len(CHILDREN))
     expect(page.locator(".first-0")).to_be_visible()

@@ -29,8 +29,8 @@ _NOTHING = re.compile("could not be computed|Traceback|undefined|\\bNaN\\b")
 
 
 @pytest.fixture
-def visitor(watch: tuple[Page, Watch]) -> Visitor:
-    return Visitor(watch[0])
+def visitor(page: Page, explorer: Server) -> Visitor:
+    return Visitor(page, explorer)
 
 
 # --- every tab ------------------------------------------------------------------------------------
@@ -88,9 +88,9 @@ def walk(browser: BrowserContext, explorer: Server) -> Iterator[tuple[Visitor, W
     """One page for a walk through all tabs."""
     page, watching = browser.new_page(), Watch()
     watching.follow(page)
-    visitor = Visitor(page)
+    visitor = Visitor(page, explorer)
     page.emulate_media(color_scheme="light")
-    visitor.open(explorer)
+    visitor.open()
     make_ready(page)
     yield visitor, watching
     page.close()
@@ -125,10 +125,8 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
 # --- the scene ------------------------------------------------------------------------------------
 
 
-def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
     undo, redo = (visitor.scene.get_by_role("button", name=name) for name in ("Undo", "Redo"))
     expect(undo).to_be_disabled()
     track = visitor.slider("Extent").bounding_box()
@@ -154,10 +152,8 @@ def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(
     expect(visitor.box("Extent")).to_have_value(f"{dragged:g}")
 
 
-def test_what_cannot_be_is_refused_and_what_is_drawn_stays(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+def test_what_cannot_be_is_refused_and_what_is_drawn_stays(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
     before = visitor.figures()
     for text in ("400", "a lot"):
         visitor.type("Extent", text)
@@ -171,9 +167,9 @@ def test_what_cannot_be_is_refused_and_what_is_drawn_stays(
     expect(visitor.box("Extent")).to_have_value("33.25")
 
 
-def test_another_kind_of_bearing_is_shown(visitor: Visitor, explorer: Server) -> None:
+def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
     """On tabs that draw or say other things for it; `test_page.py` has every view."""
-    visitor.open(explorer, FAN_RIG + "load")
+    visitor.open(FAN_RIG + "load")
     visitor.sees_change(lambda: visitor.find_bearing("NU 208, cylindrical rollers"))
     visitor.reads(re.compile(re.escape(_most_loaded(presets["nu208"]))))
     for tab in ("Life", "Stiffness", "Ball mass", "Bearing", "Model", "Accuracy"):
@@ -182,8 +178,8 @@ def test_another_kind_of_bearing_is_shown(visitor: Visitor, explorer: Server) ->
         assert not _NOTHING.search(" ".join(visitor.sentences())), tab
 
 
-def test_dimensions_wait_until_they_fit_each_other(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?v=1&preset=6205&tab=bearing")
+def test_dimensions_wait_until_they_fit_each_other(visitor: Visitor) -> None:
+    visitor.open("?v=1&preset=6205&tab=bearing")
     visitor.type("Ball diameter", "17.462")
     visitor.reads(re.compile("overlap"))
     visitor.reads(re.compile("Not applied yet"))
@@ -197,8 +193,8 @@ def test_dimensions_wait_until_they_fit_each_other(visitor: Visitor, explorer: S
     expect(chosen).to_have_value("Pump 3")
 
 
-def test_a_crossed_limit_of_the_model_is_said(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?v=1&preset=6205&tab=load")
+def test_a_crossed_limit_of_the_model_is_said(visitor: Visitor) -> None:
+    visitor.open("?v=1&preset=6205&tab=load")
     limits = visitor.page.get_by_role("region", name="Limits of the model")
     visitor.type("Force, up", "-20000")
     visitor.reads(re.compile("GPa"), limits)
@@ -208,8 +204,8 @@ def test_a_crossed_limit_of_the_model_is_said(visitor: Visitor, explorer: Server
     expect(limits.get_by_role("row").first).to_be_hidden()
 
 
-def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer)
+def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
+    visitor.open()
     for tab in ("Maps", "Vibration", "Maps", "Vibration"):
         visitor.page.get_by_role("tab", name=tab, exact=True).click()
     for tab in ("Vibration", "Maps"):
@@ -220,8 +216,8 @@ def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor, explorer: Server) 
         assert "blank" not in visitor.figures()
 
 
-def test_a_map_is_read_and_clicked(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?v=1&preset=liew-lim&tab=maps")
+def test_a_map_is_read_and_clicked(visitor: Visitor) -> None:
+    visitor.open("?v=1&preset=liew-lim&tab=maps")
     before = visitor.number("Extent"), visitor.number("Cage angle")
     visitor.point(0, 0.12, 0.12)
     visitor.reads(re.compile("Extent.*°"), visitor.page.locator("body"))
@@ -230,13 +226,8 @@ def test_a_map_is_read_and_clicked(visitor: Visitor, explorer: Server) -> None:
     visitor.wait(lambda: (visitor.number("Extent"), visitor.number("Cage angle")) != before)
     visitor.steady()
     visitor.reads(re.compile(f"{visitor.number('Extent'):g}°"))
-
-
-def test_the_value_under_the_pointer_is_that_of_the_core(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, "?v=1&preset=liew-lim&tab=maps")
-    visitor.point(0, 0.12, 0.12)
+    # the value under the pointer is that of the core
+    visitor.point(0, 0.13, 0.13)
     tooltip = visitor.page.locator(".bk-Tooltip div:has(> b)").filter(visible=True)
     shown = tooltip.inner_text().replace("−", "-")
     found = re.search(r"(-?[\d.]+) ([kM])N/m", shown)
@@ -253,8 +244,8 @@ def test_the_value_under_the_pointer_is_that_of_the_core(
     assert 0.99 * np.min(near) <= value <= 1.01 * np.max(near)
 
 
-def test_defects_are_added_chosen_and_removed(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+def test_defects_are_added_chosen_and_removed(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
     before = visitor.figures()
     visitor.press("Add a defect")
     visitor.wait(lambda: visitor.figures() != before)
@@ -268,8 +259,8 @@ def test_defects_are_added_chosen_and_removed(visitor: Visitor, explorer: Server
     expect(visitor.scene.get_by_role("button", name="Remove defect 1")).to_be_disabled()
 
 
-def test_the_bearing_turns_and_stops(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+def test_the_bearing_turns_and_stops(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
     visitor.press("Turn the bearing")
     visitor.wait(lambda: visitor.number("Cage angle") > 5)
     visitor.press("Stop turning")
@@ -282,10 +273,8 @@ def test_the_bearing_turns_and_stops(visitor: Visitor, explorer: Server) -> None
 # --- what is special to a tab ---------------------------------------------------------------------
 
 
-def test_life_is_computed_from_what_is_known_of_oil_and_rating(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, "?v=1&preset=6205&tab=life")
+def test_life_is_computed_from_what_is_known_of_oil_and_rating(visitor: Visitor) -> None:
+    visitor.open("?v=1&preset=6205&tab=life")
     visitor.reads(re.compile("GPa"))
     visitor.main.get_by_label("Dynamic load rating of the catalogue").fill("14")
     visitor.page.keyboard.press("Enter")
@@ -295,8 +284,8 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(
     visitor.reads("must be a number, not “much”")
 
 
-def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "explore")
+def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "explore")
     visitor.wait(lambda: len(visitor.figures()) >= 4)
     visitor.sees_change(lambda: visitor.choose("Vertical axis", "Radial clearance (µm)"))
     shown = visitor.page.locator(".bk-Tooltip").filter(visible=True, has_text="clearance")
@@ -321,10 +310,8 @@ def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor, explorer: 
     assert len(table.decode().strip().splitlines()) >= 63
 
 
-def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "vibration")
+def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "vibration")
     for act in (
         lambda: visitor.main.get_by_role("checkbox").first.check(),
         lambda: visitor.main.get_by_label("Frequency", exact=True).select_option(index=1),
@@ -339,8 +326,8 @@ def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(
     expect(visitor.page.get_by_label("Balls", exact=True)).to_have_value("massless")
 
 
-def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "ball-mass")
+def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "ball-mass")
     visitor.reads(re.compile("strikes the outer race after"))
     sentence = " ".join(visitor.sentences())
     strikes = re.findall(r"the (inner|outer) race after ([\d.]+) ms with ([\d.]+) N", sentence)
@@ -356,8 +343,8 @@ def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor, explorer: Server
         assert max(table[name][strike].max() for name in flying) > 0.9 * float(load)
 
 
-def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "orbits")
+def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "orbits")
     visitor.reads(re.compile("Stable orbit"))
     visitor.type("Shaft speed", "30")
     visitor.reads(re.compile("Unstable"))
@@ -376,8 +363,8 @@ def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor, explore
     expect(cancel).to_be_disabled()
 
 
-def test_a_run_up_is_drawn(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "speed-run")
+def test_a_run_up_is_drawn(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "speed-run")
     visitor.choose("Speeds", "25")
     visitor.press("Run up")
     visitor.reads(re.compile("25 speeds after"))
@@ -389,10 +376,8 @@ def test_a_run_up_is_drawn(visitor: Visitor, explorer: Server) -> None:
     visitor.wait(lambda: visitor.figures() != before)
 
 
-def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "bearing")
+def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "bearing")
     visitor.type("Number of balls", "10")
     visitor.reads(_outer_race(FAN.replace(n_balls=10)))
     visitor.find_bearing("209 harris")
@@ -412,8 +397,8 @@ def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(
     assert visitor.main.get_by_role("img").first.is_visible()
 
 
-def test_rotor_support_and_directions_are_changed(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "model")
+def test_rotor_support_and_directions_are_changed(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "model")
     visitor.type("Mass of the rotor", "4")
     visitor.reads(re.compile("rotor of 4 kg"))
     visitor.choose("Contact law", "Without tension")
@@ -440,10 +425,8 @@ def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) 
     return file.getvalue()
 
 
-def test_a_measurement_is_brought_its_part_named_and_its_size_found(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "diagnosis")
+def test_a_measurement_is_brought_its_part_named_and_its_size_found(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "diagnosis")
     visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
     visitor.reads(re.compile("broken.csv cannot be used"))
     visitor.bring(visitor.main, "fan.wav", _recording(38.6))
@@ -465,7 +448,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(
 
 
 def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_on_one_sheet(
-    visitor: Visitor, explorer: Server, browser: BrowserContext, tmp_path: Path
+    visitor: Visitor, browser: BrowserContext, tmp_path: Path
 ) -> None:
     """Unit, rate, speed and bearing of a made file in the layout of a collection are taken."""
     bearing = catalogue()["NICE, MFPT"].bearing
@@ -477,7 +460,7 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     run = {"gs": signal + 0.1 * signal.std() * noise, "sr": rate, "rate": 25.0, "load": 270.0}
     savemat(file, {"bearing": run, "BPFO": 81.125, "BPFI": 118.875})
     visitor.page.set_viewport_size({"width": 1366, "height": 768})
-    visitor.open(explorer, FAN_RIG + "diagnosis")
+    visitor.open(FAN_RIG + "diagnosis")
     visitor.bring(visitor.main, "run.mat", file.getvalue())
     visitor.reads(re.compile(r"^run.mat · 3 s · 48.83 kHz · 1500 rpm · g · NICE, MFPT$"))
     answer = visitor.main.get_by_role("heading", name="The outer race is damaged")
@@ -496,8 +479,8 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     page.close()
 
 
-def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "diagnosis")
+def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "diagnosis")
     visitor.bring(visitor.main, "three.wav", _recording(38.6, channels=3))
     visitor.reads(re.compile("The file holds 3 signals"))
     along = [visitor.main.get_by_label(re.compile(f"^Along {name}")) for name in "xy"]
@@ -512,7 +495,7 @@ def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor, explor
 
 
 def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
+    visitor.open("?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("The inner race is damaged"))
     visitor.steady()
@@ -524,10 +507,8 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer
     visitor.reads(re.compile("No damage seen"))
 
 
-def test_accuracy_is_measured_and_the_measuring_cancelled(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer, FAN_RIG + "accuracy")
+def test_accuracy_is_measured_and_the_measuring_cancelled(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "accuracy")
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
     visitor.wait(lambda: "blank" not in visitor.figures() and len(visitor.figures()) > 8)
@@ -539,8 +520,8 @@ def test_accuracy_is_measured_and_the_measuring_cancelled(
     visitor.wait(lambda: visitor.figures() != before)
 
 
-def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "accuracy")
+def test_what_less_would_do_is_said_with_its_error(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "accuracy")
     visitor.press("Compare simpler models", visitor.main)
     visitor.reads(re.compile(r"\d+ models after"))
     rows = visitor.main.get_by_role("table").get_by_role("row")
@@ -559,10 +540,8 @@ def test_what_less_would_do_is_said_with_its_error(visitor: Visitor, explorer: S
 # --- lessons, classes, looks ----------------------------------------------------------------------
 
 
-def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
-    visitor: Visitor, explorer: Server
-) -> None:
-    visitor.open(explorer)
+def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: Visitor) -> None:
+    visitor.open()
     visitor.press("Lessons")
     lesson = visitor.page.get_by_role("region", name="Lesson")
     entries = lesson.get_by_role("listitem")
@@ -595,8 +574,8 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(
     expect(lesson).to_be_hidden()
 
 
-def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?lesson=what-a-ball-carries#hide-answers")
+def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor) -> None:
+    visitor.open("?lesson=what-a-ball-carries#hide-answers")
     lesson = visitor.page.get_by_role("region", name="Lesson")
     lesson.get_by_role("textbox").fill("7")
     lesson.get_by_role("button", name="Predict").click()
@@ -606,8 +585,8 @@ def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor, explorer: Serv
     assert "39" not in lesson.inner_text()
 
 
-def test_the_projector_shows_larger_letters(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, "?lesson=what-a-ball-carries")
+def test_the_projector_shows_larger_letters(visitor: Visitor) -> None:
+    visitor.open("?lesson=what-a-ball-carries")
     question = visitor.page.get_by_role("region", name="Lesson").get_by_role("paragraph").first
     small, drawn = question.bounding_box(), visitor.figures()
     visitor.press("Projector")
@@ -637,15 +616,15 @@ def _brightness(page: Page) -> float:
     )
 
 
-def test_dark_colours_are_chosen_and_remembered(visitor: Visitor, explorer: Server) -> None:
+def test_dark_colours_are_chosen_and_remembered(visitor: Visitor) -> None:
     visitor.page.emulate_media(color_scheme="light")
-    visitor.open(explorer, FAN_RIG + "frequencies")
+    visitor.open(FAN_RIG + "frequencies")
     light = _brightness(visitor.page)
     visitor.press("Dark colours")
     visitor.steady()
     dark = _brightness(visitor.page)
     assert dark < light - 50
-    visitor.open(explorer, FAN_RIG + "stiffness")
+    visitor.open(FAN_RIG + "stiffness")
     assert _brightness(visitor.page) < light - 50
     visitor.press("Dark colours")
     visitor.steady()
@@ -656,9 +635,9 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
     visitor: Visitor, explorer: Server, browser: BrowserContext
 ) -> None:
     other_page = browser.new_page()
-    other = Visitor(other_page)
-    visitor.open(explorer, FAN_RIG + "stiffness")
-    other.open(explorer, FAN_RIG + "load")
+    other = Visitor(other_page, explorer)
+    visitor.open(FAN_RIG + "stiffness")
+    other.open(FAN_RIG + "load")
     before = other.sentences(), other.figures()
     visitor.sees_change(lambda: visitor.type("Extent", "38.6"))
     other.steady()
@@ -680,8 +659,8 @@ _NAME = "<img src=x onerror=alert(1)>"
 """Of a kept scene: a name is text, whatever it looks like."""
 
 
-def test_a_scene_is_kept_and_opened_again(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "stiffness")
+def test_a_scene_is_kept_and_opened_again(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "stiffness")
     menu = visitor.menu("Compare")
     menu.get_by_role("textbox").fill(_NAME)
     menu.get_by_role("button", name="Keep", exact=True).click()
@@ -693,7 +672,7 @@ def test_a_scene_is_kept_and_opened_again(visitor: Visitor, explorer: Server) ->
 
 
 def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+    visitor.open(FAN_RIG + "load")
     menu = visitor.menu("Compare")
     menu.get_by_role("button", name="Compare", exact=True).click()
     curves = visitor.scene.get_by_role("textbox", name="Name of curve")
@@ -714,7 +693,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
         visitor.wait(lambda: names in _keys(visitor))
     other = visitor.page.context.new_page()
     other.goto(visitor.page.url)
-    again = Visitor(other)
+    again = Visitor(other, explorer)
     again.steady()
     again.wait(lambda: names in _keys(again))
     assert again.number("Extent") == 30.0
@@ -726,8 +705,8 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     other.close()
 
 
-def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "paper")
+def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "paper")
     visitor.press("Figure 10")
     visitor.reads(re.compile("^Figure 10: "))
     assert visitor.number("Extent") == 38.6
@@ -753,8 +732,8 @@ def _keys(visitor: Visitor) -> list[str]:
     return found
 
 
-def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer)
+def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
+    visitor.open()
     visitor.go_to("Load")
     visitor.type("Extent", "20")
     visitor.go_to("Stiffness")
@@ -808,18 +787,14 @@ def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
     ],
     ids=["version", "markup", "length"],
 )
-def test_a_link_that_cannot_be_read_says_so(
-    visitor: Visitor, explorer: Server, link: str, words: str
-) -> None:
-    visitor.open(explorer, link)
+def test_a_link_that_cannot_be_read_says_so(visitor: Visitor, link: str, words: str) -> None:
+    visitor.open(link)
     visitor.reads(re.compile(words), visitor.page.locator("body"))
     assert visitor.number("Extent") == 12.9
 
 
-def test_a_scene_is_saved_changed_opened_and_swept(
-    visitor: Visitor, explorer: Server, tmp_path: Path
-) -> None:
-    visitor.open(explorer, FAN_RIG + "load&extent_deg=38.6")
+def test_a_scene_is_saved_changed_opened_and_swept(visitor: Visitor, tmp_path: Path) -> None:
+    visitor.open(FAN_RIG + "load&extent_deg=38.6")
     dialog = visitor.menu("Download")
     name, text = visitor.download(lambda: visitor.press(re.compile("^Scene"), dialog))
     assert name.endswith(".toml")
@@ -848,8 +823,8 @@ def test_a_scene_is_saved_changed_opened_and_swept(
     assert swept[1] > swept[0] > 0.0
 
 
-def test_a_floor_is_brought_in_a_file(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer, FAN_RIG + "load")
+def test_a_floor_is_brought_in_a_file(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
     visitor.choose("Floor", "From a file")
     rows = "\n".join(f"{260 + i / 4}, {20 + 15 * math.sin(i / 3):.3f}" for i in range(81))
     before = visitor.figures()
@@ -863,9 +838,9 @@ def test_a_floor_is_brought_in_a_file(visitor: Visitor, explorer: Server) -> Non
 
 
 def test_a_report_is_saved_and_read(
-    visitor: Visitor, explorer: Server, browser: BrowserContext, tmp_path: Path
+    visitor: Visitor, browser: BrowserContext, tmp_path: Path
 ) -> None:
-    visitor.open(explorer, FAN_RIG + "load&extent_deg=20")
+    visitor.open(FAN_RIG + "load&extent_deg=20")
     dialog = visitor.menu("Download")
     name, text = visitor.download(lambda: visitor.press(re.compile("^Report"), dialog))
     assert name.endswith(".html")
@@ -882,40 +857,43 @@ def test_a_report_is_saved_and_read(
     watching.assert_clean()
 
 
-@pytest.mark.parametrize(("tab", "card"), [("load", 1), ("stiffness", 0)])
-def test_a_figure_is_taken_along(
-    visitor: Visitor, explorer: Server, tmp_path: Path, tab: str, card: int
-) -> None:
-    visitor.open(explorer, FAN_RIG + tab)
-    name, picture = visitor.download(lambda: visitor.export("PNG", card))
-    assert name.endswith(".png")
-    assert picture.startswith(b"\x89PNG")
-    assert len(picture) > 5000
-    name, drawing = visitor.download(lambda: visitor.export("SVG", card))
-    assert name.endswith(".svg")
-    assert drawing.count(b"<path") > 12
-    name, table = visitor.download(lambda: visitor.export("CSV", card))
-    assert name.endswith(".csv")
-    rows = list(csv.reader(io.StringIO(table.decode())))
-    assert len(rows) > 60
-    assert {len(row) for row in rows} == {len(rows[0])}
-    visitor.export("as a table", card)
-    dialog = visitor.main.get_by_role("dialog")
-    expect(dialog.get_by_role("row").nth(20)).to_be_visible()
-    visitor.page.keyboard.press("Escape")
-    visitor.export("Python", card)
-    lines = dialog.locator("pre").inner_text()
-    script = tmp_path / "lines.py"
-    script.write_text(lines, encoding="utf-8")
+_RUN_ALL = "import runpy, sys; [runpy.run_path(name) for name in sys.argv[1:]]"
+
+
+def test_figures_are_taken_along(visitor: Visitor, tmp_path: Path) -> None:
+    visitor.open(FAN_RIG + "load")
+    scripts = []
+    for tab, card in (("Load", 1), ("Stiffness", 0)):
+        visitor.go_to(tab)
+        name, picture = visitor.download(lambda card=card: visitor.export("PNG", card))  # type: ignore[misc]
+        assert name.endswith(".png")
+        assert picture.startswith(b"\x89PNG")
+        assert len(picture) > 5000
+        name, drawing = visitor.download(lambda card=card: visitor.export("SVG", card))  # type: ignore[misc]
+        assert name.endswith(".svg")
+        assert drawing.count(b"<path") > 12
+        name, table = visitor.download(lambda card=card: visitor.export("CSV", card))  # type: ignore[misc]
+        assert name.endswith(".csv")
+        rows = list(csv.reader(io.StringIO(table.decode())))
+        assert len(rows) > 60
+        assert {len(row) for row in rows} == {len(rows[0])}
+        visitor.export("as a table", card)
+        dialog = visitor.main.get_by_role("dialog")
+        expect(dialog.get_by_role("row").nth(20)).to_be_visible()
+        visitor.page.keyboard.press("Escape")
+        visitor.export("Python", card)
+        scripts.append(tmp_path / f"{tab}.py")
+        scripts[-1].write_text(dialog.locator("pre").inner_text(), encoding="utf-8")
+        visitor.page.keyboard.press("Escape")
     done = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, timeout=300, check=False,
-        cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"},
+        [sys.executable, "-c", _RUN_ALL, *scripts], capture_output=True, text=True, timeout=300,
+        check=False, cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"},
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
 
 
 def test_first_visits_are_shown_in(visitor: Visitor, explorer: Server) -> None:
-    visitor.open(explorer)
+    visitor.open()
     what = visitor.page.get_by_role("button", name="Help")
     welcome = visitor.page.get_by_role("region", name="Introduction")
     help_of_page = visitor.page.get_by_role("dialog", name="Bearing explorer")

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.explorer_page import export, place, rest, slider, source
-from tests.browser.helpers import Server, Watch
+from tests.browser.helpers import Server
 from tests.browser.test_first_minute import COUNTS, SEEN
 
 SOUNDS = """
@@ -31,10 +31,7 @@ def open_tab(page: Page, server: Server, tab: str, more: str = "") -> None:
     rest(page)
 
 
-def test_a_ball_crosses_the_defect_slowly_and_is_heard(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_a_ball_crosses_the_defect_slowly_and_is_heard(page: Page, explorer: Server) -> None:
     page.add_init_script(SOUNDS)
     open_tab(page, explorer, "vibration")
     view = page.locator(".view-slow-passage")
@@ -95,10 +92,7 @@ RANGES = """() => {
 }"""
 
 
-def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, _ = watch
+def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(page: Page, explorer: Server) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
     open_tab(page, explorer, "stiffness")
     view = page.locator(".view-stiffness")
@@ -127,10 +121,7 @@ def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(
     assert page.evaluate(RANGES) == whole
 
 
-def test_pictures_say_what_they_show(
-    watch: tuple[Page, Watch], explorer: Server, browser: BrowserContext
-) -> None:
-    page, _ = watch
+def test_pictures_say_what_they_show(page: Page, explorer: Server, browser: BrowserContext) -> None:
     open_tab(page, explorer, "load", "&extent_deg=20")
     view = page.locator(".view-load-distribution")
     export(view, "svg").wait_for()
@@ -162,8 +153,7 @@ def test_pictures_say_what_they_show(
     browser.clear_permissions()
 
 
-def test_a_table_begins_where_values_do(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_a_table_begins_where_values_do(page: Page, explorer: Server) -> None:
     open_tab(page, explorer, "load")
     view = page.locator(".view-load-distribution")
     export(view, "table").click()
@@ -204,9 +194,8 @@ PROJECTED = """() => {
     ],
 )
 def test_a_projector_has_large_type_and_large_figures(
-    watch: tuple[Page, Watch], explorer: Server, link: str, size: tuple[int, int]
+    page: Page, explorer: Server, link: str, size: tuple[int, int]
 ) -> None:
-    page, _ = watch
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.add_init_script(SEEN)
     page.goto(f"{explorer.url}{link}#projector")

@@ -36,7 +36,6 @@ def test_the_last_packet_is_drawn_whole(
     assert frames < 40, f"{frames} frames went back to the server"
 
 
-def test_the_websocket_sends_at_once(watch: tuple[Page, Watch], packed_source_page: Server) -> None:
-    page, _ = watch
+def test_the_websocket_sends_at_once(page: Page, packed_source_page: Server) -> None:
     page.goto(packed_source_page.url)
     expect(page.locator(".nodelay")).to_contain_text("1")

@@ -87,8 +87,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
 
 
 @pytest.mark.proof
-def test_panel_serve_shows_the_page_too(watch: tuple[Page, Watch]) -> None:
-    page, _ = watch
+def test_panel_serve_shows_the_page_too(page: Page) -> None:
     with serving(page_server(ROOT / "app" / "app.py")) as server:
         page.goto(server.url)
         page.wait_for_function("window.__mark !== undefined")
@@ -133,8 +132,7 @@ def ends_cleanly(server: Server, by: signal.Signals) -> None:
     assert "Traceback" not in server.log
 
 
-def test_the_page_works_without_the_speedups(watch: tuple[Page, Watch]) -> None:
-    page, _ = watch
+def test_the_page_works_without_the_speedups(page: Page) -> None:
     with serving(explorer_server(environment={"BEARING_EXPLORER_PLAIN": "1"})) as server:
         page.goto(server.url)
         page.wait_for_function("window.__mark !== undefined")

@@ -8,7 +8,7 @@ from bearing_explorer.views.bearing import HALF_WIDTH
 from playwright.sync_api import Page
 
 from tests.browser.explorer_page import rest, wait
-from tests.browser.helpers import Server, Watch
+from tests.browser.helpers import Server
 
 MODELS = "[...Bokeh.documents.flatMap(d => [...d._all_models.values()])]"
 
@@ -19,9 +19,8 @@ def open_explorer(page: Page, explorer: Server) -> None:
 
 
 def test_numbers_are_written_alike_in_sentences_and_in_figures(
-    watch: tuple[Page, Watch], explorer: Server
+    page: Page, explorer: Server
 ) -> None:
-    page, _ = watch
     open_explorer(page, explorer)
     values = [m * 10.0**e for m in (1.0, 2.0616, 5.0, -9.9949) for e in range(-20, 20)]
     values += [0.0, 999.96, -7.94e-24, 1e21]
@@ -39,8 +38,7 @@ def shape_of_the_bearing(page: Page) -> dict[str, float]:
     )[0]
 
 
-def test_the_bearing_is_round(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_the_bearing_is_round(page: Page, explorer: Server) -> None:
     open_explorer(page, explorer)
     for width in (1366, 700):
         page.set_viewport_size({"width": width, "height": 900})

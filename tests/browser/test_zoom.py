@@ -16,7 +16,7 @@ from tests.browser.explorer_page import (
     show,
     slider,
 )
-from tests.browser.helpers import Server, Watch, move
+from tests.browser.helpers import Server, move
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
 PHONE: ViewportSize = {"width": 390, "height": 844}
@@ -27,8 +27,7 @@ SCROLLS = """() => {
 
 
 @pytest.mark.proof
-def test_all_fits_with_every_contact_law(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_all_fits_with_every_contact_law(page: Page, explorer: Server) -> None:
     page.set_viewport_size(LAPTOP)
     open_page(page, explorer, "model")
     for law in page.locator("#choice-law option").evaluate_all("all => all.map((o) => o.value)"):
@@ -62,8 +61,7 @@ NAMES_OF_BANDS = """() => {
 }"""
 
 
-def test_figures_zoom_stay_zoomed_and_go_back(watch: tuple[Page, Watch], explorer: Server) -> None:
-    page, _ = watch
+def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> None:
     page.set_viewport_size(LAPTOP)
     open_page(page, explorer, "modes")
 

@@ -42,16 +42,17 @@ _FIGURES = """canvases => {
 class Visitor:
     """Somebody at the page."""
 
-    def __init__(self, page: Page) -> None:
+    def __init__(self, page: Page, server: Server) -> None:
         self.page = page
+        self._url = server.url
         self.main = page.get_by_role("main")
         self.scene = page.get_by_role("complementary", name="Scene")
 
     # --- getting about ----------------------------------------------------------------------------
 
-    def open(self, server: Server, address: str = "") -> None:
+    def open(self, address: str = "") -> None:
         """Open an address of the page and wait until it shows something."""
-        self.page.goto(server.url + address)
+        self.page.goto(self._url + address)
         expect(self.page.get_by_role("tab", selected=True)).to_be_visible()
         self.wait(lambda: any(self.sentences()))
         unfold(self.page)

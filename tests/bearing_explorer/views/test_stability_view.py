@@ -132,7 +132,7 @@ def test_what_is_too_large_or_senseless_is_refused_with_a_sentence(change, words
     view, editor = OrbitStability(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=words):
         view.prepare({**FORM, **change}, editor)
-    assert callable(view.prepare(FORM, editor))
+    assert callable(view.prepare(view.form(editor)[0], editor))
 
 
 def test_sides_are_labelled_like_axes_and_cells_lie_around_their_values() -> None:

@@ -168,6 +168,9 @@ def test_one_direction_is_enough():
 def test_what_is_no_defect_s_signal_is_not_sized():
     rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
+    sized = sized_by(Recording(noise, RATE), rig)
+    assert not sized.conclusive
+    assert sized.candidates == ()
     insisted = sized_by(Recording(noise, RATE), rig, fault="outer race")
     assert not insisted.conclusive
     assert "no lines stand out" in insisted.sentence
@@ -175,8 +178,7 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     elsewhere = rig.replace(shaft_speed=1.07 * rig.shaft_speed)
     for fault in (None, "outer race"):
         assert not sized_by(still, rig, fault=fault).conclusive
-    recording = Recording(signal_of(rig), RATE)
-    assert not sized_by(recording, elsewhere, fault="outer race").conclusive
+        assert not sized_by(Recording(signal_of(rig), RATE), elsewhere, fault=fault).conclusive
 
 
 def test_progress_rises_and_may_end_the_work():
@@ -302,16 +304,21 @@ def _edges(band):
 @pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     """A small part of `python -m tests.benchmarks.sizing given`, with room for bad luck."""
-    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=()), 8))
-    assert len({a.kind for a in answers}) == 10, "the truth differs from what is given each time"
-    assert sum(a.right_turns for a in answers) >= 0.8 * len(answers)
-    assert sum(a.right_extent for a in answers) >= 0.7 * len(answers)
+    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=(20.0,)), 8))
+    right = [a for a in answers if a.kind == "right, 20 dB"]
+    wrong = [a for a in answers if a not in right]
+    assert len(right) == 8
+    assert len(wrong) >= 8
+    assert sum(a.right_turns for a in right) >= 7
+    assert sum(a.right_extent for a in right) >= 7
+    assert sum(a.right_turns for a in wrong) >= 0.8 * len(wrong)
+    assert sum(a.right_extent for a in wrong) >= 0.7 * len(wrong)
     sure = [a for a in answers if a.conclusive]
     assert sum(a.right_turns for a in sure) >= 0.9 * len(sure)
     # whole ball spacings long, a defect looks like a pit and none is sized
     like_a_pit = [a for a in answers if _from_whole_spacings(a.truth) < 2.0]
     assert not any(a.conclusive for a in like_a_pit)
-    assert len(sure) >= 0.6 * (len(answers) - len(like_a_pit))
+    assert len(sure) >= 0.7 * (len(answers) - len(like_a_pit))
 
 
 def _from_whole_spacings(extent: float) -> float:

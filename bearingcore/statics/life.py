@@ -470,7 +470,9 @@ def long_number(value: float) -> str:
 
 
 def turns_in_words(L: float) -> str:
-    """A life [10⁶ turns], up to a million of millions."""
+    """A life [10⁶ turns], up to a million of millions; "unlimited" where it is infinite."""
+    if math.isinf(L):
+        return "unlimited"
     return f"{long_number(L)} million turns" if L < 1e6 else "more than a million million turns"
 
 

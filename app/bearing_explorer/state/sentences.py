@@ -21,8 +21,9 @@ def sentence_of(error: ValueError) -> str:
 def words_of(error: ValueError) -> str:
     """A refusal in the words of the page, without a full stop, to stand inside a sentence.
 
-    "shaft_speed is 0; allowed: a finite number above 0 [rad/s]" is "shaft speed is 0 Hz; allowed:
-    a finite number above 0 Hz".
+    "shaft_speed is -1; allowed: a finite number at least 0" is "shaft speed is −0.15915 Hz;
+    allowed: a finite number at least 0 Hz". A shaft may stand still: where it has to turn, that is
+    the reason, and no number is wrong.
     """
     if not isinstance(error, FieldError):
         return str(error).removesuffix(".")

@@ -229,9 +229,7 @@ def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
     return part if part is not None and part.points else None
 
 
-def foot(
-    own: Measurements | None, base: Measurements | None, shown: Mapping[str, Experiment]
-) -> str:
+def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]) -> str:
     """Methods left out and the reasons; versions and machines."""
     left = "".join(
         f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"

@@ -293,12 +293,9 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
         own = balls[(balls >= its.start) & (balls < its.stop)] - its.start + 1
         if own.size:
             of_row = f" of row {row + 1}" if bearing.rows else ""
-            balls_of_row = elements(bearing, own.size)
-            if own.size > MOST_NAMED:
-                words.append(f"{own.size} {balls_of_row}{of_row}")
-            else:
-                names = style.list_words([str(ball) for ball in own])
-                words.append(f"{balls_of_row} {names}{of_row}")
+            kind, names = elements(bearing, own.size), style.list_words([str(ball) for ball in own])
+            which = f"{kind} {names}" if own.size <= MOST_NAMED else f"{own.size} {kind}"
+            words.append(which + of_row)
     return f"; {style.list_words(words)} {_in_defect(balls.size)}"
 
 

@@ -78,7 +78,6 @@ FIELDS = (
     ),
 )
 
-
 MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
 """Fields of which the program takes a number of its own where none is given."""
 
@@ -199,7 +198,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
         Fact(
             "Life L<sub>10</sub>",
-            _million(lasts.million_revolutions) if known else "not known",
+            turns_in_words(lasts.million_revolutions) if known else "not known",
             "Turns that nine of ten bearings reach.",
         ),
         Fact(
@@ -217,7 +216,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
     ]
     if len(lasts.rows) > 1 and known:
-        each = " and ".join(map(_million, lasts.rows))
+        each = " and ".join(map(turns_in_words, lasts.rows))
         facts.append(
             Fact(
                 f"of rows 1 to {len(lasts.rows)} on their own",
@@ -239,10 +238,6 @@ def _damaged_words(damaged: Life) -> str:
         f"With the loads as the defect changes them the same formula gives {percent(share)} of "
         f"that{why}. {LEFT_OUT}"
     )
-
-
-def _million(value: float) -> str:
-    return "unlimited" if math.isinf(value) else turns_in_words(value)
 
 
 def _pressures(results: Results, found: Endurance) -> FactGroup:

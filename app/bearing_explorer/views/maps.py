@@ -190,11 +190,13 @@ class StiffnessMaps(View):
             words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
         else:
             at = int(np.nanargmin(mean))
-            fewest = maps.extents[at]
-            where = f"at an extent of {in_degrees(fewest, 0)}" if at else "without a defect"
+            where = (
+                f"at an extent of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
+            )
+            if at == mean.size - 1:
+                where += ", the longest of the map"
             words = (
-                f"Fewest {names} carry load {where}"
-                f"{', the longest of the map' if at == mean.size - 1 else ''}: "
+                f"Fewest {names} carry load {where}: "
                 f"{least:.1f} of {n_balls} on average over the cage angle"
             )
             if at and np.isfinite(mean[0]):

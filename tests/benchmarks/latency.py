@@ -29,7 +29,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from tests.benchmarks.machine import pace
 from tests.benchmarks.processor import worked_by_kind
-from tests.browser.helpers import chromium, explorer_server, serving
+from tests.browser.helpers import chromium, explorer_server, serving, unfold
 
 STATIC, MOVING = 50.0, 100.0
 """Targets of a step's median [ms]: static views and traces, and what shows motion."""
@@ -250,6 +250,7 @@ def measure(page: Page, case: Case, count: int, seconds: float, server: int) -> 
     page.locator(f".tab-{case.tab}").click()
     page.wait_for_function(f"window.__tab == '{case.tab}'", timeout=120_000)
     page.wait_for_timeout(1000)
+    unfold(page)  # every slider is to be seen
     page.evaluate(_WATCH_PAINTS)
     machine = pace()
     stepper = Stepper(page, case.slider)

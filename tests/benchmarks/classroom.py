@@ -9,77 +9,79 @@ The time of an update is that from the change of a slider to the arrival of a pa
 or a newer one, in browsers to the end of the repaint. As the page asks for the newest position
 only, and when it is likely to be drawn soon, what a hand feels is longer: from each of its
 positions, sixty a second, asked for or not, to a picture of that or a newer one. An update is lost
-where the last change of a drag is not drawn within five seconds. Each person has a defect as deep
-and a load as high as nobody else's; every picture is looked at for the depth, and every 50th is
-computed anew here and compared number by number. A scene leaks where anything else comes back.
+where the last change of a drag is not drawn within five seconds. Each client has a defect as deep
+as no other's; a scene leaks where a picture shows another depth.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
-import math
+import itertools
 import os
 import sys
 import threading
 import time
-from contextlib import ExitStack
+from collections import deque
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
 import numpy as np
+import psutil
 from playwright.sync_api import Error, sync_playwright
 
+from tests.benchmarks.latency import WATCH, move_to_and_fro, slider_of
 from tests.benchmarks.machine import Pace, pace
-from tests.benchmarks.processor import TICKS, resident, started_by, worked
-from tests.browser.helpers import chromium, explorer_server, free_port, serving
-from tests.helpers.balancer import balanced
+from tests.benchmarks.processor import worked
+from tests.browser.helpers import chromium, explorer_server, serving
 from tests.helpers.page_client import PageClient
 
+TAB = "load"
 FRAME = 1.0 / 60.0
 DRAG, REST = 5.0, 0.5  # [s]
 LOST = 5.0  # [s]
-CHECKED = 50  # every how many-th picture is computed anew
-#: what is drawn here depends on what was drawn before, as axes do that move seldom; so do the
-#: lengths of arrows in the drawing of the bearing
-REMEMBERING = {("depth_profile_surface", "bottom")}
 
 
 @dataclass
 class Notes:
-    """What one person met."""
+    """What one person met; times in seconds of the person's own clock."""
 
     first_picture: float = float("nan")
-    times: list[float] = field(default_factory=list)
-    felt: list[float] = field(default_factory=list)
+    asks: dict[int, float] = field(default_factory=dict)
+    """when each change was asked for"""
+    moves: list[float] = field(default_factory=list)
+    """when the hand moved"""
+    pictures: list[tuple[int, float]] = field(default_factory=list)
+    """the newest change that each picture shows, and when it came"""
     drags: int = 0
     lost: int = 0
     leaks: int = 0
-    compared: list[tuple[dict[str, float], dict[str, dict[str, np.ndarray]]]] = field(
-        default_factory=list
-    )
     troubles: list[str] = field(default_factory=list)
+
+    def waits(self) -> tuple[list[float], list[float]]:
+        """Times from changes, and from movements of the hand, to a picture of them [s]."""
+        asks, moves = deque(sorted(self.asks.items())), deque(self.moves)
+        updates, felt = [], []
+        for mark, came in self.pictures:
+            while asks and asks[0][0] <= mark:
+                _, asked = asks.popleft()
+                updates.append(came - asked)
+                while moves and moves[0] <= asked:
+                    felt.append(came - moves.popleft())
+        return updates, felt
 
 
 class Person:
     """A websocket client that drags."""
 
-    def __init__(self, url: str, number: int, tab: str) -> None:
+    def __init__(self, url: str, number: int) -> None:
         self.notes = Notes()
-        self._tab = tab
         self._client = PageClient(url, self._packet)
         self._number = number
-        self._asked: dict[int, float] = {}
-        self._values: dict[int, dict[str, float]] = {}
-        self._pictures = 0
-        self._felt_until = math.inf
-        self._seen = 0
-        self.depth = 20.0 + 2.5 * number  # [micrometres], nobody else's
-        self.load = -(40.0 + 3.0 * number)  # [N]
+        self._settled = False
+        self.depth = 20.0 + 2.5 * number  # [micrometres]
 
     async def come(self) -> None:
-        """Open the page and wait for the first picture."""
+        """Open the page, wait for the first picture, and make the scene."""
         began = time.perf_counter()
         status = await self._client.open_page()
         if status != 200:
@@ -89,21 +91,24 @@ class Person:
         if not await self._client.until_drawn(seconds=120.0):
             self.notes.troubles.append("no first picture")
         self.notes.first_picture = time.perf_counter() - began
-        await self._client.show(self._tab)
-        await self._ask({"depth_um": self.depth, "fy_n": self.load, "extent_deg": 20.0})
-        await self._client.until_drawn(seconds=60.0)
+        await self._client.show(TAB)
+        load = -(40.0 + 3.0 * self._number)
+        await self._client.ask(set={"depth_um": self.depth, "fy_n": load, "extent_deg": 20.0})
+        self._settled = await self._client.until_drawn(seconds=60.0)
 
     async def drag(self, seconds: float) -> None:
-        """Drag, with short rests, for as long as told."""
+        """Drag, with short rests, for as long as wanted."""
         end = time.perf_counter() + seconds
         phase = 0.37 * self._number
         while time.perf_counter() < end and not self._client.closed:
-            began = self._felt_until = time.perf_counter()
+            began = time.perf_counter()
             while (now := time.perf_counter()) - began < DRAG and now < end:
                 share = abs(((now - began) / 2.0 + phase) % 2.0 - 1.0)
-                await self._ask({"extent_deg": round(5.0 + 60.0 * share, 2)})
+                self.notes.asks[self._client.mark + 1] = now
+                await self._client.ask(set={"extent_deg": round(5.0 + 60.0 * share, 2)})
                 await asyncio.sleep(FRAME)
                 await self._client.turn()
+            self.notes.moves += np.arange(began, now, FRAME).tolist()
             phase += 0.61
             self.notes.drags += 1
             if not await self._client.until_drawn(seconds=LOST):
@@ -117,140 +122,34 @@ class Person:
         self.notes.troubles += self._client.errors
         await self._client.close()
 
-    async def _ask(self, values: dict[str, float]) -> None:
-        mark = self._client.mark + 1
-        self._asked[mark] = time.perf_counter()
-        self._values[mark] = {**self._values.get(mark - 1, {}), **values}
-        await self._client.ask(set=values)
-
     def _packet(self, mark: int, now: float) -> None:
-        for asked in [m for m in self._asked if m <= mark]:
-            then = self._asked.pop(asked)
-            self.notes.times.append(now - then)
-            if then > self._felt_until:
-                self.notes.felt += [now - t for t in np.arange(then, self._felt_until, -FRAME)]
-                self._felt_until = then
-        values = self._values.get(mark)
-        if values is None or mark <= self._seen:
-            return  # the same scene once more, drawn as planned for a hand that rests
-        self._seen = mark
-        for old in [m for m in self._values if m < mark]:
-            del self._values[old]
-        self._pictures += 1
-        surface = self._client.sources.get("depth_profile_surface")
-        deepest = float(np.nanmax(surface["depth"])) if surface is not None else 0.0
-        self.notes.leaks += not np.isclose(1e6 * deepest, values["depth_um"], rtol=1e-3)
-        if self._pictures % CHECKED == 0:
-            shown = {
-                name: {k: v.copy() for k, v in columns.items()}
-                for name, columns in self._client.sources.items()
-            }
-            self.notes.compared.append((dict(values), shown))
+        self.notes.pictures.append((mark, now))
+        if self._settled:
+            surface = self._client.sources["depth_profile_surface"]
+            deepest = 1e6 * float(np.nanmax(surface["depth"]))
+            self.notes.leaks += not np.isclose(deepest, self.depth, rtol=1e-3)
 
-
-def _unlike(picture: Any, shown: dict[str, dict[str, Any]]) -> int:
-    """How many columns of a picture did not come as they are here."""
-    return sum(
-        not np.array_equal(np.asarray(column, np.float32).ravel(), shown[source][name], True)
-        for drawing in picture.drawings
-        for source, columns in drawing.data[0].items()
-        for name, column in columns.items()
-        if (source, name) not in REMEMBERING and not source.startswith("bearing_")
-    )
-
-
-def differences(notes: Notes, tab: str) -> int:
-    """How many of the pictures kept are not those of their scene."""
-    from bearing_explorer.page import SECTIONS
-    from bearing_explorer.pictures import picture_of
-    from bearing_explorer.results.results import Results
-    from bearing_explorer.serve.packed_source import PackedSource
-    from bearing_explorer.state.scene_editor import SceneEditor
-
-    packed = PackedSource()
-    views = [view(packed) for s in SECTIONS if s.name == tab for view in s.views]
-    wrong = 0
-    for values, shown in notes.compared:
-        editor = SceneEditor("fan-rig")
-        for name, value in values.items():
-            editor.set({name: value})
-        # drawn while the slider moves, or finely after it
-        wrong += min(
-            _unlike(picture_of(Results(editor.scene, 0.0, moving=moving), views), shown)
-            for moving in (True, False)
-        )
-    return wrong
-
-
-# Real browsers
 
 _FIRST_PAINT = """() => window.__mark !== undefined
   && [...Bokeh.index.query((view) => typeof view._actual_paint === "function")].length > 0"""
-_NOTE_TIMES = """() => {
-  window.__times = {}
-  let asked = window.__asked || 0
-  Object.defineProperty(window, "__asked", {
-    get: () => asked,
-    set: (mark) => { asked = mark; window.__times[mark] = performance.now() },
-  })
-  window.__updates = []
-  window.__felt = []
-  let moves = []
-  window.addEventListener("input", () => moves.push(performance.now()), true)
-  const seen = (mark, now) => {
-    for (const m of Object.keys(window.__times))
-      if (Number(m) <= mark) {
-        const asked = window.__times[m]
-        window.__updates.push(now - asked)
-        window.__felt.push(...moves.filter((moved) => moved <= asked).map((moved) => now - moved))
-        moves = moves.filter((moved) => moved > asked)
-        delete window.__times[m]
-      }
-  }
-  const wrapped = new Set()
-  for (const view of Bokeh.index.query(() => true)) {
-    if (typeof view._actual_paint !== "function") continue
-    let owner = view
-    while (owner && !Object.hasOwn(owner, "_actual_paint")) owner = Object.getPrototypeOf(owner)
-    if (!owner || wrapped.has(owner)) continue
-    wrapped.add(owner)
-    const paint = owner._actual_paint
-    owner._actual_paint = function (...rest) {
-      const mark = window.__mark, result = paint.apply(this, rest)
-      seen(mark, performance.now())
-      return result
-    }
-  }
-}"""
 
 
-def browse(url: str, seconds: float, go: Any, found: list[Notes], tab: str) -> None:
+def browse(url: str, seconds: float, go: threading.Barrier, notes: Notes) -> None:
     """One real browser with a hand on a slider."""
-    notes = Notes()
-    found.append(notes)
     try:
         with sync_playwright() as playwright, chromium(playwright) as context:
             page = context.new_page()
             page.on("pageerror", lambda error: notes.troubles.append(str(error)))
             began = time.perf_counter()
-            page.goto(f"{url}?v=1&preset=fan-rig&tab={tab}", timeout=120_000)
+            page.goto(f"{url}?v=1&preset=fan-rig&tab={TAB}", timeout=120_000)
             page.wait_for_function(_FIRST_PAINT, timeout=120_000)
             notes.first_picture = time.perf_counter() - began
-            page.evaluate(_NOTE_TIMES)
-            thumb = page.locator("#control-extent_deg")
-            box = thumb.bounding_box()
-            assert box is not None
-            y = box["y"] + box["height"] / 2
+            page.evaluate(WATCH)
+            slider = slider_of(page, "extent_deg")
             go.wait()
             end = time.perf_counter() + seconds
             while time.perf_counter() < end:
-                began = time.perf_counter()
-                page.mouse.move(box["x"] + 0.2 * box["width"], y)
-                page.mouse.down()
-                while (passed := time.perf_counter() - began) < DRAG:
-                    share = 0.2 + 0.7 * abs((passed / 2.0) % 2.0 - 1.0)
-                    page.mouse.move(box["x"] + share * box["width"], y)
-                    time.sleep(FRAME)
+                move_to_and_fro(page, slider, DRAG)
                 page.mouse.up()
                 notes.drags += 1
                 try:
@@ -258,44 +157,35 @@ def browse(url: str, seconds: float, go: Any, found: list[Notes], tab: str) -> N
                 except Error:
                     notes.lost += 1
                 time.sleep(REST)
-            notes.times = [0.001 * t for t in page.evaluate("window.__updates")]
-            notes.felt = [0.001 * t for t in page.evaluate("window.__felt")]
+            asks, moves, paints = page.evaluate(
+                "() => [window.__asks, window.__moves, window.__paints]"
+            )
+            notes.asks = {int(mark): 0.001 * at for mark, at in asks.items()}
+            notes.moves = [0.001 * at for at in moves]
+            notes.pictures = [(mark, 0.001 * at) for mark, at, _ in paints]
     except Error as error:
         notes.troubles.append(str(error))
+        go.abort()  # rather than wait for a browser that does not come
 
 
-# The machine
-
-
-def busy_seconds() -> float:
+def busy() -> float:
     """What all cores of the machine have worked since it started [s]."""
-    user, nice, system, _, _, *rest = map(int, Path("/proc/stat").read_text().split()[1:11])
-    return (user + nice + system + sum(rest[:2])) / TICKS
+    times = psutil.cpu_times()
+    return float(sum(times) - times.idle - getattr(times, "iowait", 0.0))
 
 
-async def _crowd(
-    people: list[Person], seconds: float, go: Any, server: list[int]
+async def crowd(
+    people: list[Person], seconds: float, go: threading.Barrier, server: int
 ) -> dict[str, float]:
+    """All come, then drag together: the cores that each part of the machine has used."""
     await asyncio.gather(*(person.come() for person in people))
-    together = sum(map(resident, server))
-    while go.parties > 1 and go.n_waiting < go.parties - 1:
-        await asyncio.sleep(0.2)
-    if go.parties > 1:
-        await asyncio.to_thread(go.wait)
-    began, used, mine = time.perf_counter(), sum(map(worked, server)), time.process_time()
-    busy = busy_seconds()
-    await asyncio.gather(
-        *(person.drag(seconds) for person in people),
-    )
-    took = time.perf_counter() - began
-    return {
-        "memory": together,
-        "memory_after": sum(map(resident, server)),
-        "server": (sum(map(worked, server)) - used) / took,
-        "clients": (time.process_time() - mine) / took,
-        "all": (busy_seconds() - busy) / took,
-        "took": took,
-    }
+    await asyncio.to_thread(go.wait)
+    began, before = time.perf_counter(), (worked(server), time.process_time(), busy())
+    await asyncio.gather(*(person.drag(seconds) for person in people))
+    took, after = time.perf_counter() - began, (worked(server), time.process_time(), busy())
+    await asyncio.gather(*(person.leave() for person in people))
+    names = ("server", "websocket clients", "all that ran on the machine")
+    return {n: (b - a) / took for n, a, b in zip(names, before, after, strict=True)}
 
 
 def main() -> int:
@@ -304,110 +194,57 @@ def main() -> int:
     parser.add_argument("--sessions", type=int, default=30)
     parser.add_argument("--browsers", type=int, default=2, help="of them real")
     parser.add_argument("--seconds", type=float, default=120.0)
-    parser.add_argument("--tab", default="load", help="that all look at")
-    parser.add_argument("--num-procs", type=int, default=1, help="that share a port")
-    parser.add_argument(
-        "--behind", type=int, default=0, help="so many explorers with a balancer before them"
-    )
-    parser.add_argument("--leave", type=float, default=45.0, help="wait after they left [s]")
     chosen = parser.parse_args()
-    options = ("--num-procs", str(chosen.num_procs)) if chosen.num_procs > 1 else ()
-    fronted = chosen.behind > 0
-    found: list[Notes] = []
-    machine_before = pace()
-    with ExitStack() as stack:
-        balancer = free_port()
-        if fronted:
-            options = ("--allow-websocket-origin", f"localhost:{balancer}")
-        servers = [
-            stack.enter_context(serving(explorer_server(*options)))
-            for _ in range(max(chosen.behind, 1))
-        ]
-        url = servers[0].url
-        if fronted:
-            stack.enter_context(balanced([server.port for server in servers], port=balancer))
-            url = f"http://localhost:{balancer}/"
-        first = [server.process.pid for server in servers]
-        pids = [*first, *(pid for one in first for pid in started_by(one))]
-        before = sum(map(resident, pids))
-        go = threading.Barrier(chosen.browsers + 1)
+    quiet = pace()
+    browsers = [Notes() for _ in range(chosen.browsers)]
+    with serving(explorer_server()) as server:
+        go = threading.Barrier(len(browsers) + 1)
         threads = [
-            threading.Thread(target=browse, args=(url, chosen.seconds, go, found, chosen.tab))
-            for _ in range(chosen.browsers)
+            threading.Thread(target=browse, args=(server.url, chosen.seconds, go, notes))
+            for notes in browsers
         ]
         for thread in threads:
             thread.start()
-        people = [Person(url, n, chosen.tab) for n in range(chosen.sessions - chosen.browsers)]
-
-        async def class_of() -> dict[str, float]:
-            return await _crowd(people, chosen.seconds, go, pids)
-
-        async def all_leave() -> None:
-            await asyncio.gather(*(person.leave() for person in people))
-
-        with asyncio.Runner() as runner:
-            machine = runner.run(class_of())
-            for thread in threads:
-                thread.join()
-            runner.run(all_leave())
-            time.sleep(chosen.leave)
-            left = sum(map(resident, pids))
-        log = "".join(server.log for server in servers)
-    print(f"before: {machine_before}\nafter:  {pace()}")
-    _print(
-        machine_before, chosen, [person.notes for person in people], found, machine, before, left
+        people = [Person(server.url, n) for n in range(chosen.sessions - len(browsers))]
+        cores = asyncio.run(crowd(people, chosen.seconds, go, server.process.pid))
+        for thread in threads:
+            thread.join()
+        log = server.log
+    print(f"before: {quiet}\nafter:  {pace()}")
+    print(
+        f"{chosen.sessions} sessions, {len(browsers)} of them browsers, dragging for "
+        f"{chosen.seconds:.0f} s; {os.cpu_count()} cores"
     )
+    show(quiet, [person.notes for person in people], browsers, chosen.seconds)
+    print("cores used: " + ", ".join(f"{name} {used:.2f}" for name, used in cores.items()))
     if "Traceback" in log:
         print("in the server's log:\n" + log[-3000:])
     return 0
 
 
-def _print(
-    quiet: Pace,
-    chosen: argparse.Namespace,
-    clients: list[Notes],
-    browsers: list[Notes],
-    machine: dict[str, float],
-    before: float,
-    left: float,
-) -> None:
-    print(
-        f"{chosen.sessions} sessions, {len(browsers)} of them browsers, dragging for "
-        f"{machine['took']:.0f} s; {os.cpu_count()} cores, {chosen.num_procs} process(es)"
-        + (f" behind a balancer: {chosen.behind}" if chosen.behind else "")
-    )
-    print(f"{'':<12}{'updates':>9}{'a second':>10}{'median':>9}{'95 %':>9}{'99 %':>9}{'most':>9}")
+def show(quiet: Pace, clients: list[Notes], browsers: list[Notes], seconds: float) -> None:
+    """Print the table, and what was lost."""
     everyone = [*clients, *browsers]
-    for name, found in (
-        ("clients", [one.times for one in clients]),
-        ("browsers", [one.times for one in browsers]),
-        ("hands", [one.felt for one in everyone]),
+    waits = {id(one): one.waits() for one in everyone}
+    print(f"{'':<12}{'updates':>9}{'a second':>10}{'median':>9}{'95 %':>9}{'99 %':>9}{'most':>9}")
+    for name, group, kind in (
+        ("clients", clients, 0),
+        ("browsers", browsers, 0),
+        ("hands", everyone, 1),
     ):
-        times = np.array([t for one in found for t in one])
+        times = np.array(list(itertools.chain(*(waits[id(one)][kind] for one in group))))
         if not times.size:
             continue
-        shares = np.percentile(1000.0 * times, [50.0, 95.0, 99.0, 100.0])
-        row = "".join(f"{share:>6.0f} ms" for share in shares)
-        beside = ", ".join(quiet.ratio(0.001 * share) for share in shares[:2])
-        print(f"{name:<12}{times.size:>9}{times.size / machine['took']:>10.0f}{row}   {beside}")
-    wrong = sum(differences(one, chosen.tab) for one in clients)
-    firsts = sorted(one.first_picture for one in everyone)
-    print(
-        f"first picture after {firsts[len(firsts) // 2]:.1f} s (median), {firsts[-1]:.1f} s (last)"
-    )
-    print(f"drags {sum(one.drags for one in everyone)}, lost {sum(one.lost for one in everyone)}")
-    checked = sum(len(one.compared) for one in clients)
+        shares = np.percentile(times, [50.0, 95.0, 99.0, 100.0])
+        row = "".join(f"{1000.0 * share:>6.0f} ms" for share in shares)
+        ratios = ", ".join(quiet.ratio(share) for share in shares[:2])
+        print(f"{name:<12}{times.size:>9}{times.size / seconds:>10.0f}{row}   {ratios}")
+    firsts = [one.first_picture for one in everyone]
+    print(f"first picture after {np.median(firsts):.1f} s (median), {max(firsts):.1f} s (last)")
+    drags, lost = (sum(getattr(one, name) for one in everyone) for name in ("drags", "lost"))
     leaks = sum(one.leaks for one in clients)
-    print(f"leaks {leaks}; {checked} pictures computed anew, {wrong} differ")
-    each = (machine["memory"] - before) / chosen.sessions
-    print(
-        f"memory {before:.0f} MB before, {machine['memory']:.0f} MB with all ({each:.1f} MB each), "
-        f"{machine['memory_after']:.0f} MB after dragging, {left:.0f} MB after they left"
-    )
-    print(
-        f"cores used: server {machine['server']:.2f}, websocket clients {machine['clients']:.2f}, "
-        f"all that ran on the machine {machine['all']:.2f}"
-    )
+    pictures = sum(len(one.pictures) for one in clients)
+    print(f"drags {drags}, lost {lost}; leaks {leaks} in {pictures} pictures")
     for trouble in sorted({t for one in everyone for t in one.troubles}):
         print(f"trouble: {trouble}")
 

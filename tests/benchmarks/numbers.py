@@ -9,8 +9,8 @@ bearingcore's public functions with everything that a caller gets: checks of the
 objects made, after a warm-up. Each repetition asks for a slightly different extent, as a dragged
 slider does, so that nothing can come out of a cache. Nothing here passes or fails.
 
-Then the page: its first start where nothing has been compiled, and, by `latency` and `classroom`
-of this folder, slider to pixels and a classroom. `--core` leaves them out.
+Then the page, by `starting`, `latency` and `classroom` of this folder: its first start with nothing
+compiled, slider to pixels, a classroom. `--core` leaves them out.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ import platform
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -41,9 +40,8 @@ from bearingcore import (
 )
 from bearingcore.dynamics.motion import static_start
 from bearingcore.scene.packing import length_units
-from tests.benchmarks.machine import pace
 from tests.benchmarks.yardstick import CMotion, CStatics
-from tests.browser.helpers import explorer_server, find_chromium
+from tests.browser.helpers import find_chromium
 
 REFERENCE = Path(__file__).parent.parent / "reference" / "motion_reference.npz"
 ANGLES, MAP_EXTENTS, MAP_ANGLES = 361, 91, 121
@@ -96,13 +94,6 @@ def maps(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     angles = np.linspace(0.0, scene.bearing.ball_spacing, MAP_ANGLES)
     answer = stiffness_maps(scene, extents, angles, dofs=DOF_NAMES)
     return answer.stiffness, answer.loaded_balls
-
-
-def map_curves(scene: Scene) -> None:
-    """Ours, curve by curve."""
-    angles = np.linspace(0.0, scene.bearing.ball_spacing, MAP_ANGLES)
-    for row in range(MAP_EXTENTS):
-        equilibrium(scene.replace(extent=np.radians(row)), angles, dofs=DOF_NAMES)
 
 
 def start_state(scene: Scene) -> np.ndarray:
@@ -198,12 +189,6 @@ def numbers() -> list[Number]:
         motion = simulate(scene, DURATION, RATE, step_rate=step_rate)
         return spectrum(motion.outer_acceleration, RATE)
 
-    def everything(scene: Scene) -> object:
-        """All that C returns, without spectra, at the same steps."""
-        motion = simulate(scene, DURATION, RATE, step_rate=RATE)
-        return (motion.inner_displacement, motion.outer_displacement, motion.inner_velocity,
-                motion.outer_velocity, motion.outer_acceleration)  # fmt: skip
-
     return [
         Number("361 cage angles over a ball spacing, 5 DOF, 15 terms", "2x C", liew_lim,
                curves(spacing), share=8.0),
@@ -211,14 +196,10 @@ def numbers() -> list[Number]:
                share=8.0),
         Number("15 maps, 91 extents x 121 cage angles", "40 ms", liew_lim,
                {"ours": maps, "C": c_maps}),
-        Number("the same, an equilibrium for each extent", "", liew_lim,
-               {"ours": map_curves, "C": c_maps}),
         Number("1.4 s of motion, spectra (C: the march alone)", "2x C", fan_rig,
                {"ours": signal, "C": march}),
         Number("the same at 65,536 steps a second, as C", "", fan_rig,
                {"ours": lambda scene: signal(scene, RATE), "C": march}),
-        Number("all states and acceleration of that, no spectra", "", fan_rig,
-               {"ours": everything, "C": march}),
         Number("1.4 s of motion, 5 DOF, spectra (C: the march alone)", "", liew_lim,
                {"ours": signal, "C": tilting_march}, share=0.4),
     ]  # fmt: skip
@@ -234,17 +215,6 @@ def import_seconds(repeats: int = 5) -> list[float]:
 
     run("import bearingcore")
     return [run("import bearingcore") - run("pass") for _ in range(repeats)]
-
-
-def start_seconds(compiled: Path) -> float:
-    """From the command to the first page, with machine code kept in the folder `compiled`."""
-    begun = time.perf_counter()
-    server = explorer_server(environment={"NUMBA_CACHE_DIR": str(compiled)})
-    try:
-        server.wait(300.0)
-        return time.perf_counter() - begun
-    finally:
-        server.stop()
 
 
 def show(table: list[Number]) -> None:
@@ -294,26 +264,16 @@ def main() -> None:
 
 def page() -> None:
     """What takes a server, and a browser where there is one."""
-    machine = pace()
-    with tempfile.TemporaryDirectory() as folder:
-        first, second = (start_seconds(Path(folder)) for _ in range(2))
-    print(
-        f"\n{'first start, nothing compiled, to the first page':54}{'20 s':>8}{first:>13.1f} s"
-        f"   {machine.ratio(first)}"
-        f"\n{'the next start':54}{'':>8}{second:>13.1f} s   {machine.ratio(second)}\n{machine}",
-        flush=True,
-    )
-    if find_chromium() is None:
-        print("no Chromium: slider to pixels and the classroom were not measured")
-        return
     tabs = ("load", "stiffness", "modes", "maps", "vibration")
     few = ["--steps", "10", "--seconds", "2", *(word for tab in tabs for word in ("--tab", tab))]
-    for title, command in (
-        ("Slider to pixels", ["latency", *few]),
-        ("A classroom of 30 (target: nothing lost, 95 % in 300 ms)", ["classroom"]),
-    ):
+    commands = [("First start, nothing compiled (target: 20 s)", ["starting", "--servers", "1"])]
+    if find_chromium() is not None:
+        commands += [
+            ("Slider to pixels", ["latency", *few]),
+            ("A classroom of 30 (target: nothing lost, 95 % in 300 ms)", ["classroom"]),
+        ]
+    for title, (name, *arguments) in commands:
         print(f"\n{title}:", flush=True)
-        name, *arguments = command
         subprocess.run([sys.executable, "-m", f"tests.benchmarks.{name}", *arguments], check=False)
 
 

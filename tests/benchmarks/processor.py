@@ -5,51 +5,21 @@ A clock counts what neighbours take as well. The system counts what each process
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from pathlib import Path
-
-TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
+import psutil
 
 
 def worked(process: int) -> float:
     """What a process has worked so far, all of its threads [s]; 0 where it is gone."""
     try:
-        text = Path(f"/proc/{process}/stat").read_text()
-    except OSError:
+        times = psutil.Process(process).cpu_times()
+    except psutil.NoSuchProcess:
         return 0.0
-    fields = text.rsplit(")", 1)[1].split()  # its name may hold anything
-    return (int(fields[11]) + int(fields[12])) / TICKS
+    return float(times.user + times.system)
 
 
 def resident(process: int) -> float:
-    """The memory that a process holds [MB]; 0 where it is gone."""
-    try:
-        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
-    except OSError:
-        return 0.0
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-def started_by(process: int) -> Iterator[int]:
-    """The processes that one has started, and those that they have."""
-    try:
-        tasks = list(Path(f"/proc/{process}/task").iterdir())
-        children = [int(name) for task in tasks for name in (task / "children").read_text().split()]
-    except OSError:
-        return
-    for child in children:
-        yield child
-        yield from started_by(child)
-
-
-def is_browser(process: int) -> bool:
-    """Whether a process is one of Chromium's."""
-    try:
-        program = Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]
-    except OSError:
-        return False
-    return b"chrom" in program
+    """The memory that a process holds [MB]."""
+    return float(psutil.Process(process).memory_info().rss) / 1e6
 
 
 def worked_by_kind(server: int) -> dict[str, float]:
@@ -57,8 +27,12 @@ def worked_by_kind(server: int) -> dict[str, float]:
 
     Of the "server", the "browser" and the "hand" that moves the mouse, which no page has to carry.
     """
-    found = {"hand": worked(os.getpid()), "server": 0.0, "browser": 0.0}
-    for process in started_by(os.getpid()):
-        kind = "server" if process == server else "browser" if is_browser(process) else "hand"
-        found[kind] += worked(process)
+    found = {"hand": worked(psutil.Process().pid), "server": 0.0, "browser": 0.0}
+    for process in psutil.Process().children(recursive=True):
+        try:
+            browser = "chrom" in process.exe()
+        except psutil.Error:
+            continue
+        kind = "server" if process.pid == server else "browser" if browser else "hand"
+        found[kind] += worked(process.pid)
     return found

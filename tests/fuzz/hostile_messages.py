@@ -18,6 +18,7 @@ from bearing_explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.state.field_values import SHOWN_FIELDS
 
 from tests.fuzz.inputs import NUMBERS, TOKENS, plain_value, text_like
+from tests.helpers.page_client import message
 
 LARGEST = 3_500_000
 """Characters of the largest message: below what the server takes in one."""
@@ -81,18 +82,7 @@ def patch(*events: Any) -> Frames:
 
 def component_event(model: Any, data: Any, name: Any = "data_event") -> dict[str, Any]:
     """A message of a component's script."""
-    values = {"type": "map", "entries": [["model", {"id": model}], ["data", notation(data)]]}
-    event = {"type": "event", "name": name, "values": values}
-    return {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
-
-
-def notation(value: Any) -> Any:
-    """Plain data as the page's scripts write it: objects are maps."""
-    if isinstance(value, dict):
-        return {"type": "map", "entries": [[k, notation(v)] for k, v in value.items()]}
-    if isinstance(value, list | tuple):
-        return [notation(item) for item in value]
-    return value.hex() if isinstance(value, bytes) else value
+    return message(name, model={"id": model}, data=data)
 
 
 def broken(random_: random.Random, value: Any) -> Any:
@@ -131,8 +121,9 @@ def wrong_events(random_: random.Random, ids: Ids) -> Frames:
     new = random_.choice(
         (made, [made], {"type": "ndarray", "shape": [10**9]}, 1, plain_value(random_))
     )
+    names = ("tap", "document_ready", "data_event", "x")
     kinds = ("RootAdded", "RootRemoved", "TitleChanged", "ColumnDataChanged", "ColumnsPatched", "x")
-    attributes = (
+    attributes = [
         "inner_width",
         "data",
         "visible",
@@ -142,14 +133,12 @@ def wrong_events(random_: random.Random, ids: Ids) -> Frames:
         "children",
         "state",
         "esm",
-    )
+    ]
     event = random_.choice(
         (
             {"kind": random_.choice(kinds), "model": random_.choice((made, {"id": name}))},
             {"kind": "ModelChanged", "model": {"id": name}, "attr": random_.choice(attributes)},
-            component_event(
-                name, new, random_.choice(("tap", "document_ready", "data_event", "x", None))
-            ),
+            component_event(name, new, random_.choice((*names, None))),
         )
     )
     return patch({"attr": "data", "data": new, "new": new, "title": "x", **event})
@@ -171,11 +160,8 @@ def large(random_: random.Random, ids: Ids) -> Frames:
     )
     if way < len(bodies):
         return [header(), "{}", f'{{"events": [{bodies[way]}]}}']
-    return patch(
-        component_event(
-            ids.get("Controls", "p1"), {"mark": 1, "floor": {"name": "a", "text": text}}
-        )
-    )
+    floor = {"mark": 1, "floor": {"name": "a", "text": text}}
+    return patch(component_event(ids.get("Controls", "p1"), floor))
 
 
 def framing(random_: random.Random, ids: Ids) -> Frames:
@@ -205,10 +191,8 @@ def upload(random_: random.Random, ids: Ids) -> Frames:
     """A piece of a file with blocks of bytes that are there, or are not."""
     block = random_.randbytes(random_.choice((0, 1, 5_000, 2**20)))
     data = random_.choice(({"id": "b1"}, {"id": "other"}, "!", None))
-    event = component_event(ids.get("FileUpload", "p1"), {"type": "piece", "of": 1})
-    event["msg_data"]["values"]["entries"][1][1]["entries"].append(
-        ["content", {"type": "bytes", "data": data}]
-    )
+    piece = {"type": "piece", "of": 1, "content": {"type": "bytes", "data": data}}
+    event = component_event(ids.get("FileUpload", "p1"), piece)
     frames = [header(num_buffers=random_.choice((0, 1, 1, 2))), *patch(event)[1:]]
     return [*frames, '{"id": "b1"}', block]
 

@@ -11,16 +11,10 @@ from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
 
+import h5py
 import numpy as np
 import scipy.io
-from bearing_explorer.measurement.form import (
-    columns_of,
-    guess,
-    questions,
-    read_form,
-    reasons,
-    said,
-)
+from bearing_explorer.measurement import form as forms
 from bearing_explorer.state.address import opened, place_of, write
 from bearing_explorer.state.scene_editor import SceneEditor
 
@@ -115,9 +109,7 @@ def csv_texts() -> list[str]:
     times, signal = np.arange(600) / 8192.0, _signal()
     plain = "\n".join(f"{value:.5f}" for value in signal)
     pairs = "\n".join(f"{t:.7f},{v:.5f}" for t, v in zip(times, signal, strict=True))
-    german = "\n".join(
-        f"{t:.7f};{v:.5f}".replace(".", ",") for t, v in zip(times, signal, strict=True)
-    )
+    german = pairs.replace(",", ";").replace(".", ",")
     stamps = "\n".join(
         f"2024-02-29T23:59:{59 + t:09.6f},{v:.5f}" for t, v in zip(times, signal, strict=True)
     )
@@ -168,14 +160,38 @@ def matlab_files() -> list[bytes]:
     return made
 
 
+def hdf5_files() -> list[bytes]:
+    """Small files as measuring programs write them."""
+    made = []
+    for options in ({}, {"compression": "gzip", "chunks": (100,)}):
+        file = io.BytesIO()
+        with h5py.File(file, "w") as writer:
+            data = writer.create_dataset("bearing/acc_y", data=_signal(400), **options)
+            data.attrs["unit"], data.attrs["sample_rate"] = "g", 12_000.0
+        made.append(file.getvalue())
+    return made
+
+
+def broken_files() -> dict[str, Callable[[random.Random], bytes]]:
+    """A file of each format, of random numbers, by the ending of its name."""
+    texts, waves, matrices, trees = csv_texts(), wav_files(), matlab_files(), hdf5_files()
+    return {
+        "csv": lambda r: text_like(r, texts).encode("utf-8", "surrogatepass"),
+        "wav": lambda r: bytes_like(r, waves),
+        "mat": lambda r: bytes_like(r, matrices),
+        "h5": lambda r: bytes_like(r, trees),
+    }
+
+
 def _table(content: bytes) -> object:
     table = read_table("a file", content)
-    form = guess(table, 30.0)
-    for words in (*questions(table).values(), *reasons(table).values(), said(table)):
+    form = forms.guess(table, 30.0)
+    asked, given = forms.questions(table), forms.reasons(table)
+    for words in (*asked.values(), *given.values(), forms.said(table)):
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
-    y = form["y"] or next(value for value, _ in columns_of(table)[::-1])
-    return read_form(table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"})
+    y = form["y"] or next(value for value, _ in forms.columns_of(table)[::-1])
+    return forms.read_form(table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"})
 
 
 def _addresses() -> list[str]:
@@ -201,19 +217,13 @@ def targets() -> list[Target]:
     """All of them."""
     scenes, sweeps, floors, bearings = _texts(), _sweeps(), _floors(), _bearings()
     bearing_bytes = [text.encode() for text in bearings]
-    tables, waves, matrices, addresses = csv_texts(), wav_files(), matlab_files(), _addresses()
-
-    def csv_file(random_: random.Random) -> bytes:
-        return text_like(random_, tables).encode("utf-8", "surrogatepass")
-
+    files, addresses = broken_files(), _addresses()
     return [
         Target("scene", lambda r: text_like(r, scenes), Scene.from_toml),
         Target("sweep", lambda r: text_like(r, sweeps), grid_from_toml),
         Target("floor", lambda r: text_like(r, floors), read_floor),
         Target("bearings", lambda r: text_like(r, bearings), read_catalogue),
         Target("bearings file", lambda r: bytes_like(r, bearing_bytes), read_catalogue),
-        Target("csv", csv_file, _table),
-        Target("wav", lambda r: bytes_like(r, waves), _table),
-        Target("matlab", lambda r: bytes_like(r, matrices), _table),
+        *(Target(name, files[name], _table) for name in ("csv", "wav", "mat")),
         Target("address", lambda r: text_like(r, addresses), _open_address),
     ]

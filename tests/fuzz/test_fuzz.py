@@ -18,8 +18,8 @@ def test_broken_inputs_are_taken_or_refused_in_a_sentence(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # a library that a file may crash is given its own process, and takes fewer
-    inputs = INPUTS // 7 if name == "matlab" else INPUTS
-    if name != "matlab":
+    inputs = INPUTS // 7 if name == "mat" else INPUTS
+    if name != "mat":
         read_in_this_process(monkeypatch)
     [target] = [target for target in targets() if target.name == name]
     with warnings.catch_warnings():

@@ -1,4 +1,4 @@
-"""A small share of ``python -m tests.benchmarks.hostile``: other messages than it begins with."""
+"""Small shares of the benchmarks `hostile` and `mutated_files`: other messages and files."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from bearing_explorer.serve.serving import Limits
 
+from tests.benchmarks.mutated_files import run
 from tests.fuzz.attacker import Tally, attack
 from tests.fuzz.hostile_messages import GOOD, SHAPES, component_event, patch
 from tests.helpers.page_client import PageClient
@@ -59,3 +60,12 @@ def test_good_messages_of_the_page_are_taken(caplog: pytest.LogCaptureFixture) -
     with caplog.at_level(logging.WARNING):
         served(send, Limits())
     assert not any(record.exc_info for record in caplog.records)
+
+
+@pytest.mark.proof
+def test_each_mutated_file_has_an_answer_and_leaves_nothing_behind() -> None:
+    tally, turns, log = run(12, 1_000_001)
+    assert turns, "the loop was watched"
+    assert tally.faults == []
+    assert 0 < tally.refused.total() < 12, "some can still be read"
+    assert "Traceback" not in log

@@ -75,8 +75,7 @@ class PageClient:
         await self.open_socket()
         reply = await self.request("PULL-DOC-REQ")
         self._learn(reply["doc"])
-        ready = {"type": "event", "name": "document_ready", "values": {"type": "map"}}
-        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready})
+        await self.patch(message("document_ready"))
 
     async def open_socket(self, origin: str | None = None) -> None:
         """The websocket alone; also once more."""
@@ -132,26 +131,25 @@ class PageClient:
         await self.send_frames(json.dumps(header), "{}", json.dumps(content or {}))
         return await asyncio.wait_for(future, seconds)
 
-    async def patch(self, *events: dict[str, Any]) -> None:
-        """Send events of the document, not waiting for an answer."""
+    async def patch(self, *events: dict[str, Any], **buffers: bytes) -> None:
+        """Send events of the document, not waiting for an answer; and blocks of bytes by name."""
         self._count += 1
-        header = {"msgid": f"c{self._count}", "msgtype": "PATCH-DOC"}
+        header = {"msgid": f"c{self._count}", "msgtype": "PATCH-DOC", "num_buffers": len(buffers)}
         await self.send_frames(json.dumps(header), "{}", json.dumps({"events": list(events)}))
+        for name, block in buffers.items():
+            await self.send_frames(json.dumps({"id": name}), block)
 
-    async def say(self, component: str, data: Any) -> None:
+    async def say(self, component: str, data: Any, **buffers: bytes) -> None:
         """A message of one of the page's components, as `model.send_msg` sends it.
 
         `component` is the name of its class.
         """
-        values = _map({"model": {"id": self.ids[component]}, "data": data})
-        event = {"type": "event", "name": "data_event", "values": values}
-        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event})
+        model = {"id": self.ids[component]}
+        await self.patch(message("data_event", model=model, data=data), **buffers)
 
     async def press(self, label: str) -> None:
         """Press a button of Panel."""
-        values = _map({"model": {"id": self.ids[label]}})
-        event = {"type": "event", "name": "button_click", "values": values}
-        await self.patch({"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event})
+        await self.patch(message("button_click", model={"id": self.ids[label]}))
 
     async def choose(self, label: str, value: str) -> None:
         """Choose an option of a list of Panel, or type text into a field."""
@@ -304,7 +302,8 @@ class PageClient:
             if isinstance(shown, dict) and shown.get("type") == "object":
                 name = shown["name"].rstrip("0123456789")
                 self.ids[name] = made["id"]
-                self.components[name] = _plain_map(shown.get("attributes", {}))
+                given = shown.get("attributes", {})
+                self.components[name] = {key: _plain(value) for key, value in given.items()}
 
     def _learn_packed_source(self, args: dict[str, Any]) -> None:
         columns = args["columns"]
@@ -315,13 +314,19 @@ class PageClient:
             self._known_ranges[index] = moved["id"]
 
 
-def _map(value: Any) -> Any:
-    """Plain data as the page's scripts write it: objects are maps."""
-    if isinstance(value, dict) and set(value) != {"id"}:
-        return {"type": "map", "entries": [[k, _map(v)] for k, v in value.items()]}
-    if isinstance(value, list):
-        return [_map(item) for item in value]
-    return value
+def message(name: str, **values: Any) -> dict[str, Any]:
+    """An event of the page, as Bokeh sends it."""
+    event = {"type": "event", "name": name, "values": notation(values)}
+    return {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+
+
+def notation(value: Any) -> Any:
+    """Plain data as the page's scripts write it: objects are maps, but for what Bokeh looks up."""
+    if isinstance(value, dict) and set(value) != {"id"} and value.get("type") != "bytes":
+        return {"type": "map", "entries": [[k, notation(v)] for k, v in value.items()]}
+    if isinstance(value, list | tuple):
+        return [notation(item) for item in value]
+    return value.hex() if isinstance(value, bytes) else value
 
 
 def _plain(value: Any) -> Any:
@@ -331,10 +336,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list):
         return [_plain(item) for item in value]
     return value
-
-
-def _plain_map(attributes: dict[str, Any]) -> dict[str, Any]:
-    return {name: _plain(value) for name, value in attributes.items()}
 
 
 def _models(value: Any) -> list[dict[str, Any]]:

@@ -53,7 +53,6 @@ from scipy.integrate import DOP853, LSODA
 from scipy.optimize import brentq
 
 from tests.reference.event_march import Trace, apart, integrate, spectrum_of
-from tests.reference.make_static_reference import FAN_RIG, LIEW_LIM
 from tests.reference.statics import DOFS, prepare, start
 
 HERE = Path(__file__).parent
@@ -61,115 +60,32 @@ MICRO, MILLI = 1e-6, 1e-3
 PUBLISHED, CHORD, EXACT_OUTER, EXACT_INNER = range(4)
 OUTSIDE, LOW_EDGE, FLOOR, HIGH_EDGE = range(4)
 
-_GYRATION = 1.25e-3
-SUPPORT = {
-    "inner_mass": 2.0,
-    "outer_mass": 3.0,
-    "stiffness_x": 212.2e6,
-    "stiffness_y": 180e6,
-    "stiffness_z": 90e6,
-    "stiffness_rx": 212.2e6 * _GYRATION,
-    "stiffness_ry": 150e6 * _GYRATION,
-    "damping_x": 1648.2,
-    "damping_y": 1200.0,
-    "damping_z": 900.0,
-    "damping_rx": 1648.2 * _GYRATION,
-    "damping_ry": 1100.0 * _GYRATION,
-    "inner_inertia": 2.0 * _GYRATION,
-    "outer_inertia": 3.5 * _GYRATION,
-}
+RIG, GENERAL = HERE / "motion_reference.npz", HERE / "general_motion_reference.npz"
+RIG_EXTENTS = {"sound": 0.0, "12.9deg": 12.9, "38.6deg": 38.6}
+"""[degrees]"""
 
 
-def load(**values: float) -> dict[str, float]:
-    """All five, zero where not given [N, N·m]."""
-    return {"fx": 0.0, "fy": 0.0, "fz": 0.0, "mx": 0.0, "my": 0.0, **values}
+def general_cases() -> dict[str, dict[str, Any]]:
+    """What goes in, as its file holds it; a new case is one more there."""
+    stored = np.load(GENERAL)
+    return {str(name): json.loads(str(stored[f"{name}/scene"])) for name in stored["cases"]}
 
 
-def defect(extent: float, depth: float, center: float, race: str, edge: str) -> dict[str, Any]:
-    """Angles in degrees, depth in µm."""
+def rig_cases(like: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The rig of the paper: bearing, load and edges `like` those of a general case."""
+    support = {"outer_mass": 2.0, "stiffness_y": 212.2e6, "damping_y": 1648.2}
     return {
-        "extent": math.radians(extent),
-        "depth": depth * 1e-6,
-        "center": math.radians(center),
-        "race": race,
-        "edge": edge,
+        name: {
+            **like,
+            "support": {**like["support"], **support},
+            "defect": {**like["defect"], "extent": math.radians(extent)},
+            "shaft_speed": 2.0 * math.pi * 7.0,
+            "contact_damping": 122.0,
+            "contact_law": "published",
+            "duration": 1.4,
+        }
+        for name, extent in RIG_EXTENTS.items()
     }
-
-
-CASES: dict[str, dict[str, Any]] = {
-    "five DOFs": {
-        "bearing": LIEW_LIM,
-        "defect": defect(40.0, 50.0, 270.0, "outer", "published"),
-        "load": load(fy=-2000.0, fz=500.0),
-        "shaft_speed": 2.0 * math.pi * 7.0,
-        "contact_damping": 300.0,
-        "contact_law": "published",
-        "dofs": DOFS,
-        "duration": 0.25,
-    },
-    "five DOFs, inner race": {
-        "bearing": LIEW_LIM,
-        "defect": defect(25.0, 20.0, 250.0, "inner", "exact"),
-        "load": load(fx=200.0, fy=-1500.0, fz=700.0, mx=2.0, my=-3.0),
-        "shaft_speed": 2.0 * math.pi * 12.0,
-        "contact_damping": 300.0,
-        "contact_law": "no tension",
-        "dofs": DOFS,
-        "duration": 0.2,
-    },
-    "three DOFs, no tension": {
-        "bearing": {**FAN_RIG, "contact_angle": math.radians(15.0)},
-        "defect": defect(12.9, 50.0, 270.0, "outer", "chord"),
-        "load": load(fy=-100.0, fz=60.0),
-        "shaft_speed": 2.0 * math.pi * 9.0,
-        "contact_damping": 600.0,
-        "contact_law": "no tension",
-        "dofs": ("x", "y", "z"),
-        "duration": 0.25,
-    },
-    "two DOFs, inner race": {
-        "bearing": FAN_RIG,
-        "defect": defect(20.0, 50.0, 250.0, "inner", "chord"),
-        "load": load(fy=-100.0),
-        "shaft_speed": 2.0 * math.pi * 15.0,
-        "contact_damping": 122.0,
-        "contact_law": "published",
-        "dofs": ("x", "y"),
-        "duration": 0.25,
-    },
-    "two DOFs, no tension": {
-        "bearing": FAN_RIG,
-        "defect": defect(12.9, 50.0, 270.0, "outer", "published"),
-        "load": load(fy=-100.0),
-        "shaft_speed": 2.0 * math.pi * 20.0,
-        "contact_damping": 600.0,
-        "contact_law": "no tension",
-        "dofs": ("x", "y"),
-        "duration": 0.25,
-    },
-}
-
-
-RIG_SUPPORT = {
-    **SUPPORT,
-    "outer_mass": 2.0,
-    "stiffness_y": 212.2e6,
-    "damping_y": 1648.2,
-}
-RIG_CASES = {
-    name: {
-        "bearing": FAN_RIG,
-        "support": RIG_SUPPORT,
-        "defect": defect(extent, 50.0, 270.0, "outer", "published"),
-        "load": load(fy=-100.0),
-        "shaft_speed": 2.0 * math.pi * 7.0,
-        "contact_damping": 122.0,
-        "contact_law": "published",
-        "dofs": ("x", "y"),
-        "duration": 1.4,
-    }
-    for name, extent in (("sound", 0.0), ("12.9deg", 12.9), ("38.6deg", 38.6))
-}
 
 
 @numba.njit
@@ -318,30 +234,13 @@ class General:
         radius = bearing[f"{cut['race']}_raceway_radius"]
         ball_radius = bearing["ball_diameter"] / 2.0
         self.relative_speed = cage - shaft if inner else cage
-        self.numbers = np.array(
-            [
-                bearing["contact_angle"],
-                bearing["groove_center_radius"],
-                bearing["groove_center_distance"],
-                bearing["radial_clearance"],
-                bearing["load_deflection_factor"],
-                case["contact_damping"],
-                cage,
-            ]
-        )
+        names = ("contact_angle", "groove_center_radius", "groove_center_distance",
+                 "radial_clearance", "load_deflection_factor")  # fmt: skip
+        self.numbers = np.array([*(bearing[n] for n in names), case["contact_damping"], cage])
         self.half, depth = cut["extent"] / 2.0, cut["depth"]
-        self.path = np.array(
-            [
-                code,
-                radius,
-                ball_radius,
-                self.half,
-                depth,
-                cut["center"],
-                self.relative_speed,
-                shaft if inner else 0.0,
-            ]
-        )
+        turn = shaft if inner else 0.0
+        shape = (code, radius, ball_radius, self.half, depth)
+        self.path = np.array([*shape, cut["center"], self.relative_speed, turn])
         self.arc = 0.0
         if self.half:
             self.arc = brentq(
@@ -452,22 +351,22 @@ def kept(name: str, motion: Trace, state: int, acceleration: int) -> dict[str, A
 
 def main() -> None:
     """Integrate all cases by both families and store what they agree on."""
-    stored: dict[str, Any] = {"cases": np.array(list(RIG_CASES))}
-    for name, case in RIG_CASES.items():
+    general = general_cases()
+    stored: dict[str, Any] = {"cases": np.array(list(RIG_EXTENTS))}
+    for name, case in rig_cases(general["two DOFs, no tension"]).items():
         motion, proof = integrated(name, case)
         stored["frequency"], density = spectrum_of(motion.acceleration)
         cut = case["defect"]
         scene = [cut["extent"], cut["depth"], case["contact_damping"], case["duration"]]
         stored |= kept(name, motion, 64, 16) | proof
         stored |= {f"{name}/scene": np.array(scene), f"{name}/density": density}
-    np.savez_compressed(HERE / "motion_reference.npz", **stored)
-    stored = {"cases": np.array(list(CASES))}
-    for name, case in CASES.items():
-        whole = {**case, "support": SUPPORT}
-        motion, proof = integrated(name, whole)
+    np.savez_compressed(RIG, **stored)
+    stored = {"cases": np.array(list(general))}
+    for name, case in general.items():
+        motion, proof = integrated(name, case)
         stored |= kept(name, motion, 32, 32) | proof
-        stored[f"{name}/scene"] = np.array(json.dumps(whole))
-    np.savez_compressed(HERE / "general_motion_reference.npz", **stored)
+        stored[f"{name}/scene"] = np.array(json.dumps(case))
+    np.savez_compressed(GENERAL, **stored)
 
 
 if __name__ == "__main__":

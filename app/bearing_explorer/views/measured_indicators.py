@@ -144,6 +144,6 @@ def severity(measured: Measured, machine: str) -> str:
     ends = style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])
     return (
         f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}. For "
-        f"machines of {power} on a {support} support, boundaries {ends} mm/s as this program has "
-        "them; check them in the standard before you act on them."
+        f"machines of {power} on a {support} support, boundaries {ends} mm/s of ISO 10816-3:2009, "
+        "which it replaced; check them there before you act on them."
     )

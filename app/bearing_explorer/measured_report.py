@@ -165,5 +165,5 @@ def limits(question: Question, answer: Diagnosis, files: int) -> list[str]:
         *([NOT_FORESEEN] if answer.names_a_part else []),
         *([ONE_RECORD] if files < 2 else []),
         *([] if question.measured.in_si else [NO_SIZE]),
-        *([part_words.COUNTED.strip()] if "n_balls" in question.bearing.estimated else []),
+        *(words.strip() for words in [part_words.counted(question)] if words),
     ]

@@ -636,18 +636,24 @@ class Bearing:
 
         `name` is "bpfo", "bpfi", "ftf" or "bsf". It is what the estimated ratio of ball and pitch
         diameter may do: a number of balls that is estimated too may be one more or less, which
-        moves BPFO and BPFI by a whole part in that number and is not in here.
+        moves BPFO and BPFI by a whole part in that number and is not in here. Of tapered rollers,
+        whose number is less sure, it is.
         """
-        if not {"ball_diameter", "pitch_diameter"} & set(self.estimated):
-            return 0.0
-        gamma = self._ratio
-        part = {
-            "bpfo": gamma / (1.0 - gamma),
-            "ftf": gamma / (1.0 - gamma),
-            "bpfi": gamma / (1.0 + gamma),
-            "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
-        }
-        return inside.MEASURED.ratio_spread * part[checks.choice("name", name, tuple(part))]
+        checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
+        ratio, counted = self.kind.estimate_spread or (inside.MEASURED.ratio_spread, 0)
+        spread = 0.0
+        if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
+            gamma = self._ratio
+            part = {
+                "bpfo": gamma / (1.0 - gamma),
+                "ftf": gamma / (1.0 - gamma),
+                "bpfi": gamma / (1.0 + gamma),
+                "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
+            }
+            spread = ratio * part[name]
+        if "n_balls" in self.estimated and name in ("bpfo", "bpfi"):
+            spread += counted / self.n_balls
+        return spread
 
 
 @lru_cache(maxsize=256)

@@ -9,8 +9,14 @@ Rollers are known better. The diameters of both raceways are standard (DIN 5412-
 diameter and pitch circle; C_0r then gives the number times the length that touches, which is a
 whole number of millimetres: that decides the number.
 
+Tapered rollers have no standard raceways, and their lengths are no whole numbers. C_r and C_0r
+together give the diameter all the same: C_r^(9/7)/C_0r goes with D^(8/21), and hardly with their
+number. What that leaves open, the number against the length, is taken so that rollers fill nine
+tenths of their circle.
+
 The rule has no constant that was fitted to a bearing whose inside is published. What it gives for
-those, which is how far to trust it, is in `MEASURED`, and a test measures it anew.
+those, which is how far to trust it, is in `MEASURED`, and a test measures it anew. Of tapered
+rollers too few are published: `OTHER_MAKER` is what the ratings of another maker would have given.
 """
 
 from __future__ import annotations
@@ -48,6 +54,14 @@ TIGHTEST = 1.02
 
 ROLLER_FILL = (0.72, 0.90, 0.815, 0.03)
 """Rollers of a row over those that would touch each other: least, most, usual and its spread."""
+
+
+TAPERED_FILL = 0.90
+"""The same of tapered rollers, in a cage of pressed steel: assumed."""
+
+ROLLER_SHARE = (0.25, 0.75)
+"""Roller diameter over the height of the cross-section, within which tapered ones are looked for.
+"""
 
 
 class Spread(NamedTuple):
@@ -120,8 +134,35 @@ MEASURED = Measured(
 )
 
 
-def accuracy() -> str:
-    """Accuracy of an estimated inside, in sentences."""
+class OtherMaker(NamedTuple):
+    """Tapered rollers from the ratings of a second maker against those from the first's.
+
+    Attributes
+    ----------
+    same, bearings
+        with how many the number of rollers is the same, of how many; of the others it is one off.
+    ratio, ratio_spread
+        relative difference of roller over pitch diameter: the median, and what 19 of 20 stay below.
+    """
+
+    same: int
+    bearings: int
+    ratio: float
+    ratio_spread: float
+
+
+OTHER_MAKER = OtherMaker(same=52, bearings=64, ratio=0.0045, ratio_spread=0.0198)
+
+
+def accuracy(tapered: bool = False) -> str:
+    """Accuracy of an estimated inside, of tapered rollers or of any other, in sentences."""
+    if tapered:
+        return (
+            "No table of the insides of such bearings was found to measure that by. From the "
+            "ratings of another maker follows a ratio of roller and pitch diameter within "
+            f"{percent(OTHER_MAKER.ratio_spread, 2)} for 19 of 20, and one roller more or less for "
+            f"{OTHER_MAKER.bearings - OTHER_MAKER.same} of {OTHER_MAKER.bearings}: count them."
+        )
     return (
         f"So estimated, {MEASURED.right} of {MEASURED.bearings} bearings whose inside is published "
         f"have the right number of balls, and 19 of 20 of those a BPFO within "
@@ -204,10 +245,52 @@ def rollers_from_raceways(
     whole = math.pi * pitch / D
     least, most, usual, spread = ROLLER_FILL
     Z = np.arange(math.ceil(least * whole), math.floor(most * whole) + 1)
-    per_length = 44.0 * (1.0 - D / pitch) * Z * 1e3 * D  # [N/mm]
+    per_length = 1e-3 * ratings.roller_static_rating_per_length(Z, D, pitch)  # [N/mm]
     lengths = np.array(static_ratings)[:, None] / per_length
     parts = np.abs(lengths - np.round(lengths)) / (0.05 + 0.003 * lengths)
     parts = np.minimum(parts, 2.0)  # a length that is no whole number says no more than that
     off = np.sqrt(np.mean(parts**2, axis=0) + ((Z / whole - usual) / spread) ** 2)
     k = int(np.argmin(off))
     return Inside(int(Z[k]), D, pitch, float(off[k]), 1e-3 * float(lengths[0, k]))
+
+
+@lru_cache(maxsize=512)
+def tapered_rollers_from_ratings(
+    bore: float,
+    outside_diameter: float,
+    dynamic_rating: float,
+    static_rating: float,
+    contact_angle: float,
+) -> Inside:
+    """Tapered rollers that have both ratings of a catalogue, on the middle of both diameters.
+
+    Parameters
+    ----------
+    bore, outside_diameter
+        [m].
+    dynamic_rating, static_rating
+        C_r and C_0r [N].
+    contact_angle
+        α [rad] of the outer race.
+    """
+    pitch, cosine = 0.5 * (bore + outside_diameter), math.cos(contact_angle)
+    known = (0.5 * (outside_diameter - bore), pitch, cosine, dynamic_rating, static_rating)
+    each = [_tapered(count, *known) for count in range(8, MOST_BALLS + 1)]
+    full = math.pi * TAPERED_FILL
+    return min(each, key=lambda one: abs(one.n_balls * one.ball_diameter / pitch - full))
+
+
+def _tapered(
+    count: int, height: float, pitch: float, cosine: float, dynamic: float, static: float
+) -> Inside:
+    """The rollers of a number that have both ratings [N], in a cross-section of a height [m].
+
+    Of those that have the static rating the dynamic one grows with their diameter.
+    """
+    low, high = (share * height for share in ROLLER_SHARE)
+    for _ in range(50):
+        D = 0.5 * (low + high)
+        length = static / float(ratings.roller_static_rating_per_length(count, D, pitch, cosine))
+        C = ratings.roller_dynamic_rating(count, D, length, pitch, cosine)
+        low, high = (D, high) if dynamic > C else (low, D)
+    return Inside(count, D, pitch, 0.0, length)

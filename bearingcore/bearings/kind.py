@@ -97,6 +97,9 @@ class Kind:
         [Pa] that ISO 76 allows in a contact at rest.
     mass_unknown
         elements whose mass cannot be reckoned with, and why; empty where it can.
+    estimate_spread
+        of insides that are estimated: the relative error of element over pitch diameter that 19 of
+        20 stay below, and how many elements there may be more or less. None: as measured of balls.
     has_drawing
         True where a bearing is given either by a drawing or by the numbers of its contacts.
     picture
@@ -119,6 +122,7 @@ class Kind:
     rating_unknown: str = ""
     mass_unknown: str = ""
     static_pressure: float = ISO_76_BALLS
+    estimate_spread: tuple[float, int] | None = None
     has_drawing: bool = True
 
     def __reduce__(self) -> tuple[Callable[[str], Kind], tuple[str]]:

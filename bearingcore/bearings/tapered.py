@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from bearingcore.bearings import inside
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
 from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
@@ -112,6 +113,7 @@ class Tapered(Roller):
         "this model. A ring that tilts presses their ends on the races. The friction of the rib, "
         "and the few per cent of the load that it takes, are left out."
     )
+    estimate_spread = (inside.OTHER_MAKER.ratio_spread, 1)
     mass_unknown = "tapered rollers: a rib holds them, which is left out"
 
     def recognizes(self, bearing: Bearing) -> bool:

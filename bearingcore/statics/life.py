@@ -47,7 +47,12 @@ from typing import NamedTuple
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.drawing import WIDEST_CONFORMITY
-from bearingcore.bearings.ratings import capacity_factor, dynamic_rating, groove_ratio
+from bearingcore.bearings.ratings import (
+    capacity_factor,
+    dynamic_rating,
+    groove_ratio,
+    roller_dynamic_rating,
+)
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, thousands
 from bearingcore.common.table import ResultTable, table_of
@@ -62,9 +67,6 @@ TURNING = ("inner", "outer")
 
 HEAVIEST_SHARE = 0.5
 """Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
-
-ROLLER_MATERIAL_FACTOR = 1.1
-"""The same for cylindrical roller bearings whose rings are machined, and for tapered rollers."""
 
 
 class ContactLife(NamedTuple):
@@ -392,7 +394,16 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     if words := bearing.kind.rating_unknown:
         raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
-        return _roller_rating(bearing, bearing.roller_length)
+        return float(
+            roller_dynamic_rating(
+                bearing.n_balls,
+                bearing.ball_diameter,
+                bearing.roller_length,
+                bearing.pitch_diameter,
+                math.cos(bearing.contact_angle),
+                len(bearing.all_rows),
+            )
+        )
     if not bearing.rows_are_alike:
         each = _ratings_alone(bearing)
         return float(sum(each) * len(each) ** (POINT_CONTACT.row_power - 1.0))
@@ -412,22 +423,6 @@ def dynamic_load_rating(bearing: Bearing) -> float:
         full * min(float(wider), 1.0), bearing.n_balls, bearing.ball_diameter, cosine, rows
     )
     return float(C)
-
-
-def _roller_rating(bearing: Bearing, length: float) -> float:
-    """C_r [N] of rollers of a length [m]; see `dynamic_load_rating`.
-
-    f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
-    allows for what a real load along the roller takes.
-    """
-    cosine = math.cos(bearing.contact_angle)
-    gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
-    B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
-    shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
-    factor = 0.377 * 551.13373 * 0.83 * shape * (1.0 + B**4.5) ** (-2.0 / 9.0)
-    lies = len(bearing.all_rows) * 1e3 * length * cosine
-    C = lies ** (7.0 / 9.0) * (1e3 * bearing.ball_diameter) ** (29.0 / 27.0)
-    return float(ROLLER_MATERIAL_FACTOR * factor * C * bearing.n_balls**0.75)
 
 
 @lru_cache(maxsize=256)

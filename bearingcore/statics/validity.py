@@ -178,13 +178,15 @@ def _estimate(scene: Scene) -> Limit | None:
     if not bearing.estimated:
         return None
     spread = bearing.frequency_spread("bpfo")
-    good = f" BPFO is good to ±{percent(spread, 2)} if the number is right." if spread else ""
+    counted = bearing.kind.estimate_spread is not None
+    right = ", the number one more or less" if counted else " if the number is right"
+    good = f" BPFO is good to ±{percent(spread, 2)}{right}." if spread else ""
     return unknown(
         "inside dimensions",
         0.0,
         "",
         "they are estimated from the designation, and everything shown follows from that."
-        f"{good} {accuracy()} Give the real numbers where they are known",
+        f"{good} {accuracy(counted)} Give the real numbers where they are known",
     )
 
 

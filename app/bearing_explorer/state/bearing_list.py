@@ -166,9 +166,11 @@ def read_table(text: str) -> dict[str, CatalogueBearing] | str:
 def entry_words(one: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
     bearing = one.bearing
+    rough = bearing.estimated and bearing.kind.estimate_spread is not None
+    diameter = number(1e3 * bearing.ball_diameter, 3 if rough else 5)
     words = (
-        f"{bearing.n_balls} {bearing.kind.elements} of {number(1e3 * bearing.ball_diameter, 5)} mm "
-        f"on {number(1e3 * bearing.pitch_diameter, 5)} mm"
+        f"{'two rows of ' if bearing.rows else ''}{bearing.n_balls} {bearing.kind.elements} of "
+        f"{diameter} mm on {number(1e3 * bearing.pitch_diameter, 5)} mm"
     )
     if bearing.contact_angle:
         words += f", {number(math.degrees(bearing.contact_angle))}°"

@@ -18,10 +18,10 @@ SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""
 
 COUNTED = (
-    " The number of balls is an estimate: with another one, damage of a race shows at another "
+    " The number of {} is an estimate: with another one, damage of a race shows at another "
     "frequency and is missed. Count them, or read the frequencies off the maker's sheet."
 )
-"""Follows "no damage seen" where the number of balls follows from a designation."""
+"""Follows "no damage seen" where the number of balls or rollers follows from a designation."""
 
 LENGTH_HIDDEN = "how long the spall is does not show"
 
@@ -68,13 +68,15 @@ def plain(found: Diagnosis, question: Question) -> str:
         return (
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
             f"that modulate the vibration by {swing(found.detectable_depth)} would have shown."
-            f"{_counted(question)}"
+            f"{counted(question)}"
         )
     return found.detail
 
 
-def _counted(question: Question) -> str:
-    return COUNTED if "n_balls" in question.bearing.estimated else ""
+def counted(question: Question) -> str:
+    """Sentence on an estimated number of balls or rollers; empty of a given one."""
+    bearing = question.bearing
+    return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 
 
 def extent(found: MeasuredExtent) -> str:
@@ -126,7 +128,7 @@ def pass_on(found: Diagnosis, question: Question) -> str:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
             f"{probability(found.probability)}). Measure again at the usual time. This says "
-            f"nothing about lubrication, balance or other bearings.{_counted(question)}"
+            f"nothing about lubrication, balance or other bearings.{counted(question)}"
         )
     return f"{head}no clear result from this signal."
 

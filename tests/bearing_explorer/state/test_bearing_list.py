@@ -55,6 +55,9 @@ def found(text: str) -> list[tuple[str, str]]:
         ("NU 208", ("NU 208, cylindrical rollers", "")),
         ("nu", ("NU 208, cylindrical rollers", "")),
         ("2206", ("2206", "estimated")),
+        ("30206", ("30206 pair of tapered rollers, back to back", "")),
+        ("32208", ("32208", "estimated")),
+        ("30308 face to face", ("30308 face to face", "estimated")),
         ("0.235 in", ("NICE, MFPT", "")),
         ("5,97 mm", ("NICE, MFPT", "")),
         ("cwru", ("6205-2RS, CWRU drive end", "")),
@@ -78,7 +81,7 @@ def test_a_search_without_a_match_says_what_is_known() -> None:
 
 
 def test_every_entry_can_be_taken() -> None:
-    for text in ("", "62", "nj 3", "12", "73"):
+    for text in ("", "62", "nj 3", "12", "73", "323"):
         for one in BearingTable().search(text)["entries"]:
             assert SceneEditor("fan-rig").choose(one["choose"]) == {}
 

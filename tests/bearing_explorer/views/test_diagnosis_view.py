@@ -127,8 +127,8 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     question, found = asked("none"), diagnosed("none")
     bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
     state = panel_state(dataclasses.replace(question, bearing=bearing), found)
-    assert part_words.COUNTED in state["plain"]
-    assert part_words.COUNTED in state["pass_on"]
+    assert part_words.COUNTED.format("balls") in state["plain"]
+    assert part_words.COUNTED.format("balls") in state["pass_on"]
     rests = dict(state["facts"])["Bearing"]
     spread = 100.0 * bearing.frequency_spread("bpfo")
     said = re.search(r"estimated from the designation, so BPFO ± ([\d.]+) %$", rests)

@@ -1,0 +1,91 @@
+"""Insides that are estimated from a designation, against those that are published.
+
+    python -m tests.benchmarks.insides
+
+prints each bearing of `tests/reference/published_insides.csv` with the number of balls printed and
+estimated and the errors of ball over pitch diameter and of BPFO, the number being right.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from bearingcore.bearings.designation import inside_of, read_designation
+
+PUBLISHED = Path(__file__).parents[1] / "reference" / "published_insides.csv"
+
+
+class Judged(NamedTuple):
+    """A published inside and what the rule makes of it.
+
+    Attributes
+    ----------
+    designation, source
+        as listed.
+    count, estimated_count
+        balls or rollers, printed and estimated.
+    printed_ratio
+        D_b cos α/D_p as printed.
+    ratio, frequency
+        relative errors of the estimated ratio and of BPFO for one number of balls.
+    """
+
+    designation: str
+    source: str
+    count: int
+    estimated_count: int
+    printed_ratio: float
+    ratio: float
+    frequency: float
+
+    @property
+    def is_right(self) -> bool:
+        """True where the number of balls is the printed one."""
+        return self.count == self.estimated_count
+
+
+def judged() -> list[Judged]:
+    """All published insides."""
+    text = PUBLISHED.read_text("utf-8").splitlines()
+    lines = [line for line in text if not line.startswith("#")]
+    return [_judged(line) for line in csv.DictReader(lines, delimiter=";")]
+
+
+def _judged(line: dict[str, str]) -> Judged:
+    inside = inside_of(read_designation(line["designation"]).basic)
+    cosine = math.cos(math.radians(float(line["contact_angle_deg"])))
+    gamma, printed = inside.ball_diameter / inside.pitch_diameter * cosine, float(line["ratio"])
+    return Judged(
+        line["designation"],
+        line["source"],
+        int(line["count"]),
+        inside.n_balls,
+        printed,
+        gamma / printed - 1.0,
+        (1.0 - gamma) / (1.0 - printed) - 1.0,
+    )
+
+
+def main() -> None:
+    """Print the table and its summary."""
+    found = judged()
+    for one in sorted(found, key=lambda each: abs(each.frequency)):
+        print(
+            f"{one.designation:>6} {one.count:3d} {one.estimated_count:3d}  ratio "
+            f"{100 * one.ratio:+6.2f} %  BPFO {100 * one.frequency:+6.2f} %  {one.source}"
+        )
+    right = [abs(one.frequency) for one in found if one.is_right]
+    within = sum(error <= 0.01 for error in right)
+    print(
+        f"number right {len(right)} of {len(found)}; of those BPFO within 1 % {within}, median "
+        f"{100 * np.median(right):.2f} %, 19 of 20 within {100 * np.quantile(right, 0.95):.1f} %"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -48,6 +48,17 @@ function svg_of(view) {
   if (view.draw) return view.draw()
   const { width, height } = view.bbox
   const svg = view.export("svg", false).ctx.get_svg().cloneNode(true)
+  // the lines in the key of compared scenes are bitmaps there, as coarse as the screen
+  const key = view.model.above.find((part) => part.items)
+  const named = key?.items.filter(({ visible }) => visible) ?? []
+  const [w, h] = [key?.glyph_width, key?.glyph_height].map(String)
+  const coarse = [...svg.querySelectorAll(`image[width="${w}"][height="${h}"]`)]
+  named.forEach(({ renderers: [{ glyph }] }, i) => {
+    const [stroke, wide, dash] = [glyph.line_color, glyph.line_width, glyph.line_dash].map(({ value }) => value)
+    coarse[i].replaceWith(set_all(document.createElementNS(SVG, "line"), {
+      x2: w, y1: h / 2, y2: h / 2, stroke, "stroke-width": wide, "stroke-dasharray": dash,
+      transform: coarse[i].getAttribute("transform") }))
+  })
   return set_all(svg, { width, height, viewBox: `0 0 ${width} ${height}` })
 }
 
@@ -96,7 +107,7 @@ function drawing_of_all(views, { title, key = "", scene = "", link = "" }) {
   const left = Math.min(...boxes.map((box) => box.left)), top = Math.min(...boxes.map((box) => box.top))
   const wide = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
   const high = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
-  const width = Math.max(wide, LEAST_WIDTH)
+  const width = Math.max(wide + 2 * PAD, LEAST_WIDTH)
   const look = getComputedStyle(document.documentElement)
   const [ink, soft, paper] = ["--ink", "--ink-soft", "--card"].map((name) => look.getPropertyValue(name))
   let height = PAD
@@ -112,7 +123,7 @@ function drawing_of_all(views, { title, key = "", scene = "", link = "" }) {
   put(title, 15, ink, { "font-weight": 620 })
   put(key, 12, soft)
   parts.push(...views.map((view, i) => set_all(with_own_ids(svg_of(view), `figure${i}`),
-    { x: boxes[i].left - left, y: boxes[i].top - top + height })))
+    { x: PAD + boxes[i].left - left, y: boxes[i].top - top + height })))
   height += high + 6
   put(scene, 12, ink)
   put(link, 11, soft)

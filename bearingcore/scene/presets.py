@@ -149,7 +149,8 @@ def _pair_7208(
         ),
         f"Two 7208 angular-contact bearings of 25° side by side on a shaft, {label}: {meaning}. By "
         "ISO 15: bore 40 mm, outside diameter 80 mm, width 18 mm each. Computed: rows 18 mm apart, "
-        f"as wide as one bearing. Assumed: the inside of the preset 7208-25deg in each row, {held};"
+        f"as wide as one bearing. Assumed here: the inside of the preset 7208-25deg in each "
+        f"row, {held};"
         f" the loads; the defect, in the first row; {ASSUMED}",
     )
 
@@ -178,10 +179,10 @@ _PRESETS: Mapping[str, Preset] = {
             edge="published",
         ),
         "The angular-contact bearing of Liew and Lim that Section 3 of Petersen, Howard and "
-        "Prime (2014) studies. Printed: balls, groove radius, groove distance, contact angle, "
-        "clearance, load-deflection factor, loads. Assumed: pitch diameter (twice the groove "
-        "centre radius), raceway radii (that radius plus and minus a ball radius), speed; it "
-        "has no published rotor, so that of the fan rig is used.",
+        "Prime (2014) studies. From the source: balls, groove radius, groove distance, contact "
+        "angle, clearance, load-deflection factor, loads. Assumed here: pitch diameter (twice the "
+        "groove centre radius), raceway radii (that radius plus and minus a ball radius), speed; "
+        "it has no published rotor, so that of the fan rig is used.",
     ),
     "fan-rig": Preset(
         "Fan rig, deep groove bearing",
@@ -204,8 +205,8 @@ _PRESETS: Mapping[str, Preset] = {
             edge="published",
         ),
         "The fan rig's deep-groove bearing of Section 4 and Table 1 of Petersen, Howard and "
-        "Prime (2014). Printed: balls, radii, clearance, load-deflection factor, masses, "
-        "radial support, load, speed. Assumed: groove centre distance 50 µm (without effect "
+        "Prime (2014). From the source: balls, radii, clearance, load-deflection factor, masses, "
+        "radial support, load, speed. Assumed here: groove centre distance 50 µm (without effect "
         "on radial answers), raceway radii (pitch radius plus and minus a ball radius), and "
         "support along z and against tilt.",
     ),
@@ -216,7 +217,7 @@ _PRESETS: Mapping[str, Preset] = {
         "the best-known public fault data (there 6205-2RS JEM SKF). Published with the data: 9 "
         "balls of 7.94 mm on 39.04 mm (0.3126 and 1.537 inch), which give its defect "
         "frequencies of 3.5848 and 5.4152 times the shaft's; 1797 rpm; a fault of 0.021 inch, "
-        "here 1.3° long, and 0.011 inch deep. Assumed: diametral clearance 10 µm, the middle "
+        "here 1.3° long, and 0.011 inch deep. Assumed here: diametral clearance 10 µm, the middle "
         "of the normal class of ISO 5753; a load of 1 kN, 7 % of the dynamic rating of 14 kN; "
         f"{ASSUMED}",
     ),
@@ -226,7 +227,7 @@ _PRESETS: Mapping[str, Preset] = {
         "A deep-groove bearing of 30 mm bore and 62 mm outside diameter. Commonly given for "
         "it, though catalogues do not print the inside: 9 balls of 3/8 inch (9.525 mm) on the "
         "mean of bore and outside diameter (46 mm), which by ISO 281 give the catalogue's "
-        "dynamic rating of 19.5 kN. Assumed: diametral clearance 10 µm, load 1.5 kN (8 % of "
+        "dynamic rating of 19.5 kN. Assumed here: diametral clearance 10 µm, load 1.5 kN (8 % of "
         f"that rating), the defect, {ASSUMED}",
     ),
     "7208-15deg": _7208(15, 38, 1.0),
@@ -243,15 +244,15 @@ _PRESETS: Mapping[str, Preset] = {
         "The bearing with which a commercial code's values for ISO/TS 16281 are published "
         "(GitHub, minzhun/ISO16281). Published: 7 balls of 11.5 mm on 43.5 mm, groove radii of "
         "0.52 and 0.53 ball diameters, 210 GPa and 0.3, diametral clearance 10 µm, load 1 kN; "
-        "the lever of a tilt is half the pitch diameter there, and so it is here. Assumed: "
+        "the lever of a tilt is half the pitch diameter there, and so it is here. Assumed here: "
         "the defect, the speed, and the rotor and support of the fan rig.",
     ),
     "6203": Preset(
         "6203, deep groove bearing",
         lambda: _scene(_row(8, 6.75e-3, 28.55e-3), Load(fy=-700.0), 1500.0, *(3.0, 100e-6)),
         "A deep-groove bearing of 17 mm bore and 40 mm outside diameter, as in the data of "
-        "Paderborn University (Lessmeier and others, 2016). Printed there: 8 balls of 6.75 mm "
-        "on 28.55 mm, contact angle 0, 1500 rpm. Assumed: diametral clearance 10 µm, load "
+        "Paderborn University (Lessmeier and others, 2016). From the source: 8 balls of 6.75 mm "
+        "on 28.55 mm, contact angle 0, 1500 rpm. Assumed here: diametral clearance 10 µm, load "
         f"0.7 kN, the defect, {ASSUMED}",
     ),
     "209": Preset(
@@ -263,9 +264,9 @@ _PRESETS: Mapping[str, Preset] = {
             *(6.0, 100e-6),
         ),
         "The 209 deep-groove bearing of the examples in Harris, Rolling Bearing Analysis. "
-        "Printed: 9 balls of 12.7 mm, raceway diameters 52.291 and 77.706 mm, groove radii "
+        "From the source: 9 balls of 12.7 mm, raceway diameters 52.291 and 77.706 mm, groove radii "
         "6.6 mm, 1800 rpm. Computed: pitch diameter 65 mm, diametral clearance 15 µm. "
-        "Assumed: load 2.5 kN, the defect, steel with 210 GPa and 0.3, and the rotor and "
+        "Assumed here: load 2.5 kN, the defect, steel with 210 GPa and 0.3, and the rotor and "
         "support of the fan rig.",
     ),
     "7208-back-to-back": _pair_7208(
@@ -339,7 +340,7 @@ _PRESETS: Mapping[str, Preset] = {
             *(8.0, 100e-6),
         ),
         "A cylindrical roller bearing. By ISO 15: bore 40 mm, outside diameter 80 mm, width "
-        "18 mm. Assumed: 14 rollers of 11 mm diameter and length on 60.5 mm, a radial "
+        "18 mm. Assumed here: 14 rollers of 11 mm diameter and length on 60.5 mm, a radial "
         "clearance of 15 µm, load, speed, the defect, and the rotor and support of the fan "
         "rig. Computed: the stiffness of a steel roller between its races by Palmgren's "
         "formula. It carries radial loads only, and its rollers do not tilt here.",
@@ -362,9 +363,9 @@ _PRESETS: Mapping[str, Preset] = {
         "a cup of 14°02′10″. Assumed, as makers do not print it: 17 rollers on 46 mm, the middle "
         "of both diameters. Computed: rollers of 7.66 mm and 10.3 mm length, which have the "
         "43.5 kN and 48 kN of a catalogue (Nachi) by ISO 281 and ISO 76; their stiffness by "
-        "Palmgren's formula for steel. Assumed too: rows 30 mm apart, an axial preload of 6 µm, "
-        "loads, speed, the defect, in the first row, and the rotor and support of the fan rig. The "
-        "taper of the rollers, their swivelling and the friction of the rib are left out.",
+        "Palmgren's formula for steel. Assumed here too: rows 30 mm apart, an axial preload of "
+        "6 µm, loads, speed, the defect, in the first row, and the rotor and support of the fan "
+        "rig. The taper of the rollers, their swivelling and the friction of the rib are left out.",
     ),
 }
 

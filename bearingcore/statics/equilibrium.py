@@ -36,10 +36,10 @@ TERM_UNITS = {
 """Unit of each stiffness term."""
 
 TERM_SYMBOLS = {
-    term: "k" + "".join(DOF_SYMBOLS[DOF_NAMES[i]] for i in indices)
+    term: "k " + "".join(DOF_SYMBOLS[DOF_NAMES[i]] for i in indices)
     for term, indices in TERM_INDICES.items()
 }
-"""Symbol of each stiffness term: "kxθy" for "k_xry"."""
+"""Symbol of each stiffness term: "k xθy" for "k_xry"."""
 
 ANGLES_A_PERIOD = 121
 

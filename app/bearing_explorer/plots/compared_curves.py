@@ -110,7 +110,7 @@ def _legend(items: list[LegendItem]) -> Legend:
         label_height=12,
         padding=2,
         margin=2,
-        spacing=10,
+        spacing=8,
     )
 
 

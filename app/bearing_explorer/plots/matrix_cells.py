@@ -44,7 +44,7 @@ ZERO = "0 by symmetry"
 PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
 """Row and column of each term."""
 SYMBOLS = list(TERM_SYMBOLS.values())
-"""Symbols of the terms; all but the first letter is a subscript."""
+"""Symbols of the terms; what follows the space is a subscript."""
 NAMES = [*SYMBOLS, "Loaded balls"]
 """Names of the cells."""
 SIDES = ("left", "right", "bottom", "top")
@@ -128,7 +128,7 @@ def write_names(plot: figure, cells: Sequence[Cell]) -> None:
         {
             "x": [cell.left for cell in terms],
             "y": [cell.top for cell in terms],
-            "below": [symbol[1:] for symbol in SYMBOLS],
+            "below": [symbol[2:] for symbol in SYMBOLS],
         }
     )
     serif = {"text_font": {"value": SERIF}, "text_color": style.INK}

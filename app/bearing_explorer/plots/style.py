@@ -104,11 +104,11 @@ const si = (value, unit, digits = 3) => {
 
 NARROW = 420
 """[px] width of a frame below which there is room for short words only."""
-_LARGER = """
+LARGER = """
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
 """
 _IS_NARROW = (
-    _LARGER
+    LARGER
     + """
 let narrow = false
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
@@ -118,7 +118,7 @@ if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below
 
 def text_offset(column: str) -> dict[str, Any]:
     """Offset of texts by the pixels in a column; they grow with the type, on a projector too."""
-    code = _LARGER + "return xs.map(offset => larger*offset)"
+    code = LARGER + "return xs.map(offset => larger*offset)"
     return {"field": column, "transform": CustomJSTransform(v_func=code)}
 
 

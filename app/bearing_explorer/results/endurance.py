@@ -22,9 +22,7 @@ from bearingcore import (
 )
 from bearingcore import limits as limits_of
 from bearingcore.bearings.ball import USUAL_GROOVES
-from bearingcore.bearings.drawing import GROOVES
 from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
-from bearingcore.errors import FieldError
 from bearingcore.statics.validity import looked_at
 
 ASSUMED_GROOVES = (
@@ -110,18 +108,18 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             lasting = life(scene, rating, positions="all")
             healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
-            no_life = _why(error)
+            no_life = sentence_of(error)
     state = equilibrium(scene, looked_at(scene))
     pressures, no_pressures = None, ""
     try:
         pressures = contact_pressures(scene, state)
     except ValueError as error:
-        no_pressures = _why(error)
+        no_pressures = sentence_of(error)
     oil, no_film = None, ""
     try:
         oil = film_of(scene, inputs, state)
     except ValueError as error:
-        no_film = _why(error)
+        no_film = sentence_of(error)
     return Endurance(
         *(lasting, healthy, no_life, rating, rating_words),
         *(pressures, no_pressures, oil, no_film, assumed),
@@ -178,12 +176,3 @@ def limits(
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, state)
     return limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
-
-
-def _why(error: ValueError) -> str:
-    unknown = isinstance(error, FieldError) and error.value is None
-    if unknown and error.field in GROOVES:  # type: ignore[attr-defined]  # it is a FieldError
-        return (
-            "The groove radii of this bearing are not known: give its drawing on the tab Bearing."
-        )
-    return sentence_of(error)

@@ -184,5 +184,5 @@ def entry_words(one: CatalogueBearing) -> str:
 def origin_words(one: CatalogueBearing, own: bool) -> str:
     """Sources of the numbers of a bearing, and assumptions."""
     source = one.note or ("From a table of your own." if own else "")
-    assumed = f" Assumed: {', '.join(one.assumed)}." if one.assumed else ""
+    assumed = f" Assumed here: {', '.join(one.assumed)}." if one.assumed else ""
     return f"{source}{assumed}".strip()

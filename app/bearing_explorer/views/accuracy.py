@@ -128,7 +128,7 @@ class Accuracy(JobView[Found]):
             parts = [chart.panel for _, chart in made]
             sections += [
                 prose(f"<h3>{heading}</h3>"),
-                stack(*parts, stylesheets=[_grid(400)]),
+                stack(*parts, stylesheets=[_grid(360)]),
             ]
         self._stability = Stability()
         return [
@@ -369,13 +369,13 @@ def steps_sentence(chart: StabilityChart | None) -> str:
     for name in dict.fromkeys(t.method for t in chart.trials):
         found, limit = (v / chart.highest_frequency
                         for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
-        met = f"below {style.number(found, 2)}" if math.isfinite(found) else "at every step tried"
-        expected = f"below {style.number(limit, 2)}" if limit else "never"
+        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
+        expected = style.number(limit, 2) if limit else "none"
         words.append(f"{name} {met} (linear theory: {expected})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
-        f"Upright: linear limit. In steps a period of {frequency}, the motion diverges with "
-        f"{', '.join(words)}."
+        f"Upright: linear limit. Steps per period of the highest frequency, {frequency}, below "
+        f"which the motion diverges: {', '.join(words)}."
     )
 
 

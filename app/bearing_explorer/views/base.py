@@ -163,6 +163,8 @@ class View:
         self._results: Results | None = None
         self._has_drawn = False
         self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        #: parts of the content that are hidden without numbers
+        self._pictures: list[pn.viewable.Viewable] = []
         others = set(packed.columns)
         body = self.build(packed)
         #: its sources without numbers
@@ -172,15 +174,12 @@ class View:
             if name not in others
         }
         body = stack(*body) if isinstance(body, list) else pn.panel(body, margin=0)
-        if isinstance(body, pn.pane.Bokeh) and not self.compact:
-            # whether a figure's own pane is visible is taken back from the figure
-            body = stack(body)
         #: Bokeh's figures, in the order of the page
         self.figures = [
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
-        #: the content, where that is figures alone
-        self._picture = body if self.figures and not self.compact and _only_figures(body) else None
+        if self.figures and _only_figures(body):
+            body = self.only_with_numbers(body)
         line, rest = parts_of(self.caption())
         self._caption = Caption(
             title=self.title,
@@ -215,6 +214,15 @@ class View:
         """Make the figures, once; return one of them, a layout, or a list of what is stacked."""
         raise NotImplementedError
 
+    def only_with_numbers(self, *parts: Any, **params: Any) -> pn.Column:
+        """The parts below one another, hidden while there are no numbers; for `build`.
+
+        A view of figures alone has them so by itself.
+        """
+        # a layout: whether a figure's own pane is visible is taken back from the figure
+        self._pictures.append(stack(*parts, **params))
+        return self._pictures[-1]
+
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Sources and ranges for these results; none where nothing comes in the packed source."""
         return {}, {}
@@ -235,13 +243,16 @@ class View:
     def say(self, results: Results | None, sentence: str) -> None:
         """Show the sentence and keep the results for the table. On the event loop only.
 
-        Without results the last ones stay, as the last picture does. Before the first picture the
-        sentence stands in its place, and no empty axes.
+        Without results the last ones stay, as the last picture does. Before the first picture, and
+        where it has no numbers, the sentence stands in its place, and no empty axes.
         """
         self._results = results or self._results
-        self._has_drawn = self._has_drawn or results is not None
-        if self._picture is not None:
-            self._picture.visible = self._has_drawn
+        if results is not None:
+            self._has_drawn = not self.is_empty
+        if self._pictures:
+            for picture in self._pictures:
+                picture.visible = self._has_drawn
+            self._sentence.css_classes = list(self.sentence_looks) if self._has_drawn else []
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)

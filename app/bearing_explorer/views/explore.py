@@ -89,8 +89,13 @@ class ExplorePlane(JobView[Plane]):
     def build(self, packed: PackedSource) -> Any:
         sides = [Side.of(field) for field in SWEEPABLE.values()]
         self._plane = PlaneFigures(packed, "explore", sides)
-        self._maps = stack(*self._plane.plots, visible=False, stylesheets=[SIDE_BY_SIDE])
-        return [self.job, self._maps]
+        maps = stack(*self._plane.plots, stylesheets=[SIDE_BY_SIDE])
+        return [self.job, self.only_with_numbers(maps)]
+
+    @property
+    def is_empty(self) -> bool:
+        """Before the first map, or where no point of it has an answer."""
+        return self.found is None or self.found.missing == self.found.values.size
 
     # The form
 
@@ -164,24 +169,21 @@ class ExplorePlane(JobView[Plane]):
         return self._plane.data(field_of(shown), (x, y), _FADED if plane is None else 1.0)
 
     def sentence(self, results: Results) -> str:
-        if self._request is None:
-            return "There is no map yet."
-        plane, why = self._newest(results)
-        if plane is None:
-            faint = "Faint: an earlier map. " if self.found is not None else ""
-            return faint + (why or "This output takes a while: the map is being computed.")
-        return summary(plane)
+        plane = self._newest(results)[0]
+        if plane is not None:
+            return summary(plane)
+        return "There is no map yet." if self.found is None else "Faint: an earlier map."
 
     def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
         if results is None or self._request is None:
+            super().say(results, sentence)
             return
         self._question = question = self._request.of(results)
         plane, why = self._newest(results)
         self.found = plane or self.found
+        super().say(results, sentence)
         if self.found is not None:
             self._plane.write(field_of(self.found))
-        self._maps.visible = self.found is not None
         if self._jobs is None or self._refining == (question, self._request.stride):
             return
         if self._refining is not None:
@@ -235,7 +237,7 @@ class ExplorePlane(JobView[Plane]):
 def field_of(plane: Plane) -> Field:
     """A map as the figures take it."""
     output = plane.question.output
-    words = output.label[0].upper() + output.label[1:] if output.label[0] != "k" else output.label
+    words = output.label[0].upper() + output.label[1:] if output.label[:2] != "k " else output.label
     x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))
     return Field(x, y, words, output.unit, plane.values, plane.reasons)
 
@@ -243,20 +245,21 @@ def field_of(plane: Plane) -> Field:
 def summary(plane: Plane) -> str:
     """A sentence on a map: least and greatest value, their places, and missing points."""
     question, values = plane.question, plane.values
-    words, size = question.output.label, question.size_words(plane.stride)
+    words, size = field_of(plane).words, question.size_words(plane.stride)
     missing = ""
     if plane.missing:
         reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
         common = max(set(reasons), key=reasons.count)
         points = "1 point has" if plane.missing == 1 else f"{plane.missing} points have"
-        missing = f" {points} no answer, most often: {common.rstrip('.')}."
-    if plane.missing == values.size:
-        return f"{words[0].upper()}{words[1:]}: no point of {size} has an answer." + missing
+        why = f"no answer, most often: {common.rstrip('.')}."
+        if plane.missing == values.size:
+            return f"{words}: {points} {why}"
+        missing = f" {points} {why}"
     least, most = (
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
-    words = re.sub("^k", "k_", words)  # with its directions below
+    words = re.sub("^k ", "k_", words)  # with its directions below
     return f"{size}. {words}: {ends}.{missing}"
 
 

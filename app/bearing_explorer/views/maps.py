@@ -259,7 +259,11 @@ _SIDES_OF = (
 _ACROSS, _UP = (0, 2), 1
 _SIDE_COLUMNS = matrix_cells.sides_of(_CELLS)
 _MIDDLES = 0.5 * (_SIDE_COLUMNS["bottom"] + _SIDE_COLUMNS["top"])
-_PLACES_OF_CELLS = {**_SIDE_COLUMNS, "middle": _MIDDLES}
+_PLACES_OF_CELLS = {
+    **_SIDE_COLUMNS,
+    "middle": _MIDDLES,
+    "bar": np.array([bar.right for bar in _BARS]),
+}
 
 
 def _grid(results: Results) -> dict[str, float]:
@@ -422,9 +426,9 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         (_END % "high", "top", "top"),
         (_ZERO, "middle", "middle"),
     ):
-        at = {"x": "right", "y": y, "x_offset": 14}
+        at = {"x": "bar", "y": y, "x_offset": 4}
         write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
-    above = {"x": "right", "y": "top", "x_offset": 30, "y_offset": -6}
+    above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
     write(plot, cells, words_of(cells, _NOW), text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
     write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)

@@ -33,9 +33,11 @@ LABEL_WIDTH = 0.17  # that a name needs of the width of a spectrum
 LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
 """[px] right of the frame, for the names of bands."""
-_ROOM = """
-const room = cb_obj.outer_width < below ? 34 : usual  // names alone are shorter
-if (cb_obj.min_border_right != room) cb_obj.setv({min_border_right: room}, {sync: false})
+NARROW = 520
+"""[px] width of the figure below which the names stand alone, without their frequencies."""
+_ROOM = f"""{style.LARGER}
+const room = cb_obj.outer_width < larger*below ? 34 : larger*usual
+if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{sync: false}})
 """
 
 BAND_NAME = """
@@ -48,6 +50,7 @@ return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 BAND_WORDS = BAND_NAME + BAND_SPAN
 SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
 """The same for `style.fitting_words`."""
+_NAME_WORDS = f"{BAND_NAME}\nif (plot.min_border_right < larger*100) return name\n{BAND_SPAN}"
 
 
 def layers(colors: Any) -> Sequence[Layer]:
@@ -67,7 +70,7 @@ def layers(colors: Any) -> Sequence[Layer]:
             "modes_bands",
             1.0,
             "label_at",
-            SHORT_BAND_WORDS,
+            _NAME_WORDS,
             reads=("direction", "number"),
             x_share=True,
             in_view="y",
@@ -103,7 +106,7 @@ class NaturalFrequencies(View):
             height=HEIGHT,
             right=NAMES_WIDTH,
         )
-        room = CustomJS(args={"usual": NAMES_WIDTH, "below": style.NARROW}, code=_ROOM)
+        room = CustomJS(args={"usual": NAMES_WIDTH, "below": NARROW}, code=_ROOM)
         plot.js_on_change("outer_width", room)
         colors = by_number("direction", style.DIRECTION_COLORS)
         draw(plot, packed, layers(colors))

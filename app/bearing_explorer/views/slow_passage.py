@@ -52,7 +52,9 @@ class SlowMotion(LiveComponent):
     """Play, speed, place and volume. It moves the figures in the browser alone."""
 
     _esm = scripts("element.js", "slow_motion.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("controls.css"), asset_text("slow_motion.css")]
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text(f"{name}.css") for name in ("button", "controls", "slow_motion")
+    ]
 
 
 class SlowPassage(BearingDrawing):
@@ -95,7 +97,8 @@ class SlowPassage(BearingDrawing):
         )
         cursor = uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0)
         draw(motion, packed, [*motion_layers("slow"), cursor])
-        return [SlowMotion(), stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])]
+        figures = stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])
+        return self.only_with_numbers(SlowMotion(), figures)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         return style.bare_figure(x, y, height=340)

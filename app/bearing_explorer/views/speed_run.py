@@ -162,7 +162,7 @@ class SpeedRunSpectra(SweptView):
         along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
         box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
         choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
-        return [self.job, choices, *plots]
+        return [self.job, self.only_with_numbers(choices, *plots)]
 
     def _add_map(self, plot: figure, packed: PackedSource, dof: str) -> None:
         """The spectra as colours, with their scale."""

@@ -127,7 +127,8 @@ class OrbitStability(SweptView):
         ticks = FixedTicker(ticks=[0.0, 0.25, 0.5, 0.75, 1.0])
         bar = color_bar(size, "|μ|, stable", ticker=ticks, bar_line_color=style.STEEL_EDGE)
         plot.add_layout(bar, "right")
-        return [self.job, plot, pn.pane.HTML(legend(), sizing_mode="stretch_width", margin=0)]
+        key = pn.pane.HTML(legend(), sizing_mode="stretch_width", margin=0)
+        return [self.job, self.only_with_numbers(plot, key)]
 
     # The job
 

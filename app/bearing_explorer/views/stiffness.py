@@ -26,17 +26,19 @@ from bearingcore import STIFFNESS_TERMS, Scene
 from bearingcore.common.numbers import prefixed_span
 from bearingcore.statics.equilibrium import TERM_UNITS
 
-NARROWEST = 700
+NARROWEST = 760
 """[px] width from which a cell has room for its symbol and its value."""
+LEFT = 0.28
+"""Room for the numbers left of a cell."""
 
 
 def _cell(row: int, column: int) -> Cell:
-    return Cell(column + 0.215, column + 0.985, -row - 0.86, -row - 0.27)
+    return Cell(column + LEFT, column + 0.97, -row - 0.86, -row - 0.27)
 
 
 _NARROWEST = ":host { min-width: 560px; }"
 _CELLS = [_cell(i, j) for i, j in PLACES]
-_BALLS = Cell(0.215, 2.6, -4.86, -3.5)
+_BALLS = Cell(LEFT, 2.6, -4.86, -3.5)
 _FRAMES = [*_CELLS, _BALLS]
 _IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
 _PLACE_COLUMNS = {
@@ -218,12 +220,12 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     matrix_cells.write_names(plot, _FRAMES)
     y = [-2.36, -2.52, -2.68]
     colors = [style.DEFECTIVE, style.HEALTHY]
-    ends = {"x0": [0.215] * 2, "x1": [0.365] * 2, "y0": y[:2], "y1": y[:2]}
+    ends = {"x0": [LEFT] * 2, "x1": [LEFT + 0.15] * 2, "y0": y[:2], "y1": y[:2]}
     plot.segment(**ends, line_color=colors, line_width=[2.4, 2.0])
-    upright = {"x0": [0.29], "x1": [0.29], "y0": [y[2] - 0.06], "y1": [y[2] + 0.06]}
+    upright = {"x0": [LEFT + 0.075], "x1": [LEFT + 0.075], "y0": [y[2] - 0.06], "y1": [y[2] + 0.06]}
     plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
-    plot.scatter([0.29], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
-    legend = ColumnDataSource({"x": [0.41] * 3, "y": y, "text": ["", "", "now"]})
+    plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
+    legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", "now"]})
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, legend, "text", text_baseline="middle", **look)
     return legend
@@ -248,19 +250,23 @@ if (!unit) return rounded(row.now, 3)
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
+_FLAT = f"""
+const words = '{matrix_cells.ZERO}'
+return !row.flat ? '' : narrow ? words.replace(/ (?!.* )/, '\\n') : words
+"""
 _FOOT = "return row.foot ? rounded(%s, 4) + '°' : ''"
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
     """Zero lines, limits and values of the cells, and the ends of their cage angles."""
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
-    left = {"x": "left", "x_offset": -5, "text_align": "right"}
+    left = {"x": "left", "x_offset": -3, "text_align": "right"}
     write(plot, cells, words_of(cells, _LIMIT % "low"), y="bottom", text_baseline="bottom", **left)
     write(plot, cells, words_of(cells, _LIMIT % "high"), y="top", text_baseline="top", **left)
     now = style.fitting_words(plot, cells, _NOW, NARROWEST)
     write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
-    flat = words_of(cells, f"return row.flat ? '{matrix_cells.ZERO}' : ''")
-    write(plot, cells, flat, x="left", y="top", x_offset=6, y_offset=6, text_baseline="top")
+    flat = style.fitting_words(plot, cells, _FLAT, NARROWEST)
+    write(plot, cells, flat, x="left", y="top", x_offset=3, y_offset=6, text_baseline="top")
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
     write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
     last = words_of(cells, _FOOT % "row.foot")

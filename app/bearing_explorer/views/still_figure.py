@@ -119,7 +119,7 @@ class Figure:
         follow = sources.fill(data, ranges)
         for plot in self.view.figures:
             plot.frame_align = False  # or all would leave as much room as the one that needs most
-        plots = list(self.view.still_figures())
+        plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
         self.document = Document()
         self.document.add_root(self.layout)

@@ -130,7 +130,13 @@ class VibrationSpectra(View):
         self._wide = WideSpectra(packed, "spectrum_wide", {})
         self._axis = LookPanel(self.look_changed, [AXIS])
         self._show_axis()
-        return [self._axis, *self._narrow, *self._wide.plots]
+        high = {"min-height": "calc(var(--room) - 170px)"}
+        return self.only_with_numbers(self._axis, *self._narrow, *self._wide.plots, styles=high)
+
+    @property
+    def is_empty(self) -> bool:
+        """Where the motion ended before it had settled."""
+        return self._results is not None and not self._results.late_spectra
 
     def look_changed(self, _: str, value: str) -> None:
         """Draw over the frequency axis that was chosen."""
@@ -233,11 +239,11 @@ def loudest_words(results: Results) -> str:
             heard = (frequency >= 100.0) & (frequency <= HIGHEST)
             most = np.flatnonzero(heard)[np.argmax(density[heard])]
             words.append(
-                f"along {dof} {style.number(decibels(density[most]), 2)} dB at "
-                f"{frequency[most]:.0f} Hz"
+                f"{style.number(decibels(density[most]), 2)} dB at {frequency[most]:.0f} Hz "
+                f"along {dof}"
             )
     text = (
-        "Above 100 Hz the housing vibrates most " + style.list_words(words)
+        "Above 100 Hz the housing vibrates most with " + style.list_words(words)
         if words
         else "The housing cannot move along x or y in this scene"
     )

@@ -26,7 +26,7 @@ from bearing_explorer.views.passage_view import (
 )
 from bearingcore import Bearing
 
-ACCELERATION = style.AxisQuantity("Housing acceleration", "a", "m/s²", prefixed=True)
+ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
 NARROW = 270  # [px] of the frame: with larger type there is room for less
 
 EVENT_WORDS = f"""

@@ -67,7 +67,7 @@ const order = points.map((_, i) => i).sort((a, b) => first[b] - first[a])
 for (const i of order) {
   text[i] = ""
   const [x, y] = points[i]
-  const width = 6*larger*label[i].length, half = 6*larger
+  const width = 6*larger*label[i].length + 4, half = 6*larger
   search: for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
     for (const side of [9, -9 - width]) {
       const box = [x + side, y + height - half, x + side + width, y + height + half]

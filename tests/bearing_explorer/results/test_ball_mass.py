@@ -45,13 +45,13 @@ def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
         await until(lambda: "one" in explorer._views and sentence())
         waiting = sentence()
         # in the view itself, in the place of axes without lines; the foot says no error
-        assert not explorer._views["one"][0]._picture.visible
+        assert not explorer._views["one"][0]._pictures[0].visible
         assert explorer._views["one"][0]._caption.empty
         assert explorer.status.line["mood"] == "busy"
         compilation._left = ()
         await until(lambda: "mass" in sentence() and "compiled" not in sentence())
         drawn = sentence()
-        assert explorer._views["one"][0]._picture.visible, drawn
+        assert explorer._views["one"][0]._pictures[0].visible, drawn
         await until(lambda: explorer._loop.idle)
         explorer.stop()
         return waiting, drawn

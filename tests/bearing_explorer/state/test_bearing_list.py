@@ -24,7 +24,7 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
     assert editor.name == "209, Harris"
     assert "Harris, Rolling Bearing Analysis" in editor.note
     editor.choose({"bearing": "6804RS, FEMTO-ST"})
-    assert "Assumed: an inner groove of 0.52 ball diameters" in editor.note
+    assert "Assumed here: an inner groove of 0.52 ball diameters" in editor.note
 
 
 def test_a_bearing_of_the_same_name_replaces_the_published_one() -> None:

@@ -154,7 +154,7 @@ def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
         for own, at in zip(line, low, strict=True)
     ]
     named = {name: column[order] for name, column in bands.items()}
-    return {**named, "room": np.array(room, dtype=float), "line": 8.0 + 14.0 * line}
+    return {**named, "room": np.array(room, dtype=float), "line": 8.0 + 17.0 * line}
 
 
 def end_names(

@@ -98,7 +98,7 @@ class OverviewStiffness(View):
         plot = style.bare_figure(
             Range1d(0.0, COLUMNS, syncable=False), Range1d(-_ROWS, 0.0, syncable=False), height=110
         )
-        frames = ColumnDataSource({**_SIDES, "below": [symbol[1:] for symbol in SYMBOLS]})
+        frames = ColumnDataSource({**_SIDES, "below": [symbol[2:] for symbol in SYMBOLS]})
         frame = {"fill_color": "#FAFBFC", "line_color": style.GRID}
         add_glyph(plot, Quad, frames, "left", "right", "top", "bottom", **frame)
         look = {"x": "left", "y": "top", "text_font": value(SERIF), "text_color": style.INK}
@@ -162,7 +162,7 @@ class OverviewStiffness(View):
             return "There is no equilibrium here, so there is no stiffness to show."
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         named = [
-            f"k_{TERM_SYMBOLS[term][1:]} from "
+            f"k_{TERM_SYMBOLS[term][2:]} from "
             f"{style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
             f"{style.with_prefix(np.nanmax(values), TERM_UNITS[term])}"
             for term, scale in zip(STIFFNESS_TERMS, scales, strict=True)

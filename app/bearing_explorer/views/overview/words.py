@@ -113,7 +113,7 @@ def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     terms = [main] if own >= LEAST else []
     if abs(_change(now, before, most)) >= max(_BESIDE * own, LEAST) and most != main:
         terms.append(most)
-    return [f"k_{TERM_SYMBOLS[term][1:]} {_by(_change(now, before, term))}" for term in terms]
+    return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
 
 
 def moved_band(now: Chain, before: Chain, along: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from functools import cache
 from pathlib import Path
@@ -29,7 +30,13 @@ def asset_text(name: str) -> str:
 def scripts(*names: str) -> str:
     """The assets of these names as one script: what a component runs, after what it calls.
 
-    Without their comments, as each component brings its script to each page.
+    Without their comments, as each component brings its script to each page. HTML that a script
+    fills is a constant for it: ``caption.html`` is ``CAPTION``.
     """
-    text = "".join(asset_text(name) for name in names)
+    text = "".join(
+        f"const {Path(name).stem.upper()} = {json.dumps(asset_text(name))}\n"
+        if name.endswith(".html")
+        else asset_text(name)
+        for name in names
+    )
     return re.sub(r"^ *//.*\n", "", text, flags=re.MULTILINE)

@@ -13,7 +13,7 @@ from bokeh.embed import json_item
 from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.diagnoses import Question
 from bearing_explorer.measurement.session import Measurement
-from bearing_explorer.report import About, document, heading, html_table, html_text, mark_of
+from bearing_explorer.report import About, document, heading, mark_of
 from bearing_explorer.views import part_words
 from bearing_explorer.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
 from bearing_explorer.views.extent import SpallExtent
@@ -22,6 +22,7 @@ from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.views.measurement import MeasuredSignal
 from bearing_explorer.views.still_figure import Figure
 from bearing_explorer.views.trend import TrendOfFiles
+from bearing_explorer.widgets.facts import html_table, html_text
 from bearing_explorer.widgets.part_panel import part_html
 from bearingcore import Diagnosis
 from bearingcore.common.numbers import with_prefix

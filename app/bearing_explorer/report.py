@@ -8,7 +8,6 @@ that comes out holds no script, and its policy allows none; nothing is fetched.
 
 from __future__ import annotations
 
-import html
 import logging
 import math
 import re
@@ -31,6 +30,7 @@ from bearing_explorer.state.sentences import words_of
 from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.still_figure import Figure
+from bearing_explorer.widgets.facts import html_table, html_text
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene
@@ -165,11 +165,6 @@ def now() -> datetime:
     return datetime.now(UTC)
 
 
-def html_text(words: str) -> str:
-    """Words as HTML."""
-    return html.escape(words, quote=True)
-
-
 def _sentence(words: str) -> str:
     """A sentence in which stiffnesses have their directions under their letter, as on the page."""
     return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
@@ -257,10 +252,3 @@ def _row(field: Field, value: float) -> list[str]:
 
 def _list(sentences: Iterable[str]) -> str:
     return "<ul>" + "".join(f"<li>{html_text(sentence)}</li>" for sentence in sentences) + "</ul>"
-
-
-def html_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of cells that are HTML already."""
-    head = "".join(f"<th scope='col'>{html_text(word)}</th>" for word in heads)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

@@ -31,12 +31,19 @@ function unfolds(opener, part, changed = () => {}) {
   return open
 }
 
-// A dialog with a bar of tools. It closes by its cross, Escape, or a click outside.
-function dialog_of(label, title, tools, content) {
-  const close = button("\u00d7", () => dialog.close(), { class: "close", "aria-label": "Close" })
-  const dialog = element("dialog", { "aria-label": label, closedby: "any" },
-    element("div", { class: "bar" }, element("strong", {}, title), ...tools, close), content)
-  return dialog
+// The element that an HTML text of ours describes; `acts`: what a click does, by the ids of buttons.
+// A menu that closes gives the focus back to the button in front of it.
+function markup(text, acts = {}) {
+  const { content } = element("template", { html: text })
+  for (const [id, act] of Object.entries(acts))
+    content.getElementById(id).addEventListener("click", act)
+  for (const opener of content.querySelectorAll("[popovertarget]")) {
+    const menu = opener.nextElementSibling
+    menu.addEventListener("beforetoggle", ({ newState }) => {
+      if (newState === "closed" && menu.contains(menu.getRootNode().activeElement)) opener.focus()
+    })
+  }
+  return content.firstElementChild
 }
 
 // Calls `write` now and whenever one of these properties of the model changes.

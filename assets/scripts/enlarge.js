@@ -4,7 +4,9 @@
 const LAID_OUT = 150   // ms until figures have followed a change of their width
 const SENTENCE = 70    // px below enlarged figures
 
-function enlarging(model) {
+function enlarging(model, root) {
+  const part = (id) => root.querySelector(`#${id}`)
+  const enlarge = part("enlarge"), name = part("cell"), steps = part("steps")
   const host = () => enlarge.getRootNode().host?.getRootNode().host  // the view
   const is_large = () => Boolean(host()?.matches(".enlarged"))
   const heights = new Map()  // of its figures, while it is enlarged
@@ -20,7 +22,6 @@ function enlarging(model) {
   }
 
   let cell = -1  // the one that fills the drawing; -1 if all are shown
-  const name = element("span", { "aria-live": "polite" })
   const show_cell = (number) => {
     const [view] = figures_on_screen(model.figures)
     if (!view) return
@@ -34,10 +35,9 @@ function enlarging(model) {
     name.textContent = cell < 0 ? words : `${words}, ${cell + 1} of ${model.cells.length}`
   }
   const step = (by) => show_cell(cell < 0 ? (by > 0 ? 0 : model.cells.length - 1) : (cell + by + model.cells.length) % model.cells.length)
-  const steps = element("span", { class: "steps", role: "group", "aria-label": "Cells", hidden: "" },
-    button("\u2039", () => step(-1), { "aria-label": "Previous cell", title: "Previous (\u2190)" }), name,
-    button("\u203a", () => step(1), { "aria-label": "Next cell", title: "Next (\u2192)" }),
-    button("All", () => show_cell(-1), { "aria-label": "All cells" }))
+  part("previous").addEventListener("click", () => step(-1))
+  part("next").addEventListener("click", () => step(1))
+  part("all").addEventListener("click", () => show_cell(-1))
 
   const set_large = (large) => {
     const view = host()
@@ -55,14 +55,14 @@ function enlarging(model) {
     if (model.cells.length) show_cell(-1)
     enlarge.focus()
   }
-  const enlarge = button("Enlarge", () => set_large(!is_large()), { class: "enlarge" })
+  enlarge.addEventListener("click", () => set_large(!is_large()))
   const keys = (event) => {
     if (!enlarge.isConnected) return removeEventListener("keydown", keys)
     if (!is_large() || event.defaultPrevented) return
     const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key]
     const [at] = event.composedPath()
-    if (event.key === "Escape" && !at.closest?.("dialog, [popover=auto]")) set_large(false)
-    else if (by && model.cells.length && !at.matches?.("input, select, [role=menuitem]")) {
+    if (event.key === "Escape" && !at.closest?.("dialog, [popover]:not(.view)")) set_large(false)
+    else if (by && model.cells.length && !at.matches?.("input, select")) {
       event.preventDefault()
       step(by)
     }
@@ -76,5 +76,5 @@ function enlarging(model) {
     if (!is_large()) set_large(true)
     show_cell(at)
   })
-  return { enlarge, steps }
+  return enlarge
 }

@@ -322,19 +322,16 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     expect(rest_of_it).to_be_hidden()
 
     opener = view.get_by_role("button", name="Export")
-    expect(opener).to_have_attribute("aria-expanded", "false")
     opener.press("Enter")
-    expect(opener).to_have_attribute("aria-expanded", "true")
-    items = view.get_by_role("menuitem")
+    items = view.get_by_role("dialog", name="Export").get_by_role("button")
     expect(items).to_have_count(6)
     expect(items.nth(0)).to_be_focused()
-    for key, index in (("ArrowDown", 1), ("End", 5), ("ArrowDown", 0), ("ArrowUp", 5)):
+    for key, index in (("Tab", 1), ("Tab", 2), ("Shift+Tab", 1)):
         page.keyboard.press(key)
         expect(items.nth(index)).to_be_focused()
     page.keyboard.press("Escape")
     expect(items.nth(0)).to_be_hidden()
     expect(opener).to_be_focused()
-    expect(opener).to_have_attribute("aria-expanded", "false")
     export(view, "table").click()
     dialog = view.get_by_role("dialog")
     expect(dialog).to_be_visible()

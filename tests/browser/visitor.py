@@ -78,7 +78,7 @@ class Visitor:
         """Ask for something in the Export menu of a card: the first is 0."""
         opener = self.main.get_by_role("button", name=re.compile("^Export"))
         opener.nth(card).click()
-        self.main.get_by_role("menuitem", name=re.compile(what)).click()
+        self.main.get_by_role("dialog").get_by_role("button", name=re.compile(what)).click()
 
     # --- the controls -----------------------------------------------------------------------------
 

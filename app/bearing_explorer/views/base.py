@@ -48,6 +48,7 @@ from bearing_explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
 from bearing_explorer.widgets.controls import Rows
+from bearing_explorer.widgets.facts import table_to_read
 from bearing_explorer.widgets.form import stack
 from bearingcore import Scene
 from bearingcore.common.table import as_csv
@@ -82,8 +83,8 @@ class Caption(LiveComponent):
     #: whether there is nothing at all to take along, no lines of Python either
     nothing = param.Boolean(default=False)
 
-    _esm = scripts("element.js", "menu.js", "figure_export.js", "enlarge.js", "caption.js")
-    _stylesheets: ClassVar[list[str]] = [asset_text("caption.css")]
+    _esm = scripts("element.js", "figure_export.js", "enlarge.js", "caption.html", "caption.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("menu.css"), asset_text("caption.css")]
 
 
 class Sentence(LiveComponent):
@@ -329,6 +330,10 @@ class View:
     def _answer(self, event: Any) -> None:
         if event.data == "csv":
             self._caption.send({"csv": self.csv()})
+        if event.data == "table":
+            columns = {} if self._results is None else self.table(self._results)
+            table, count = table_to_read(columns)
+            self._caption.send({"table": table, "count": count})
         if event.data == "python":
             self._caption.send({"python": self.python()})
 

@@ -22,9 +22,9 @@ class ShareBar(JSComponent):
     state = param.Dict(default={})
 
     _esm = scripts(
-        "element.js", "menu.js", "figure_export.js", "report.js", "asking.js", "share.js"
+        "element.js", "figure_export.js", "report.js", "asking.js", "share.html", "share.js"
     )
-    _stylesheets: ClassVar[list[str]] = [asset_text("share.css")]
+    _stylesheets: ClassVar[list[str]] = [asset_text("menu.css"), asset_text("share.css")]
 
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)

@@ -34,29 +34,18 @@ from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
 from tests.helpers.measuring import measuring, signal
 
 FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
+COMPARED = [
+    Compared(presets["fan-rig"].replace(n_balls=11), 'a "name"'),
+    Compared(presets["liew-lim"], "another"),
+]
+TWO = (Defect(0.3, 50e-6, 4.7), Defect(0.2, 30e-6, 1.0, floor=RoughFloor(2e-6, 2e-4)))
+HEAVY = presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass")
 SCENES: dict[str, tuple[Scene, float, list[Compared]]] = {
     "dragged": (FAN_RIG, 0.1, []),
-    "compared": (
-        FAN_RIG,
-        0.0,
-        [
-            Compared(presets["fan-rig"].replace(n_balls=11), 'a "name"'),
-            Compared(presets["liew-lim"], "another"),
-        ],
-    ),
+    "compared": (FAN_RIG, 0.0, COMPARED),
     "inner race": (presets["6205"].replace(race="inner", extent=0.1), 5.0, []),
-    "two defects": (
-        presets["liew-lim"].replace(
-            defect=(Defect(0.3, 50e-6, 4.7), Defect(0.2, 30e-6, 1.0, floor=RoughFloor(2e-6, 2e-4)))
-        ),
-        0.05,
-        [],
-    ),
-    "balls with mass": (
-        presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass"),
-        0.05,
-        [],
-    ),
+    "two defects": (presets["liew-lim"].replace(defect=TWO), 0.05, []),
+    "balls with mass": (HEAVY, 0.05, []),
 }
 VIEWS = {view.name: view for section in SECTIONS for view in section.views}
 PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz", "y_from": "8",
@@ -152,11 +141,17 @@ MEASURED_ANEW = {"accuracy": ("time_s",), "alternatives": ("time_s", "own_time_s
 
 
 def test_the_lines_give_the_numbers_of_the_view(tmp_path: Path) -> None:
-    """One test for all cases: parallel processes would each run all of the lines."""
+    """One test for all cases: parallel processes would each run all of the lines.
+
+    They are few, and import the program alone.
+    """
     made = made_by_the_lines(tmp_path)
     assert [lines for lines in made.values() if isinstance(lines, str)] == []
     for case, (scene, columns) in made.items():
         view, results = shown(case)
+        lines = view.python()
+        assert lines.count("\n") <= 30 or "from_toml" in lines, case
+        assert modules_in(lines) <= {"bearing_explorer", "bearingcore", "pathlib", "math"}, case
         assert scene == view.scene_drawn(results), case
         table = view.table(results)
         assert list(columns) == list(table), case
@@ -169,17 +164,14 @@ def test_the_lines_give_the_numbers_of_the_view(tmp_path: Path) -> None:
                 np.testing.assert_array_equal(columns[name], values, err_msg=at)
 
 
-def test_lines_are_few_and_import_the_program_alone() -> None:
-    for case in CASES:
-        lines = shown(case)[0].python()
-        assert lines.count("\n") <= 30 or "from_toml" in lines
-        names = {
-            node.module.partition(".")[0] if isinstance(node, ast.ImportFrom) and node.module
-            else "math"
-            for node in ast.walk(ast.parse(lines))
-            if isinstance(node, ast.Import | ast.ImportFrom)
-        }  # fmt: skip
-        assert names <= {"bearing_explorer", "bearingcore", "pathlib", "math"}
+def modules_in(lines: str) -> set[str]:
+    """Packages that lines of Python import from; `import math` is the only other way."""
+    nodes = list(ast.walk(ast.parse(lines)))
+    imported = {
+        alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names
+    }
+    sources = {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom)}
+    return {name.partition(".")[0] for name in imported | sources}
 
 
 @pytest.mark.parametrize("name", sorted(CHOICES.keys() - {"accuracy"}))  # which is shipped

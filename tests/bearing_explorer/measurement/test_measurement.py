@@ -19,16 +19,23 @@ from bearing_explorer.measurement.session import (
     with_pit,
 )
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, Upload, shown_name
+from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, shown_name
 from bearing_explorer.state.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
-from bearingcore import catalogue, diagnose, presets, read_table
+from bearingcore import catalogue, presets, read_table
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
+from tests.helpers.reading import read_in_this_process
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files are read in this process; that of their own has its tests with the core."""
+    read_in_this_process(monkeypatch)
 
 
 def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
@@ -77,18 +84,12 @@ def brought(name: str, content: bytes, before: Measured | None = None) -> Measur
 # -- good files ------------------------------------------------------------------------------------
 
 
-def test_a_simulated_measurement_can_have_a_small_pit_and_balls_with_mass() -> None:
+def test_the_scene_of_a_signal_can_have_a_small_pit_and_balls_with_mass() -> None:
     motor = presets["6205"].replace(extent=0.2, race="inner")
     pitted = with_pit(motor, PITS["0.3"])
-    assert pitted.balls == "with mass"
-    assert pitted.defect.race == "inner"
-    assert pitted.defect.edge == "exact"
+    assert (pitted.balls, pitted.defect.race) == ("with mass", "inner")
     assert pitted.defect.extent * pitted.bearing.inner_raceway_radius == pytest.approx(3e-4)
     assert with_pit(motor, PITS["scene"]) is motor
-    made = simulated(with_pit(motor.replace(race="outer"), PITS["0.5"]), 20.0, False, 1)
-    assert "balls with mass" in made.recording.name
-    assert made.recording.duration > 0.9
-    assert diagnose(made.recording, motor.bearing, made.shaft_speed).fault == "outer race"
 
 
 def test_a_file_from_elsewhere_is_understood_without_a_word():
@@ -99,8 +100,6 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
     made = brought("rig.csv", ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode())
     assert not made.state.bad
-    assert made.state.values["unit"] == ""  # the headings do not tell it: it is asked, not guessed
-    assert "g is likely: a root mean square" in made.state.reasons["unit"]
     assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
     measured = made.measured
     assert measured is not None
@@ -108,18 +107,12 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     assert measured.recording.sample_rate == pytest.approx(rate, rel=1e-6)
     assert measured.shaft_speed == pytest.approx(RIG.shaft_speed)  # the sliders', until told
     assert measured.recording.shaft_speed is None
-    assert "type in the measured one" in made.state.words
-
-    async def told() -> None:
-        made.take_form({**made.state.values, "unit": "m/s²", "shaft_speed": "720 rpm"}, False)
-        await settled(made)
-
-    run(told())
+    answer(made, unit="m/s²", shaft_speed="720 rpm")
     assert made.measured is not None
-    assert made.measured.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
-    assert made.measured.recording.shaft_speed == made.measured.shaft_speed
-    ratio = measured.recording.acceleration / made.measured.recording.acceleration
-    np.testing.assert_allclose(ratio, 1.0)
+    assert made.measured.recording.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, measured.recording.acceleration
+    )
 
 
 def test_large_files_come_in_pieces_that_the_websocket_takes():
@@ -130,7 +123,6 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     assert made.measured is not None
     np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
     assert made.state.scaled
-    assert made.state.values["sample_rate"] == "51200"
     assert made.state.open == ["unit"]
     assert made.state.proposed == ""  # what full scale stands for may be anything
     answer(made, unit="g", full_scale="50")
@@ -146,7 +138,6 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
         ("a.csv", csv_of(NOISE, "time [s],ax [g],ay [g]"), ("1", "2", "g", "10000", "7 Hz")),
         ("a.csv", csv_of(NOISE, "t,vertical (m/s^2),hor"), ("2", "1", "m/s²", "10000", "7 Hz")),
         ("a.csv", csv_of(NOISE[:, :1], "time,sensor_g"), ("", "1", "g", "10000", "7 Hz")),
-        ("a.csv", csv_of(NOISE, "time,ax,ay"), ("1", "2", "", "10000", "7 Hz")),
         ("a.wav", wav_of(NOISE), ("0", "1", "", "8000", "7 Hz")),
         ("a.wav", wav_of(NOISE[:, 0]), ("", "0", "", "8000", "7 Hz")),
         (
@@ -175,34 +166,23 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert not made.state.bad
     np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
     assert made.state.open == ["unit"]
-    assert made.state.values["unit"] == ""
     assert made.state.proposed == "g"
-    assert "g is likely: a root mean square of 0.3" in made.state.reasons["unit"]
-    assert made.state.reasons["unit"] in made.state.words
-    assert "The diagnosis of the damaged part does not depend on it" in made.state.words
+    assert "g is likely: a root mean square of 0.3" in made.state.words
     answer(made, sure="yes")  # agreeing to guesses is no answer to this
     assert made.state.open == ["unit"]
     assert not made.measured.in_si
     answer(made, unit="g")
     assert made.measured.in_si
     assert not made.state.open
-    assert "likely" not in made.state.words + made.state.reasons["unit"]
     np.testing.assert_allclose(
         made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
     )
     answer(made, unit="")  # taken back
     assert not made.measured.in_si
-    assert made.state.open == ["unit"]
-
-
-def test_a_unit_that_the_file_says_is_not_asked():
-    made = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))
-    assert made.measured is not None
-    assert made.measured.in_si
-    assert made.state.proposed is None
-    assert not made.state.open
-    answer(made, unit="")
-    assert "one of m/s²" in made.state.refused["unit"]
+    said = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))  # not asked where the file says it
+    assert said.measured is not None
+    assert said.measured.in_si
+    assert not said.state.open
 
 
 def test_what_the_file_does_not_tell_is_asked_for():
@@ -212,35 +192,24 @@ def test_what_the_file_does_not_tell_is_asked_for():
     assert made.state.bad
     assert "sample rate is missing" in made.state.refused["sample_rate"]
     assert "Hz" in made.state.words
-    assert [value for value, _ in made.state.columns] == ["", "0", "1"]
-
-    async def told() -> None:
-        made.take_form({**made.state.values, "sample_rate": "12 800"}, False)
-        await settled(made)
-
-    run(told())
+    answer(made, sample_rate="12 800")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_800.0
     assert not made.state.bad
-    assert not made.state.refused
     assert made.state.open == ["unit"]
 
 
 @pytest.mark.parametrize(
     ("field", "text", "told"),
     [
-        ("sample_rate", "", "is missing"),
         ("sample_rate", "fast", "must be a number, not “fast”"),
         ("sample_rate", "-5", "possible: 10 to 1·10⁷ Hz"),
-        ("sample_rate", "nan", "possible"),
-        ("shaft_speed", "1e9", "not possible"),
         ("shaft_speed", "0", "not possible"),
         ("shaft_speed", "rpm", "is missing"),
         ("full_scale", "0", "possible"),
         ("unit", "furlongs", "one of m/s², g, mg"),
         ("x", "2", "same column"),
         ("y", "99", "no such column"),
-        ("y", "-1", "no such column"),
         ("x", "3", "same number throughout"),
     ],
 )
@@ -248,32 +217,20 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
     columns = np.hstack([NOISE, np.ones((len(NOISE), 1))])
     made = brought("a.csv", csv_of(columns, "time,x,y,still"))
     before = made.measured
-    assert before is not None
-
-    async def asked() -> None:
-        made.take_form({**made.state.values, field: text}, False)
-        await settled(made)
-
-    run(asked())
-    assert made.measured is before
+    answer(made, **{field: text})
+    assert made.measured is before is not None
     assert made.state.bad
-    assert told in made.state.words
     assert any(told in sentence for sentence in made.state.refused.values())
-    assert made.state.words.endswith(".")
 
 
 @pytest.mark.parametrize(
     ("text", "hertz"),
-    [("25", 25.0), ("25,5 Hz", 25.5), ("1797 rpm", 29.95), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
+    [("25,5 Hz", 25.5), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
 )
 def test_shaft_speeds_are_read_with_their_units(text, hertz):
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
     asked = read_form(table, {**guess(table, 7.0), "shaft_speed": text})
     assert asked.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-
-
-def test_neither_direction_is_no_measurement():
-    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
     with pytest.raises(FormError, match="at least one direction"):
         read_form(table, {**guess(table, 7.0), "x": "", "y": ""})
 
@@ -309,8 +266,6 @@ def case_western(**more: np.ndarray) -> bytes:
 def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     made = brought("105.mat", case_western(), signal())
     assert made.measured is not None
-    assert made.state.open == []
-    assert made.measured.in_si
     assert made.measured.bearing == catalogue()["6205-2RS, CWRU drive end"].bearing
     assert made.state.line == (
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
@@ -319,7 +274,6 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     answer(made, sample_rate="48000", unit="m/s²", bearing="")
     assert made.source_of("unit") == "Typed in"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
-    assert made.measured.bearing is None
     answer(made, x="1")
     assert "two places (drive end and fan end)" in made.state.refused["x"]
     assert made.state.line  # what is drawn stays
@@ -329,13 +283,9 @@ def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
     made = brought("12k_105.mat", mat_of(**sides))
     assert made.measured is None
-    assert not made.state.bad
     assert set(made.state.open) == {"y", "unit"}
     assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
     assert made.state.columns[1] == ["0", "DE (drive end)"]
-    answer(made, x="1", y="0")
-    assert made.measured is None
-    assert "two places (drive end and fan end)" in made.state.refused["x"]
     answer(made, x="", y="0")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_000.0
@@ -358,12 +308,8 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     answer(made, bpfo="3.585 x", bpfi="5.415x")
     assert made.measured.bearing is not None
     assert made.measured.bearing.n_balls == 9
-    before = made.measured
     answer(made, bpfo="60")
     assert "nearly a whole number" in made.state.refused["bearing"]
-    answer(made, bpfo="3.585 x", bpfi="", ftf="")
-    assert "BPFO and BPFI" in made.state.refused["bearing"]
-    assert made.measured is before
 
 
 def test_a_file_can_be_given_up():
@@ -379,13 +325,9 @@ def test_a_file_can_be_given_up():
     assert not made._tasks
 
 
-def test_a_struct_says_all_and_its_load_can_be_taken_into_the_scene():
+def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
     run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
-    made = brought("run.mat", mat_of(bearing=run_, BPFO=np.array([[81.125]])))
-    assert made.measured is not None
-    assert made.measured.recording.sample_rate == 48_828.0
-    assert made.measured.shaft_speed == pytest.approx(50.0 * math.pi)
-    assert "BPFO 81.125" in made.state.said
+    made = brought("run.mat", mat_of(bearing=run_))
     assert made.state.load == pytest.approx(150 * 4.4482216)
     taken: list[dict] = []
     made.change_scene = taken.append
@@ -396,9 +338,7 @@ def test_a_struct_says_all_and_its_load_can_be_taken_into_the_scene():
 def test_voltages_need_their_sensor():
     made = brought("v.csv", csv_of(NOISE[:, :1], "time [s],ch1 [mV]"))
     assert made.measured is not None
-    assert made.state.values["unit"] == "mV"
     assert made.state.open == ["sensitivity"]  # a voltage says nothing without it
-    assert "100 mV/g is usual" in made.state.words
     assert not made.measured.in_si
     answer(made, sensitivity="100")
     assert made.measured.in_si
@@ -406,8 +346,6 @@ def test_voltages_need_their_sensor():
     assert level == pytest.approx(NOISE[:, 0].std() / 100.0 * 9.80665, rel=1e-4)
     answer(made, sensitivity="10 mV/g")
     assert made.measured.recording.acceleration.std() == pytest.approx(10.0 * level)
-    assert made.measured.origin is not None
-    assert made.measured.origin.sensitivity == pytest.approx(0.010 / 9.80665)
     answer(made, sensitivity="0")
     assert "sensitivity" in made.state.refused
 
@@ -468,24 +406,17 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
     made = measuring(signal())
     made.begin_upload("a.csv", 100)
     made.take_piece(piece, 1)
-    assert made.state.bad
     assert "was not received in full" in made.state.words
     said = made.state.words
     made.take_piece(bytes(10), 1)  # nobody asked for it
     assert made.state.words == said
 
 
-def test_a_simulation_that_is_not_offered_changes_nothing():
-    made = measuring(before := signal())
+def test_what_is_not_offered_changes_nothing():
+    made = measuring(signal())
     made.simulate("20", "another")
     made.take_load()
     made.take_form({}, True)
-    assert made.measured is before
-    assert not made._tasks
-
-
-def test_a_file_without_a_size_is_refused_in_a_sentence():
-    made = measuring(signal())
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words
     assert made.measured is signal()
@@ -498,7 +429,6 @@ def test_names_of_files_are_shown_in_short_and_without_tricks():
     long = shown_name("x" * 300 + "-end.csv")
     assert len(long) <= LONGEST_NAME
     assert long.endswith("-end.csv")
-    assert Upload("<b>", 5).name == "<b>"  # the page writes it as text
 
 
 def test_what_was_asked_last_wins():
@@ -517,36 +447,6 @@ def test_what_was_asked_last_wins():
     assert made.measured is not None
     assert made.measured.recording.name == "second.csv"
     assert made.state.words.startswith("second.csv")
-
-
-def test_a_form_changed_meanwhile_does_not_stop_a_file_on_its_way():
-    async def both() -> Measurement:
-        made = measuring()
-        await bring(made, "first.csv", csv_of(NOISE, "time,x,y"))
-        second = csv_of(NOISE[:1000], "time,x,y")
-        made.begin_upload("second.csv", len(second))
-        made.take_form({**made.state.values, "unit": "g"}, False)
-        await settled(made)
-        made.take_piece(second, 2)
-        await settled(made)
-        return made
-
-    made = run(both())
-    assert made.measured is not None
-    assert made.measured.recording.name == "second.csv"
-
-
-def test_after_the_session_nothing_is_taken():
-    async def late() -> Measurement:
-        made = measuring()
-        content = csv_of(NOISE, "time,x,y")
-        made.begin_upload("late.csv", len(content))
-        made.take_piece(content, 1)
-        made.stop()
-        await settled(made)
-        return made
-
-    assert run(late()).measured is None
 
 
 # -- simulated measurements ------------------------------------------------------------------------
@@ -571,10 +471,6 @@ def test_a_different_machine_is_not_the_scene_but_has_its_defect():
     spectra = [made.spectrum("y", 32.0).density for made in (same, other, third)]
     for one, two in ((0, 1), (0, 2), (1, 2)):
         assert np.abs(np.log(spectra[one] / spectra[two])).mean() > 0.1
-
-
-def test_an_inner_race_defect_can_be_simulated_but_its_extent_is_not_to_be_found():
-    assert simulated(RIG.replace(race="inner"), 20.0, True, 1).true_extent is None
 
 
 @pytest.mark.parametrize("scene", [RIG.replace(dofs=("z",), fz=10.0), RIG.replace(fy=0.0)])

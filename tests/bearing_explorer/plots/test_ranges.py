@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from bearing_explorer.plots.ranges import StickyRange, nice_range, nice_step
+from bearing_explorer.plots.ranges import StickyRange, nice_range
 
 
 @pytest.mark.parametrize(
@@ -21,12 +21,6 @@ def test_nice_ranges_hold_their_numbers_on_round_ones(
     low: float, high: float, expected: tuple[float, float]
 ) -> None:
     assert nice_range(low, high) == pytest.approx(expected)
-
-
-def test_steps_are_the_next_round_number() -> None:
-    assert [nice_step(x) for x in (0.9, 1.0, 1.1, 2.1, 2.6, 5.1, 0.03)] == pytest.approx(
-        [1.0, 1.0, 2.0, 2.5, 5.0, 10.0, 0.05]
-    )
 
 
 def test_it_grows_at_once_and_shrinks_only_below_half() -> None:

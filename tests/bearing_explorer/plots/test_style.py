@@ -26,9 +26,3 @@ def test_prefixes(value: float, unit: str, expected: str) -> None:
 def test_angles_lie_between_0_and_360() -> None:
     written = [style.in_degrees(math.radians(x)) for x in (257.14, -90.0, 359.99, 720.0, 12.5)]
     assert written == ["257.1°", "270°", "0°", "0°", "12.5°"]
-
-
-def test_the_label_of_an_axis_has_name_symbol_and_prefixed_unit() -> None:
-    assert style.BALL_LOAD.label(50.0) == "Contact load Q (N)"
-    assert style.BALL_LOAD.label(1400.0) == "Contact load Q (kN)"
-    assert style.CAGE_ANGLE.label(4000.0) == "Cage angle φc (°)"

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
-from bearing_explorer.plots.color_scales import DIVERGING, DIVERGING_DARK
 from bearing_explorer.views import stability_map
 from bearing_explorer.views.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
@@ -119,16 +118,3 @@ def test_every_color_of_a_figure_has_its_dark_one() -> None:
     for light, dark in DARK_PALETTES:
         assert light != dark
     assert f"--in-dark-{style.INK[1:].upper()}" in dark_properties()
-
-
-def test_the_dark_map_is_as_dark_as_the_page_at_zero() -> None:
-    def lightness(scale: np.ndarray) -> np.ndarray:
-        colors = ["#" + "".join(f"{int(x):02x}" for x in color) for color in scale]
-        return np.array([seen_by("trichromat", color)[0] for color in colors])
-
-    dark, light = lightness(DIVERGING_DARK), lightness(DIVERGING)
-    assert np.all(np.diff(dark[:128]) < 0.003)
-    assert np.all(np.diff(dark[128:]) > -0.003)
-    assert dark[127] < 0.3 < 0.7 < dark[0]
-    assert light[127] > 0.95
-    assert abs(dark[0] - dark[-1]) < 0.03

@@ -2,64 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
-from bearing_explorer.results import compiling
-from bearing_explorer.results.compiling import Compilation
 from bearing_explorer.results.motions import quick_duration
 from bearing_explorer.results.results import Results
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.views.mechanism import WhichMechanism
 
 from bearingcore import presets
 from bearingcore.scene.packing import is_planar
-from tests.helpers.loops import run
 
 FAN_RIG = presets["fan-rig"]
-
-
-def test_a_session_waits_for_the_compiler_and_then_draws_and_compares(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.show", lambda self, **news: None
-    )
-    compilation = Compilation()
-    compilation._left = (compiling.BALLS_WITH_MASS,)
-    for name in ("left", "need", "progress"):
-        monkeypatch.setattr(compiling, name, getattr(compilation, name))
-
-    async def until(done) -> None:
-        for _ in range(20_000):
-            if done():
-                return
-            await asyncio.sleep(0.002)
-        raise AssertionError("it did not happen")
-
-    async def live() -> tuple[str, str]:
-        explorer = Explorer((Section("one", "One", (WhichMechanism,)),))
-        explorer.start()
-        explorer.requests.change_scene({"typed": {"fy_n": "-103"}})
-        sentence = lambda: explorer._views["one"][0]._sentence.text  # noqa: E731
-        await until(lambda: "one" in explorer._views and sentence())
-        waiting = sentence()
-        # in the view itself, in the place of axes without lines; the foot says no error
-        assert not explorer._views["one"][0]._pictures[0].visible
-        assert explorer._views["one"][0]._caption.empty
-        assert explorer.status.line["mood"] == "busy"
-        compilation._left = ()
-        await until(lambda: "mass" in sentence() and "compiled" not in sentence())
-        drawn = sentence()
-        assert explorer._views["one"][0]._pictures[0].visible, drawn
-        await until(lambda: explorer._loop.idle)
-        explorer.stop()
-        return waiting, drawn
-
-    waiting, drawn = run(live())
-    assert waiting.startswith("Balls with mass: still being compiled")
-    assert "drawn by itself" in waiting
-    assert "up the mass of the balls gives most of the power" in drawn
 
 
 def test_a_motion_that_was_compared_is_not_moved_again() -> None:

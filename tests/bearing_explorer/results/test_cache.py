@@ -9,7 +9,7 @@ import cachetools
 import numpy as np
 import pytest
 from bearing_explorer.results import cache
-from bearing_explorer.results.cache import Overtaken, cached, nbytes
+from bearing_explorer.results.cache import Overtaken, cached
 
 
 @pytest.fixture(autouse=True)
@@ -128,10 +128,3 @@ def test_who_waits_for_what_another_gave_up_computes_it() -> None:
     first, second = in_threads(lambda: search(1, give_up=lambda: True), late)
     assert isinstance(first, Overtaken)
     assert second == "found"
-
-
-def test_views_of_arrays_count_the_whole_and_each_array_counts_once() -> None:
-    whole = np.zeros((1000, 10))
-    assert nbytes({"a": whole[:, 0], "b": whole}) == whole.nbytes
-    assert nbytes([0.0] * 1000) == 32_000
-    assert nbytes(("text", 1, None)) == 0

@@ -70,11 +70,3 @@ def test_what_is_missing_is_said() -> None:
     unknown = Results(presets["6205"].replace(fz=100.0, stiffness_z=None)).chain
     assert not unknown.bands
     assert "stiffness_z" in unknown.silent
-
-
-def test_the_chain_before_is_of_the_scene_before() -> None:
-    results = Results(LONGER, before=FAN_RIG)
-    assert results.chain_before == Results(FAN_RIG).chain
-    assert Results(LONGER).chain_before == Results(LONGER.healthy()).chain
-    healthy = Results(FAN_RIG.healthy())
-    assert healthy.chain_before is healthy.chain

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import subprocess
-import sys
 import threading
 from collections.abc import Iterator
 
@@ -18,9 +16,7 @@ from bearing_explorer.session import Explorer
 
 from bearingcore import kernels
 from bearingcore.warm_up import PARTS
-from tests.helpers.compiled import compile_once
 from tests.helpers.loops import run
-from tests.helpers.sections import SECTIONS as FEW
 from tests.helpers.served import wait_until
 
 
@@ -76,32 +72,6 @@ def test_an_error_ends_it_and_kernels_are_compiled_where_they_are_needed(
     assert compilation.wait(60.0)
     assert compilation.left() == ()
     assert "no compiler" in caplog.text
-
-
-def test_the_page_draws_anew_with_each_part(
-    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    compilation._left = tuple(PARTS)
-    drawn: list[int] = []
-
-    async def live() -> dict[str, object]:
-        explorer = Explorer(FEW)
-        draw = explorer.draw
-        monkeypatch.setattr(explorer, "draw", lambda: (draw(), drawn.append(len(drawn))))
-        explorer.start()
-        async with asyncio.timeout(60.0):
-            seen = 0
-            while compilation._left or explorer.status.progress:
-                while len(drawn) == seen and compilation._left:
-                    await asyncio.sleep(0.01)
-                seen = len(drawn)
-                compilation._left = compilation._left[1:]
-                await asyncio.sleep(0.0)
-        explorer.stop()
-        return explorer.status.progress
-
-    assert run(live()) == {}, "the bar leaves"
-    assert len(drawn) >= len(PARTS)
 
 
 def test_pictures_of_the_default_scene_need_no_kernel(compilation: Compilation) -> None:
@@ -169,10 +139,3 @@ def numbers_of(
     elif hasattr(other, "__dict__") and path.count(".") < 4:
         for name in getattr(other, "__dataclass_fields__", ()):
             yield from numbers_of(getattr(one, name), getattr(other, name), f"{path}.{name}")
-
-
-def test_all_kernels_are_on_disk_once_they_are_compiled() -> None:
-    compile_once()
-    # in a process of its own: other tests make kernels, and break those that are kept
-    ask = "from bearingcore import kernels; assert kernels.all_on_disk()"
-    subprocess.run([sys.executable, "-c", ask], check=True)

@@ -21,7 +21,6 @@ class Page:
         self.refining: list[int] = []
         self.fine: list[int] = []
         self.errors: list[Exception] = []
-        self.overtaken: list[bool] = []
         self.gate = threading.Event()
         self.gate.set()
         self.seconds = seconds
@@ -39,7 +38,6 @@ class Page:
     def refine(self, inputs: int, overtaken: Callable[[], bool]) -> int | None:
         self.refining.append(inputs)
         assert self.gate.wait(30.0)
-        self.overtaken.append(overtaken())
         return None if inputs == 0 else 10 * inputs
 
     async def draw_fine(self, inputs: int, picture: int) -> None:
@@ -93,46 +91,17 @@ def test_newer_inputs_do_not_wait_for_a_fine_picture() -> None:
     assert page.fine == [20], "the first fine picture was no longer wanted"
 
 
-def test_a_search_hears_that_it_is_overtaken() -> None:
-    page = Page(seconds=0.1)
-
-    async def live() -> None:
-        page.gate.clear()
-        page.loop.submit(1)
-        await until(lambda: page.refining)
-        page.loop.submit(2)
-        page.loop.submit(3)
-        page.gate.set()
-        await until(lambda: page.loop.idle)
-
-    run(live())
-    assert page.overtaken[-1] is False
-    assert page.fine == [30]
-
-
-def test_where_nothing_is_finer_nothing_more_is_drawn() -> None:
+def test_a_failure_is_reported_and_where_nothing_is_finer_nothing_more_is_drawn() -> None:
     page = Page()
 
     async def live() -> None:
-        page.loop.submit(0)
-        await until(lambda: page.loop.idle)
-
-    run(live())
-    assert (page.drawn, page.fine) == ([0], [])
-
-
-def test_a_failure_is_reported_and_the_loop_goes_on() -> None:
-    page = Page()
-
-    async def live() -> None:
-        page.loop.submit(-1)
-        await until(lambda: page.loop.idle)
-        page.loop.submit(2)
-        await until(lambda: page.loop.idle)
+        for inputs in (-1, 0):
+            page.loop.submit(inputs)
+            await until(lambda: page.loop.idle)
 
     run(live())
     assert [str(error) for error in page.errors] == ["a bug"]
-    assert page.drawn == [2]
+    assert (page.drawn, page.fine) == ([0], [])
 
 
 def test_a_thread_takes_the_newest_and_a_stopped_loop_takes_nothing() -> None:

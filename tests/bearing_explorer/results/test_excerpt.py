@@ -58,21 +58,6 @@ def test_the_signal_is_the_housing_and_the_loads_are_those_of_the_balls_named(
     np.testing.assert_allclose(shown.ball_load, loads, rtol=0.0, atol=1e-9)
 
 
-def test_static_loads_are_those_of_the_load_distribution(results: Results) -> None:
-    shown = results.excerpt
-    angle = FAN_RIG.cage_speed * (shown.motion_time + shown.static_time)
-    ball = shown.balls[0]
-    own = np.mod(angle + ball * FAN_RIG.bearing.ball_spacing, 2.0 * math.pi)
-    found = results.equilibrium
-    order = np.argsort(found.ball_angle.ravel())
-    curve = np.interp(own, found.ball_angle.ravel()[order], found.ball_load.ravel()[order])
-    away = np.abs(np.gradient(curve)) < 1.0  # away from the steep walls of the curve
-    np.testing.assert_allclose(shown.static_load[away, 0], curve[away], atol=0.3)
-    # The moving load swings about the static one.
-    moving = np.interp(shown.static_time, shown.time, shown.ball_load[:, 0])
-    assert np.mean(moving - shown.static_load[:, 0]) == pytest.approx(0.0, abs=1.0)
-
-
 def test_a_healthy_bearing_shows_the_balls_that_carry_most() -> None:
     shown = Results(FAN_RIG.healthy()).excerpt
     assert shown.events == ()
@@ -91,11 +76,3 @@ def test_thinning_keeps_the_peaks_and_is_short(n: int, parts: int, seed: int) ->
     assert np.all(np.diff(rows) > 0)
     np.testing.assert_array_equal(kept.min(axis=0), values.min(axis=0))
     np.testing.assert_array_equal(kept.max(axis=0), values.max(axis=0))
-
-
-def test_thinning_keeps_the_order_of_least_and_greatest() -> None:
-    rising = np.arange(1000.0)[:, None]
-    _, kept = least_and_greatest(rising, 50)
-    assert np.all(np.diff(kept[:, 0]) > 0.0)
-    _, kept = least_and_greatest(-rising, 50)
-    assert np.all(np.diff(kept[:, 0]) < 0.0)

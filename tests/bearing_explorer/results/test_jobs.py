@@ -89,23 +89,6 @@ def test_a_job_tells_how_it_goes_and_shows_what_it_finds() -> None:
     assert len(page.found) < 30, "what was overtaken before a look at it is not drawn"
 
 
-def test_cancel_ends_a_job_and_keeps_what_it_found() -> None:
-    page, began = Page(), threading.Event()
-
-    async def session() -> None:
-        jobs = Jobs(assign)
-        jobs.start(steps(500, began), page.take, page.report)
-        while not began.is_set():
-            await asyncio.sleep(0.005)
-        jobs.cancel()
-        await idle(jobs)
-
-    run(session())
-    assert page.states[-1].mood == "stopped"
-    assert page.states[-1].words.startswith("Cancelled. ")
-    assert page.found
-
-
 def test_a_new_request_replaces_the_old_one() -> None:
     first, second = Page(), Page()
     running = threading.Semaphore(1)
@@ -223,11 +206,3 @@ def test_a_job_cannot_go_on_for_ever() -> None:
     work.started -= 61.0
     assert work.cancelled()
     assert work.timed_out
-
-
-def test_shares_of_a_job_add_up() -> None:
-    work = Work()
-    work.within(0.25, 0.75)(0.5, "half way")
-    assert work.part == 0.5
-    work.within(0.25, 0.75)(7.0, "too far")
-    assert work.part == 1.0

@@ -28,12 +28,6 @@ def test_equal_scenes_share_their_answers() -> None:
     assert one.healthy.equilibrium is Results(scene.replace(extent=0.5)).healthy.equilibrium
 
 
-def test_settings_say_how_fine() -> None:
-    results = Results(presets["fan-rig"], 0.1, Settings(n_cage_angles=31))
-    assert results.equilibrium.cage_angles.size == 31
-    np.testing.assert_allclose(results.now.cage_angles, [0.1])
-
-
 def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
     fast = presets["fan-rig"].replace(race="inner", extent=math.radians(0.2), shaft_speed=600.0)
     motion = Results(fast).motion

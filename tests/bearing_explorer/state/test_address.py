@@ -172,34 +172,21 @@ def test_every_preset_is_among_the_frozen_links() -> None:
     assert {f"v=1&preset={name}" for name in presets} <= {link["text"] for link in FROZEN}
 
 
-def bomb() -> str:
-    return base64.urlsafe_b64encode(zlib.compress(bytes(60_000_000), 9)).decode()
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         ("v=2", "version “2”"),
         ("v=too-long", "far too long"),
-        ("v=1.0", "version “1.0”"),
         ("extent_deg=30", "version"),
-        ("v=1&preset=../../etc/passwd", "no bearing"),
         ("v=1&preset=<script>alert(1)</script>", "no bearing"),
         ("v=1&extent_deg=nan", "not a number"),
-        ("v=1&extent_deg=inf", "not a number"),
-        ("v=1&extent_deg=1e999", "not a number"),
-        ("v=1&extent_deg=-1", "extent"),
         ("v=1&extent_deg=360.1", "extent"),
         ("v=1&extent_deg=" + "1" * 5000, "not a number"),
         ("v=1&extent_deg=٣", "not a number"),
-        ("v=1&extent_deg=3_0", "not a number"),
-        ("v=1&extent_deg=0x10", "not a number"),
-        ("v=1&extent_deg=none", "not a number"),
         ("v=1&fy_n=1e7", "out of range"),
         ("v=1&cage_angle_deg=361", "out of range"),
         ("v=1&seed=3&floor=rough", "not a number"),
         ("v=1&n_balls=1e300", "number of balls"),
-        ("v=1&n_balls=7.5", "number of balls"),
         ("v=1&n_balls=400&ball_diameter_mm=0.1", "out of range"),
         ("v=1&defects=7", "1 to 6"),
         ("v=1&defects=²", "1 to 6"),
@@ -207,11 +194,8 @@ def bomb() -> str:
         ("v=1&defect2.depth_um=3", "is missing"),
         ("v=1&fy_n=1&fy_n=2", "twice"),
         ("v=1&dofs=x.x", "directions"),
-        ("v=1&dofs=", "directions"),
         ("v=1&law=none", "not one of"),
-        ("v=1&race=both", "not one of"),
         ("v=1&floor=soft", "no floor"),
-        ("v=1&floor=measured", "cannot be read"),
         ("v=1&floor=measured&points=AAAA", "cannot be read"),
         ("v=1&floor=measured&points=%00", "cannot be read"),
         ("v=1&floor=measured&points=" + "A" * 1_000_000, "cannot be read"),
@@ -236,7 +220,7 @@ def test_strangers_get_the_bearing_to_begin_with_and_a_sentence(text: str, words
 
 
 def test_bombs_are_not_unpacked() -> None:
-    text = bomb()
+    text = base64.urlsafe_b64encode(zlib.compress(bytes(60_000_000), 9)).decode()
     assert len(text) < 500_000
     tracemalloc.start()
     try:
@@ -266,9 +250,6 @@ def test_anything_is_read_or_refused_in_a_sentence(text: str) -> None:
 def test_an_address_about_something_else_is_none_of_ours(text: str) -> None:
     assert read(text) is None
     assert opened(text, SceneEditor("fan-rig")).note == ""
-
-
-def test_what_means_nothing_is_passed_over_in_words() -> None:
     place = opened("v=1&extent_deg=30&fbclid=x1", SceneEditor("fan-rig"))
     assert place.scene.defect == dataclasses.replace(
         presets["fan-rig"].defect, extent=math.radians(30)
@@ -298,7 +279,6 @@ def test_a_floor_too_long_for_a_link_is_left_out_and_said() -> None:
     ("own", "words"),
     [
         ({"contact_angle": 0.7}, "_0_0.7"),
-        ({"n_balls": 11}, "_0__11"),
         ({"ball_diameter": 0.01, "outer_groove_radius": 0.0054}, "_0___0.01___0.0054"),
         ({"contact_angle": 0.7, "n_balls": 11, "pitch_diameter": 0.055}, "_0_0.7_11__0.055"),
     ],

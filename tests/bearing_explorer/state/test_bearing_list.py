@@ -9,8 +9,7 @@ from bearing_explorer.state import address
 from bearing_explorer.state.bearing_list import BearingTable, read_table
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import catalogue, equilibrium, limits, presets
-from bearingcore.scene.presets import preset_labels
+from bearingcore import catalogue, equilibrium, limits
 
 TABLE = "name;balls;ball_diameter_mm;pitch_diameter_mm\nPump 3;9;7,94;39,04\n"
 
@@ -35,11 +34,6 @@ def test_a_bearing_of_the_same_name_replaces_the_published_one() -> None:
     assert table.find("209, Harris").bearing.ball_diameter == pytest.approx(7.94e-3)
 
 
-def test_what_is_not_on_the_list_is_refused() -> None:
-    editor = SceneEditor("6205")
-    assert "60, 62, 63" in editor.choose({"bearing": "<script>"})["bearing"]
-
-
 def found(text: str) -> list[tuple[str, str]]:
     return [(one["label"], one["mark"]) for one in BearingTable().search(text)["entries"]]
 
@@ -50,17 +44,13 @@ def found(text: str) -> list[tuple[str, str]]:
         ("6208", ("6208", "estimated")),
         ("6208-2RS/C3", ("6208-2RS/C3", "estimated")),
         ("7208 bep", ("7208, angular contact, 15°", "")),
-        ("7208 tandem", ("7208 pair, tandem", "")),
         ("7208 pair", ("7208 pair, back to back (O)", "")),
-        ("NU 208", ("NU 208, cylindrical rollers", "")),
         ("nu", ("NU 208, cylindrical rollers", "")),
-        ("2206", ("2206", "estimated")),
         ("30206", ("30206 pair of tapered rollers, back to back", "")),
         ("32208", ("32208", "estimated")),
         ("30308 face to face", ("30308 face to face", "estimated")),
         ("0.235 in", ("NICE, MFPT", "")),
         ("5,97 mm", ("NICE, MFPT", "")),
-        ("cwru", ("6205-2RS, CWRU drive end", "")),
         ("paderborn", ("6203, Paderborn", "")),
     ],
 )
@@ -68,16 +58,11 @@ def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
     assert found(text)[0] == first
 
 
-def test_an_empty_search_lists_presets_and_tables() -> None:
-    labels = [label for label, _ in found("")]
-    assert labels[: len(presets)] == list(preset_labels.values())
-    assert set(catalogue()) <= set(labels)
-
-
 def test_a_search_without_a_match_says_what_is_known() -> None:
     answer = BearingTable().search("22208")
     assert answer["entries"] == []
     assert "60, 62, 63" in answer["words"]
+    assert "60, 62, 63" in SceneEditor("6205").choose({"bearing": "<script>"})["bearing"]
 
 
 def test_every_entry_can_be_taken() -> None:

@@ -25,46 +25,6 @@ def bookmarks(editor: SceneEditor) -> Bookmarks:
     return Bookmarks(editor)
 
 
-def drag(editor: SceneEditor, bookmarks: Bookmarks, **values: float) -> list[bool]:
-    """Ten positions of a slider and the release; what `follow` said to each."""
-    ended = []
-    for part in range(1, 11):
-        given = {name: value * part / 10 for name, value in values.items()}
-        editor.set(given)
-        ended.append(bookmarks.follow({"set": given}))
-    return [*ended, bookmarks.follow({"set": {}, "released": True})]
-
-
-def test_a_drag_is_one_step_and_the_address_waits_for_its_end(
-    editor: SceneEditor, bookmarks: Bookmarks
-) -> None:
-    assert drag(editor, bookmarks, extent_deg=40.0) == [False] * 10 + [True]
-    drag(editor, bookmarks, depth_um=100.0)
-    assert bookmarks.state()["address"] == "v=1&preset=fan-rig&extent_deg=40&depth_um=100"
-    assert bookmarks.go({"undo": True})
-    assert bookmarks.state()["address"] == "v=1&preset=fan-rig&extent_deg=40"
-    assert bookmarks.go({"undo": True})
-    assert editor.scene == presets["fan-rig"]
-    assert not bookmarks.go({"undo": True})
-    assert bookmarks.go({"redo": True})
-    assert editor.values["extent_deg"] == 40.0
-
-
-def test_play_while_a_hand_moves_something_is_the_hands_step(
-    editor: SceneEditor, bookmarks: Bookmarks
-) -> None:
-    for angle in range(1, 20):
-        given = {"cage_angle_deg": angle} if angle % 2 else {"extent_deg": 20.0 + angle}
-        editor.set(given)
-        bookmarks.follow({"set": given})
-    bookmarks.follow({"set": {}, "released": True})
-    bookmarks.go({"undo": True})
-    assert editor.values["extent_deg"] == pytest.approx(12.9)
-    bookmarks.go({"undo": True})
-    assert editor.values["cage_angle_deg"] == 0.0
-    assert not bookmarks.state()["undo"]
-
-
 def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: Bookmarks) -> None:
     seen = [editor.snapshot()]
 

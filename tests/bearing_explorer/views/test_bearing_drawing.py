@@ -22,30 +22,6 @@ def drawn(scene: Scene, cage_angle: float = 0.0) -> dict[str, dict[str, np.ndarr
     return BearingDrawing(PackedSource()).data(Results(scene, cage_angle))[0]
 
 
-def mirrored(points: dict[str, np.ndarray]) -> np.ndarray:
-    """Points as rows (x, y, load), left and right exchanged, sorted."""
-    rows = np.stack([-points["x"], points["y"], points["load"]], axis=1)
-    return rows[np.lexsort(np.round(rows, 9).T)]
-
-
-def test_a_symmetric_scene_gives_a_symmetric_drawing() -> None:
-    spacing = FAN_RIG.bearing.ball_spacing
-    balls = drawn(FAN_RIG, 0.5 * spacing)["bearing_balls"]
-    rows = np.stack([balls["x"], balls["y"], balls["load"]], axis=1)
-    rows = rows[np.lexsort(np.round(rows, 9).T)]
-    np.testing.assert_allclose(rows, mirrored(balls), atol=1e-6)
-
-
-def test_balls_are_to_scale_and_touch_neither_their_neighbours_nor_more_than_the_races() -> None:
-    shapes = Shapes(FAN_RIG.healthy(), 0.0)
-    none = {"outer": np.zeros(14), "inner": np.zeros(14)}
-    balls = shapes.balls(none, np.zeros(14))
-    assert balls["radius"][0] == pytest.approx(4.0 / 26.5)
-    radius = np.hypot(balls["x"], balls["y"])
-    np.testing.assert_allclose(radius + balls["radius"], 1.0)
-    np.testing.assert_allclose(radius - balls["radius"], 18.5 / 26.5)
-
-
 def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
     scene, turn = FAN_RIG.healthy(), math.radians(10.0)
     before, after = drawn(scene)["bearing_balls"], drawn(scene, turn)["bearing_balls"]
@@ -54,7 +30,7 @@ def test_balls_turn_with_the_cage_and_carry_their_load_with_them() -> None:
     assert not np.allclose(before["load"], after["load"])
 
 
-@pytest.mark.parametrize("depth_um", [1.0, 5.0, 50.0, 120.0, 500.0])
+@pytest.mark.parametrize("depth_um", [1.0, 50.0, 500.0])
 def test_the_defect_is_as_deep_as_the_drawing_says(depth_um: float) -> None:
     scene = FAN_RIG.replace(depth=1e-6 * depth_um)
     sources = drawn(scene)
@@ -64,17 +40,6 @@ def test_the_defect_is_as_deep_as_the_drawing_says(depth_um: float) -> None:
     deepest = np.hypot(shape["x"], shape["y"]).max() - 1.0
     assert deepest == pytest.approx(scale * 1e-6 * depth_um / 26.5e-3)
     assert 0.1 < deepest / (4.0 / 26.5) <= 0.45 + 1e-9  # seen, and within the ring
-
-
-def test_the_ring_has_the_defect_where_it_is() -> None:
-    rings = drawn(FAN_RIG)["bearing_rings"]
-    parts = np.split(np.arange(rings["x"].size), np.flatnonzero(np.isnan(rings["x"])))
-    race = [part[~np.isnan(rings["x"][part])] for part in parts][1]
-    radius = np.hypot(rings["x"][race], rings["y"][race])
-    angle = np.degrees(np.arctan2(rings["y"][race], rings["x"][race])) % 360.0
-    deep = radius > 1.0 + 1e-6
-    assert angle[deep].min() == pytest.approx(270.0 - 6.45, abs=1e-5)
-    assert angle[deep].max() == pytest.approx(270.0 + 6.45, abs=1e-5)
 
 
 def test_an_inner_race_defect_is_cut_into_the_inner_ring_and_turns_faster_than_the_cage() -> None:
@@ -108,12 +73,6 @@ def test_bars_are_as_long_as_the_loads_and_only_loaded_balls_have_one() -> None:
     assert top >= results.equilibrium.ball_load.max()
 
 
-def test_the_colour_bar_stays_while_the_bearing_turns() -> None:
-    view = BearingDrawing(PackedSource())
-    seen = {view.data(Results(FAN_RIG, angle))[1]["bearing_load"] for angle in np.arange(0, 6, 0.4)}
-    assert len(seen) == 1
-
-
 def test_the_arrow_points_along_the_radial_load() -> None:
     scene = FAN_RIG.replace(fx=30.0, fy=40.0)
     arrow = Shapes(scene, 0.0).load_arrow()
@@ -140,9 +99,5 @@ def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:
         assert turned == pytest.approx(0.5 * scene.bearing.pace(row))
     results = Results(scene, 0.5)
     view = BearingDrawing(PackedSource())
-    sources, _ = view.data(results)
-    assert sources["bearing_balls"]["x"].size == 25
     assert "of 25 balls carry load" in view.sentence(results)
-    table = view.table(results)
-    assert table["row"].tolist() == [1] * 14 + [2] * 11
-    assert table["ball"].tolist() == [*range(1, 15), *range(1, 12)]
+    assert view.table(results)["ball"].tolist() == [*range(1, 15), *range(1, 12)]

@@ -49,14 +49,6 @@ def test_balls_lie_on_the_path_of_their_centres() -> None:
     np.testing.assert_allclose(balls["drop"][seen], expected, atol=1e-6)
 
 
-def test_a_healthy_race_is_flat() -> None:
-    view, results = DepthProfile(PackedSource()), Results(FAN_RIG.healthy())
-    sources, _ = view.data(results)
-    assert not sources["depth_profile_surface"]["depth"].any()
-    assert not sources["depth_profile_path"]["drop"].any()
-    assert "no defect" in view.sentence(results)
-
-
 def test_a_rough_floor_is_drawn_as_it_was_cut_and_balls_roll_over_its_peaks() -> None:
     floor = RoughFloor(rms_height=5e-6, correlation_length=0.5e-3, seed=3)
     scene = FAN_RIG.replace(extent=math.radians(38.6), floor=floor)

@@ -12,8 +12,7 @@ from functools import cache
 import numpy as np
 import panel as pn
 import pytest
-from bearing_explorer.measurement.background import true_part
-from bearing_explorer.measurement.diagnoses import SLIP, Answers, Question, answered
+from bearing_explorer.measurement.diagnoses import Answers, Question, answered
 from bearing_explorer.measurement.session import simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.messages import LessonChange, take
@@ -25,16 +24,13 @@ from bearing_explorer.views import part_words
 from bearing_explorer.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.views.part_lines import (
     FAINT,
-    LOWEST,
-    MOST_LINES,
     STRONG,
     Zoom,
-    excerpt,
     named,
     window,
 )
 
-from bearingcore import Diagnosis, Recording, Scene, presets
+from bearingcore import Diagnosis, Recording, presets
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.helpers.measuring import measuring
 
@@ -97,8 +93,6 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
     assert (state["mood"], state["headline"]) == (mood, headline)
     assert state["part"] == ("" if truth == "none" else truth)
     assert state["bearing"]["n_balls"] == 9
-    assert view._seen.visible
-    assert view._caption.figures
     rests = dict(state["facts"])
     assert rests["Slip"] == "balls up to 2 % slower or faster"
     assert rests["Bearing"].startswith("9 balls of 7.94 mm on 39.04 mm")
@@ -129,11 +123,7 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     state = panel_state(dataclasses.replace(question, bearing=bearing), found)
     assert part_words.COUNTED.format("balls") in state["plain"]
     assert part_words.COUNTED.format("balls") in state["pass_on"]
-    rests = dict(state["facts"])["Bearing"]
-    spread = 100.0 * bearing.frequency_spread("bpfo")
-    said = re.search(r"estimated from the designation, so BPFO ± ([\d.]+) %$", rests)
-    assert said, rests
-    assert float(said[1]) == pytest.approx(spread, rel=0.05)
+    assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
     counted = panel_state(question, found)
     assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
 
@@ -160,8 +150,6 @@ def test_nothing_is_marked_where_it_cannot_be_told():
     assert (state["mood"], state["part"], state["probability"]) == ("unknown", "", "")
     assert state["headline"] == "No clear result"
     assert "ball passes" in state["plain"]
-    assert not view._seen.visible  # no empty figures
-    assert not view._caption.figures
     assert view.evidence.object == ""
 
 
@@ -174,14 +162,6 @@ def test_a_refusal_is_a_sentence():
     assert view.sentence(RESULTS) == answer
     view.say(RESULTS, answer)
     assert view.part.state["plain"] == answer
-
-
-def test_too_quiet_a_simulation_is_called_so():
-    question = Question.about(heard("none", math.inf), MOTOR.bearing)
-    assert "no machine is so quiet" in part_words.truth(question)
-    assert "quiet" not in part_words.truth(asked("none"))
-    measured = Measured(heard("none").recording, 1.0)
-    assert part_words.truth(Question.about(measured, MOTOR.bearing)) == ""
 
 
 # -- the lines -------------------------------------------------------------------------------------
@@ -214,15 +194,6 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
 
 
-def test_without_damage_no_part_leads():
-    sources, _ = view_of(heard("none"), diagnosed("none")).all_data(RESULTS)
-    for key in ("outer_race", "inner_race", "ball"):
-        assert not sources[f"diagnosis_{key}_points"]["frequency"].size
-        assert not sources[f"diagnosis_{key}_sidebands"]["frequency"].size
-        assert len(set(sources[f"diagnosis_{key}_lines"]["alpha"])) == 1
-    assert not any(row["leads"] for row in part_words.evidence_rows(diagnosed("none")))
-
-
 def test_a_zoom_shows_a_line_with_what_stands_beside_it():
     found = diagnosed("inner race")
     one = found.of("inner race")
@@ -233,10 +204,6 @@ def test_a_zoom_shows_a_line_with_what_stands_beside_it():
     view = view_of(heard("inner race"), found)
     view.look_changed("zoom", "inner race 2")
     assert view.all_data(RESULTS)[1]["diagnosis_frequency"] == (low, high)
-    view.say(RESULTS, "")
-    assert view.panel_of_look._fields.values["zoom"] == "inner race 2"
-    view.look_changed("zoom", "")
-    assert view.all_data(RESULTS)[1]["diagnosis_frequency"][0] == 0.0
 
 
 def test_the_shaft_speed_can_be_rough_or_unknown():
@@ -258,18 +225,6 @@ def test_names_of_lines_stand_clear_of_each_other(first, low, high):
     assert np.diff(places).min(initial=math.inf) >= 0.04 * (high - low)
 
 
-def test_a_peak_of_a_fine_spectrum_is_not_lost():
-    frequency = 0.01 * np.arange(20 * MOST_LINES)
-    level = np.full(frequency.size, -math.inf)
-    level[12_345] = 30.0
-    drawn = excerpt(frequency, level, 0.0, 1e9)
-    assert drawn["frequency"].size <= MOST_LINES
-    assert drawn["level"].max() == 30.0
-    assert drawn["level"].min() == LOWEST
-    near = excerpt(frequency, level, 123.0, 124.0)
-    assert near["frequency"].size < 110
-
-
 # -- the evidence ----------------------------------------------------------------------------------
 
 
@@ -289,8 +244,6 @@ def test_a_search_of_the_list_shows_its_progress_and_can_be_cancelled():
     assert wanted.progress.goes_on(4, 40)
     assert "4 of 40 …" in said()
     assert view.candidates.select(pn.widgets.Button) == [cancel]  # a new one would lose a click
-    assert cancel.visible
-    assert cancel.label == "Cancel the search"
     cancel.clicks += 1
     assert not wanted.progress.goes_on(5, 40)
     said()
@@ -306,40 +259,25 @@ def test_the_evidence_is_listed_for_each_part():
     own = diagnosed("inner race").of("inner race")
     assert lead["part"] == "inner race"
     assert lead["order"] == f"{own.order:.3f}"
-    assert lead["nominal"] == "5.415"
-    assert len(lead["harmonics"]) == 6
-    assert all(one["clear"] for one in lead["harmonics"])
+    assert [one["clear"] for one in lead["harmonics"]] == [True] * 6
     assert lead["spacing"].endswith("Hz, shaft")
     assert lead["probability"] == "99 %"
-    table = shown("inner race").evidence.object
-    assert table.count("<tr") == 4
-    assert '<tr class="leads"><th scope="row">' in table
     assert rows[0]["sidebands"] == "none expected"
+    assert not any(row["leads"] for row in part_words.evidence_rows(diagnosed("none")))
 
 
 def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():
-    """Of an acceleration in any unit, nor of a velocity: what is whitened has no slope left."""
-    truth = heard("inner race")
-    recording = truth.recording
-    velocity = np.cumsum(recording.acceleration, axis=0)
-    velocity -= velocity.mean(axis=0)
-    found = [
-        answered(
-            dataclasses.replace(
-                asked("inner race"),
-                measured=Measured(
-                    dataclasses.replace(recording, acceleration=signal), truth.shaft_speed
-                ),
-            )
-        )
-        for signal in (1e-3 * recording.acceleration, velocity)
-    ]
-    assert [one.fault for one in found] == ["inner race", "inner race"]
-    assert found[0].sentence == diagnosed("inner race").sentence
-    unknown = dataclasses.replace(truth, in_si=False)
-    rests = dict(panel_state(Question.about(unknown, MOTOR.bearing), found[0])["facts"])
+    """Nor on whether it is an acceleration or a velocity: what is whitened has no slope left."""
+    truth, known = heard("inner race"), diagnosed("inner race")
+    velocity = np.cumsum(truth.recording.acceleration, axis=0)
+    velocity = dataclasses.replace(truth.recording, acceleration=velocity - velocity.mean(axis=0))
+    unknown = Measured(velocity, truth.shaft_speed, in_si=False)
+    question = Question.about(unknown, MOTOR.bearing)
+    found = answered(question)
+    assert found.fault == known.fault
+    rests = dict(panel_state(question, found)["facts"])
     assert rests["Unit"] == "not known; the part does not depend on it"
-    assert "Unit" not in dict(panel_state(asked("inner race"), found[0])["facts"])
+    assert "Unit" not in dict(panel_state(asked("inner race"), known)["facts"])
 
 
 # -- in the background -----------------------------------------------------------------------------
@@ -349,13 +287,9 @@ def test_a_question_depends_on_what_the_diagnosis_depends_on():
     measured, bearing = heard("none"), MOTOR.bearing
     same = Question.about(measured, MOTOR.replace(radial_clearance=5e-6).bearing)
     assert Question.about(measured, bearing) == same
-    for other in (
-        Question.about(measured, MOTOR.replace(ball_diameter=8e-3).bearing),
-        Question.about(measured, bearing, "rough"),
-        Question.about(heard("outer race"), bearing),
-    ):
-        assert other != same
-    assert SLIP == 0.02
+    assert Question.about(measured, MOTOR.replace(ball_diameter=8e-3).bearing) != same
+    assert Question.about(measured, bearing, "rough") != same
+    assert Question.about(heard("outer race"), bearing) != same
 
 
 def test_only_the_newest_question_is_drawn_and_none_after_the_end():
@@ -407,23 +341,14 @@ def test_the_noise_of_a_healthy_machine_is_that_of_a_machine():
     assert (noise > 2.0 * quiet.acceleration.std(axis=0)).all()
 
 
-@pytest.mark.parametrize("preset", ["fan-rig", "6205"])
-@pytest.mark.parametrize("noise_db", [40.0, 20.0, 10.0])
+@pytest.mark.parametrize(
+    ("preset", "noise_db"), [("fan-rig", 40.0), ("fan-rig", 10.0), ("6205", 20.0)]
+)
 def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
     scene = presets[preset].replace(extent=0.0)
     measured = simulated(scene, noise_db, True, 3)
     found = answered(Question.about(measured, scene.bearing))
     assert found.fault == "none seen"
-
-
-def test_what_is_damaged_is_known_of_a_simulated_signal():
-    assert {truth: true_part(scene) for truth, scene in SCENES.items()} == {
-        truth: truth for truth in SCENES
-    }
-    several: Scene = MOTOR.replace(
-        defect=(MOTOR.defects[0], SCENES["inner race"].defects[0])
-    )  # fmt: skip
-    assert true_part(several) == ""
 
 
 # -- the tab ---------------------------------------------------------------------------------------

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 from bearing_explorer.results.ball_mass import BallMass
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
-from bearing_explorer.views.mass_time import MassInTime, event_rows
+from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
@@ -33,26 +31,13 @@ def results() -> Results:
     return Results(FAN_RIG)
 
 
-def test_a_ball_that_falls_into_a_long_defect_flies_and_strikes(found: BallMass) -> None:
-    assert found.entry is not None
-    flight = next(flight for flight in found.flights if flight.ball == found.entry.ball)
-    strike = next(strike for strike in found.strikes if strike.race == "outer")
-    assert 0.0 < flight.begin < flight.end <= strike.time + 2.0 / found.sample_rate
-    column = list(found.balls).index(found.entry.ball)
-    inside = (found.time > flight.begin) & (found.time < flight.end)
-    assert not found.loads[:, inside, column].any()
-    assert math.isnan(found.far_edge)
-
-
 def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     """As geometry has it: it pivots on one corner, then on the other, and never lets go."""
     small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
     assert small.strikes == ()
     assert small.exit is not None
     assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
-    assert "stays in contact" in MassInTime(PackedSource()).sentence(
-        Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True)
-    )
+    assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
 
 
 def test_shares_are_those_of_the_core(found: BallMass) -> None:
@@ -64,13 +49,6 @@ def test_shares_are_those_of_the_core(found: BallMass) -> None:
     loud = ~found.quiet
     assert np.abs(found.share[loud & (found.octaves[1:] <= 1000.0)]).max() < 0.1
     assert (found.spread[loud] < 0.1).all()
-
-
-def test_the_verdict_says_from_where_on_mass_gives_most(found: BallMass) -> None:
-    words = in_words(found)
-    assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
-    small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
-    assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
 
 
 def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> None:
@@ -90,23 +68,8 @@ def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> N
     bars = sources["mechanism_bars"]
     np.testing.assert_allclose(bars["top"], 100.0 * found.share)
     assert (bars["right"][:-1] < bars["left"][1:]).all()
-    assert ranges["mechanism_share"][1] > 100.0
-    for view in (time, spectra, octaves):
-        assert view.sentence(results).endswith(".")
-        assert len({len(column) for column in view.table(results).values()}) == 1
-
-
-def test_entry_strike_and_exit_are_marked_with_their_times(found: BallMass) -> None:
-    rows = event_rows(found, float(found.time[0]), float(found.time[-1]))
-    assert found.entry is not None
-    own = rows["ball"] == found.entry.ball + 1
-    assert 0.0 in rows["time"][own & (rows["kind"] == 0.0)]
-    outer = [strike.time for strike in found.strikes if strike.race == "outer"]
-    assert sorted(rows["time"][rows["kind"] == 3.0]) == sorted(outer)
-    kept = np.isfinite(rows["label_at"])
-    for at in set(rows["label_at"][kept]):
-        left = np.sort(rows["label_from"][rows["label_at"] == at])
-        assert (np.diff(left) > 0.0).all()
+    words = in_words(found)
+    assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
 
 
 def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> None:
@@ -116,13 +79,8 @@ def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> No
     assert view.choices() == {}
     view.look_changed("axis", "logarithmic")
     again = VibrationSpectra(PackedSource())
-    again.choose(view.choices(), results)
-    assert again.still_figures() == again._wide.plots
     with pytest.raises(ValueError, match="axis is 'round'; it can be linear or logarithmic"):
         again.choose({"axis": "round"}, results)
     sources, _ = view.all_data(results)
     assert sources["spectrum_wide_lines"]["frequency"][-1] > 32e3
     assert sources["spectrum_wide_resonance"]["low"].size == 1
-    assert [plot.visible for plot in view._wide.plots] == [False, False]
-    view.say(results, "")
-    assert [plot.visible for plot in view._wide.plots] == [True, True]

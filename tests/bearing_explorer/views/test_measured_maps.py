@@ -60,14 +60,6 @@ def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
     assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"].size == 0
 
 
-def test_a_speed_that_is_none_is_refused_and_changes_nothing():
-    view = view_of(MeasuredSpectrogram, run_up())
-    before = view.look
-    view.look_changed("last", "fast")
-    assert "must be a number" in view.panel_of_look._refusal.object
-    assert view.look == before
-
-
 def test_a_signal_of_few_turns_has_no_order_map_and_the_page_says_so():
     view = view_of(MeasuredSpectrogram, run_up(1.0))
     view.look_changed("map", "orders")

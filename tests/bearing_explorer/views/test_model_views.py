@@ -5,18 +5,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bearing_explorer.results.dof_comparison import other_dofs, spectrum_differences
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.settings import Settings
-from bearing_explorer.views.bearing_editor import BearingEditor, facts_of
+from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.dof_comparison import facts_of as differences_of
 from bearing_explorer.views.model_editor import ModelEditor
-from bearing_explorer.widgets.limits import rows_of
 
-from bearingcore import DOF_NAMES, Spectrum, presets
+from bearingcore import DOF_NAMES, presets
 
 SHORT = Settings(duration=0.3)
 
@@ -32,15 +30,6 @@ def test_clearance_and_contact_angle_stand_for_one_another() -> None:
         math.degrees(math.acos(1.0 - 3.0 / 50.0)), abs=0.01
     )
     assert "slips through" in facts("fan-rig", radial_clearance=60e-6)["α<sub>f</sub>"]
-
-
-def test_the_picture_is_drawn_from_the_bearing() -> None:
-    view = BearingEditor(PackedSource())
-    view.say(Results(presets["6205"]), "")
-    drawn = view.rows.picture
-    assert drawn == bearing_picture(presets["6205"].bearing)
-    view.say(None, "Not shown.")
-    assert view.rows.picture == drawn, "the last good picture stays"
 
 
 @pytest.mark.parametrize("name", list(presets))
@@ -89,41 +78,9 @@ def test_a_forced_set_shows_its_error() -> None:
     assert "%" in words
 
 
-def test_all_directions_leave_nothing_out() -> None:
-    full = presets["liew-lim"].replace(mx=1.0)
-    assert other_dofs(full) == full.needed_dofs == DOF_NAMES
-    results = Results(full)
-    assert differences_of(results.dof_comparison) == []
-    assert "nothing left out" in DofDifferences(PackedSource()).sentence(results)
-
-
 def test_a_motion_that_cannot_be_simulated_is_said() -> None:
     scene = presets["fan-rig"].replace(stiffness_z=None)
     found = Results(scene, settings=SHORT).dof_comparison
     assert found.motion == {}
     assert "stiffness_z" in found.no_motion
     assert any("none:" in fact.value for fact in differences_of(found))
-
-
-def test_levels_are_compared_where_they_are_heard() -> None:
-    frequency = np.arange(4.0)
-    loud = Spectrum(frequency, np.array([1.0, 1e-2, 1e-9, 0.0]))
-    other = Spectrum(frequency, np.array([1.0, 1e-3, 1.0e-9 * 100, 5.0]))
-    assert spectrum_differences({"x": loud}, {"x": loud}) == {"x": 0.0}
-    assert spectrum_differences({"x": other}, {"x": loud})["x"] == pytest.approx(10.0)
-    assert spectrum_differences({"x": loud}, {"y": loud}) == {}
-
-
-def test_limits_that_are_crossed_come_first_with_their_number() -> None:
-    calm = rows_of(Results(presets["6205"]).limits)
-    assert {row["state"] for row in calm} == {"kept", "unknown"}  # no motion was simulated
-    names = [row["name"] for row in calm]
-    assert "time steps in a defect" in names
-    heavy = rows_of(Results(presets["6205"].replace(fy=-20000.0)).limits)
-    assert heavy[0]["state"] == "crossed"
-    pressed = next(row for row in heavy if row["name"] == "contact pressure, inner race")
-    assert pressed["state"] == "crossed"
-    assert pressed["limit"] == "4.2 GPa"
-    assert pressed["value"].replace(" GPa", "") in pressed["sentence"]
-    unknown = rows_of(Results(presets["fan-rig"]).limits)
-    assert any(row["state"] == "unknown" and row["value"] == "not known" for row in unknown)

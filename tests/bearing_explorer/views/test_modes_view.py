@@ -1,7 +1,5 @@
 """Natural frequencies: bands are what the curves cover, labels keep their distance."""
 
-import math
-
 import numpy as np
 import pytest
 from bearing_explorer.plots import style
@@ -51,14 +49,6 @@ def test_bands_are_those_of_the_paper() -> None:
     assert at["y2"] == pytest.approx((1793.0, 1841.0), abs=1.5)
 
 
-def test_the_mark_is_at_the_cage_angle_within_a_ball_spacing() -> None:
-    spacing = FAN_RIG.bearing.ball_spacing
-    results = Results(FAN_RIG, 3.0 * spacing + 0.1)
-    sources, ranges = NaturalFrequencies(PackedSource()).data(results)
-    assert sources["modes_now"]["now"] == pytest.approx([math.degrees(0.1)])
-    assert ranges["modes_angle"] == pytest.approx((0.0, math.degrees(spacing)))
-
-
 @given(
     st.lists(st.floats(0.0, 2000.0), max_size=12),
 )
@@ -66,8 +56,3 @@ def test_labels_never_overlap_and_stay_in_order(places: list[float]) -> None:
     moved = spread(np.array(places), 80.0, 0.0, 2000.0)
     order = np.argsort(places, kind="stable")
     assert np.all(np.diff(moved[order]) >= 80.0 - 1e-6)
-
-
-def test_labels_with_room_stay_where_they_belong() -> None:
-    places = np.array([1800.0, 400.0, 650.0])
-    np.testing.assert_array_equal(spread(places, 80.0, 0.0, 2000.0), places)

@@ -59,14 +59,6 @@ def test_it_says_where_the_motion_has_not_come_to_the_orbit() -> None:
     assert "has not reached it" in SteadyOrbit(PackedSource()).sentence(results)
 
 
-def test_the_status_says_what_kind_it_is() -> None:
-    good, bad = orbit_status(Results(RIG)), orbit_status(Results(DOUBLED))
-    assert (good["mood"], good["words"]) == ("good", "Stable orbit")
-    assert any("24.8 ms: 1 ball pass" in detail for detail in good["details"])
-    assert (bad["mood"], bad["words"]) == ("bad", "Unstable: period doubling (flip)")
-    assert "half the ball-pass frequency" in SteadyOrbit(PackedSource()).sentence(Results(DOUBLED))
-
-
 def test_an_inner_race_defect_is_marched_and_it_is_said() -> None:
     view = SteadyOrbit(PackedSource())
     results = Results(INNER)

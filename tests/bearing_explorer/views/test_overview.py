@@ -61,15 +61,10 @@ def test_only_what_really_changed_is_said() -> None:
 def test_what_has_no_answer_is_said_too() -> None:
     loose = FAN_RIG.replace(fy=0.0)
     assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
-    assert "there is no equilibrium, as before (" in told(loose.replace(depth=9e-6), loose)
+    assert told(FAN_RIG, None).startswith("With the defect: "), "before the first change"
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")
-
-
-def test_before_the_first_change_it_is_against_grey() -> None:
-    assert told(FAN_RIG, None).startswith("With the defect: ")
-    assert "nothing has been changed yet" in told(FAN_RIG.healthy(), None)
 
 
 CHAIN = Chain(
@@ -87,16 +82,12 @@ def changed(**news: object) -> str:
     ("news", "words"),
     [
         ({}, "So: nothing changes."),
-        ({"off_line": 0.51}, "So: hardly anything changes."),
         ({"off_line": 0.53}, "So: load shifts to balls farther from the load line."),
         ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
         ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
         ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
-        ({"stiffness": {"k_xx": 3e7, "k_yy": 4e7}}, "So: k_xx rises by 50 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
          "So: the y₁ band widens from 615–678 to 600–690 Hz."),
-        ({"bands": {**CHAIN.bands, "y1": (615.0, 690.0)}},
-         "So: the y₁ band rises from 615–678 to 615–690 Hz."),
         # a peak goes with a band only where it lies in it, both times, and goes its way
         ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
           "peaks": {"y": Peak(576.0, -22.0, 32.0)}},
@@ -109,8 +100,6 @@ def changed(**news: object) -> str:
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
         # next to almost nothing decibels say nothing
-        ({"peaks": {"y": Peak(672.0, 32.0, 32.0)}},
-         "So: the spectrum's peak at 672 Hz rises from almost none."),
         ({"peaks": {"y": Peak(640.0, -76.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz falls to almost none."),
         ({"peaks": {}, "silent": "nothing turns"},
@@ -118,8 +107,6 @@ def changed(**news: object) -> str:
         # what is said is not only what happens where the housing is loudest
         ({"peaks": {**CHAIN.peaks, "x": Peak(448.0, -34.0, 32.0)}},
          "So: the spectrum's peak along x at 448 Hz is 10 dB higher."),
-        ({"bands": {**CHAIN.bands, "x1": (300.0, 400.0)}},
-         "So: the x₁ band sinks from 365–480 to 300–400 Hz."),
         ({"answered": 0.75, "reason": "why"},
          "So: nothing changes; at 25 % of the cage angles there is no "
          "equilibrium (why)."),
@@ -138,8 +125,8 @@ def test_only_terms_that_matter_are_lively() -> None:
     assert free_terms(("x", "y", "z")) == {"k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz"}
     all_of = OverviewStiffness(PackedSource()).data(Results(presets["liew-lim"], 0.1))[0]
     assert all_of["overview_terms"]["lively"].sum() > 10
-    healthy = OverviewStiffness(PackedSource()).data(Results(FAN_RIG.replace(depth=0.0), 0.1))[0]
-    assert healthy["overview_terms"]["lively"].sum() <= 3
+    held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
+    assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
 
 
 def test_curves_and_bands_of_the_spectrum_are_named_in_the_figure() -> None:
@@ -153,17 +140,7 @@ def test_curves_and_bands_of_the_spectrum_are_named_in_the_figure() -> None:
         assert {0.0, 1.0} <= set(names["which"]), "horizontal and vertical"
         low, high = ranges["overview_level"]
         assert ((names["y"] > low) & (names["y"] < high)).all()
-        at_end = names["which"] < 2.0
-        assert abs(np.diff(names["y"][at_end])) > 0.05 * (high - low)
-        assert (names["x"][~at_end] <= 0.8 * ranges["overview_frequency"][1]).all()
         for line in set(bands["line"]):
             own = np.flatnonzero(bands["line"] == line)
             ends = bands["low"][own] + bands["room"][own]
             assert (ends[:-1] <= bands["low"][own][1:] + 1e-9).all()
-
-
-def test_a_cell_without_a_curve_says_why() -> None:
-    terms = OverviewStiffness(PackedSource()).data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
-    idle = [not lively for lively in terms["lively"]]
-    held = {DOF_NAMES[int(i)] for i, none in zip(terms["held"], idle, strict=True) if none}
-    assert held == {"z", "rx", "ry"}, "the ring of the fan rig moves along x and y alone"

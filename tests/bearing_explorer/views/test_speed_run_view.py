@@ -14,7 +14,6 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.value_range import SWEEPABLE, Sweep, sweep
-from bearing_explorer.views.modes import bands_along
 from bearing_explorer.views.speed_run import (
     COUNTS,
     SPEED,
@@ -65,13 +64,6 @@ def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Swept) -> Non
         assert np.isnan(gap).all()
 
 
-def test_bands_are_those_of_the_modes(found: Swept) -> None:
-    for dof in ("x", "y"):
-        columns = bands_along(found.result.bands, dof, 2500.0)
-        bands = [band for label, band in found.result.bands.items() if label[0] == dof]
-        assert sorted(zip(columns["low"], columns["high"], strict=True)) == sorted(bands)
-
-
 def test_marched_speeds_are_marked_and_told(found: Swept) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.found = found
@@ -103,10 +95,6 @@ def test_a_run_that_would_take_too_many_steps_is_said_not_begun(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     speeds = sweep(SPEED, "30", "60", 49, limits_of(RIG))
-    few = partial(speed_run, most_steps_in_all=1000)
-    monkeypatch.setattr("bearing_explorer.views.speed_run.speed_run", few)
-    with pytest.raises(ValueError, match="too many steps"):
-        compute(Work(), RIG, speeds)
     enough = partial(speed_run, most_steps_in_all=4_000_000)
     monkeypatch.setattr("bearing_explorer.views.speed_run.speed_run", enough)
     words = compute(Work(), RIG, speeds)

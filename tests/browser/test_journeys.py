@@ -77,7 +77,7 @@ TABS = {
     "Speed run": (1, 1, None, None),
     "Bearing": (1, 0, _outer_race, None),
     "Model": (2, 0, None, None),
-    "Diagnosis": (5, 0, None, None),
+    "Diagnosis": (2, 0, None, None),
     "Accuracy": (2, 10, None, None),
     "Paper": (1, 3, None, None),
 }

@@ -54,7 +54,7 @@ from bearing_explorer.measurement.series import (
     recordings_of,
 )
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.measurement.upload import Upload
+from bearing_explorer.measurement.upload import NAME_IN_LINE, Upload, without_middle
 from bearing_explorer.results.executors import FILES, in_thread
 from bearing_explorer.results.jobs import Change
 from bearing_explorer.results.results import Results
@@ -98,7 +98,8 @@ SETTLING = 0.3  # [s] before a simulated measurement begins
 
 FIRST_WORDS = (
     "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
-    "current scene."
+    "current scene. Then the damaged part, the length of its spall, trend, indicators and spectra "
+    "stand here."
 )
 
 _WITHOUT_SIZE = (
@@ -135,6 +136,8 @@ class MeasurementState:
     bearings: list[list[str]] = field(default_factory=list)
     #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
     line: str = ""
+    #: the whole name of its file, where the line has less of it
+    whole_name: str = ""
     #: what is odd about the signal; empty where nothing is
     remarks: str = ""
     #: number of the file or simulation that is shown
@@ -482,12 +485,14 @@ class Measurement:
         """The signal in a line, and what is odd about it."""
         measured, table = self.measured, self._table
         if measured is None:
-            return {"line": "", "remarks": ""}
+            return {"line": "", "whole_name": "", "remarks": ""}
         recording = measured.recording
+        long = len(recording.name) if table is None else NAME_IN_LINE
+        name = without_middle(recording.name, long)
         sure = set(FIELDS) if table is None else _sure(table, form, self._first)
         unit = form.get("unit", "m/s²") or "unit"
         facts = {
-            "": recording.name,
+            "": name,
             "duration": with_prefix(recording.duration, "s", 3),
             "sample_rate": with_prefix(recording.sample_rate, "Hz", 4),
             "shaft_speed": f"{number(30.0 / math.pi * measured.shaft_speed, 4)} rpm",
@@ -495,7 +500,11 @@ class Measurement:
             "bearing": measured.bearing_name or "the scene's bearing",
         }
         words = [text + "?" * (name in FIELDS and name not in sure) for name, text in facts.items()]
-        return {"line": " · ".join(words), "remarks": " ".join((self._cut, *recording.notes))}
+        return {
+            "line": " · ".join(words),
+            "whole_name": recording.name if name != recording.name else "",
+            "remarks": " ".join((self._cut, *recording.notes)),
+        }
 
     # Simulated ones
 
@@ -571,7 +580,8 @@ class Measurement:
 
 _NO_FORM: Mapping[str, Any] = {
     "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "proposed": None,
-    "said": "", "load": None, "bearings": [], "line": "", "remarks": "",
+    "said": "", "load": None, "bearings": [], "line": "",
+    "whole_name": "", "remarks": "",
 }  # fmt: skip
 """Of a state without a file."""
 

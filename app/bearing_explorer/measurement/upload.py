@@ -14,6 +14,8 @@ PIECE = 2**20
 """[bytes] of the pieces that the browser sends; far below the limit of the websocket."""
 
 LONGEST_NAME = 60
+NAME_IN_LINE = 24
+"""Characters of a name where it stands in a line with other facts."""
 
 
 class Upload:
@@ -75,6 +77,15 @@ def shown_name(name: Any) -> str:
     """The name of a file, short and printable."""
     text = "".join(c for c in str(name)[:400] if c.isprintable())
     text = " ".join(text.split())
-    if len(text) > LONGEST_NAME:
-        text = f"{text[: LONGEST_NAME - 12]}…{text[-11:]}"
-    return text or "The file"
+    return without_middle(text, LONGEST_NAME) or "The file"
+
+
+def without_middle(name: str, longest: int) -> str:
+    """A name with its middle left out where it is longer than so many characters.
+
+    Its end, with the number and the kind of a file, tells files of one set apart.
+    """
+    if len(name) <= longest:
+        return name
+    end = min(11, longest // 2)
+    return f"{name[: longest - end - 1]}…{name[-end:]}"

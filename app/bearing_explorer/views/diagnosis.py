@@ -82,8 +82,9 @@ class PartDiagnosis(MeasuredView):
     title = "2  Which part is damaged?"
     about = (
         "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
-        "the envelope shows how often. Strong: the lines of the part that stands out, found "
-        "within the slip. Faint: the lines of the other parts by their geometry."
+        "the envelope shows how often. Strong: lines of the part that stands out. Faint: of the "
+        "other parts. The strong ones were found within the slip, the faint ones follow from the "
+        "geometry."
     )
     needs = frozenset()
     without_size = True

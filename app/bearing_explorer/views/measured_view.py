@@ -12,6 +12,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
+from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import SessionParts, View
 from bearing_explorer.views.python_lines import code_of, lines_of, short
 from bearingcore.files.units import ACCELERATIONS
@@ -84,14 +85,20 @@ WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 class MeasuredView(View):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
 
-    Until there is one only the first view, which has the form for it, shows anything.
+    Until there is a signal only the first view, which has the form for it, is on the page.
     """
 
     in_report = False
     hidden: Any = None
     #: whether it can be drawn of a signal of unknown unit
     without_size: ClassVar[bool] = False
+    #: whether its card comes with a signal
+    waits: ClassVar[bool] = True
     measurement: Measurement | None = None
+
+    def __init__(self, packed: PackedSource) -> None:
+        super().__init__(packed)
+        self.panel.visible = not self.waits
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
@@ -172,6 +179,8 @@ class MeasuredView(View):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
+        there = self.measurement is not None and self.measurement.measured is not None
+        self.panel.visible = there or not self.waits
         if self.hidden is not None:
             self.hidden.visible = self.measured is not None
         self._caption.put(nothing=self.measured is None)

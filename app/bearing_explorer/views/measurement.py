@@ -54,6 +54,7 @@ class MeasuredSignal(MeasuredView):
     )
     needs = frozenset()
     without_size = True
+    waits = False
 
     def build(self, packed: PackedSource) -> Any:
         self.form = MeasurementForm(self._show_or_hide)

@@ -170,7 +170,8 @@ class MeasurementForm(pn.Column):
         self._words.object = (
             f'<p class="words {mood}" role="status">{html.escape(words)}</p>' if words else ""
         )
-        self._line.object = f"<p>{html.escape(state.line)}</p>"
+        whole = f' title="{html.escape(state.whole_name)}"' if state.whole_name else ""
+        self._line.object = f"<p{whole}>{html.escape(state.line)}</p>"
         self._in_short.visible = bool(state.line)
         self._in_full.visible = not self.folded
         self._change.label = "Change" if self.folded else "Fold"

@@ -19,7 +19,14 @@ from bearing_explorer.measurement.session import (
     with_pit,
 )
 from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.measurement.upload import LONGEST_NAME, MOST_BYTES, PIECE, shown_name
+from bearing_explorer.measurement.upload import (
+    LONGEST_NAME,
+    MOST_BYTES,
+    NAME_IN_LINE,
+    PIECE,
+    shown_name,
+    without_middle,
+)
 from bearing_explorer.state.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
@@ -274,6 +281,7 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     answer(made, sample_rate="48000", unit="m/s²", bearing="")
     assert made.source_of("unit") == "Typed in"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
+    assert made.state.whole_name == ""
     answer(made, x="1")
     assert "two places (drive end and fan end)" in made.state.refused["x"]
     assert made.state.line  # what is drawn stays
@@ -477,3 +485,16 @@ def test_a_different_machine_is_not_the_scene_but_has_its_defect():
 def test_scenes_that_do_not_move_are_refused_in_a_sentence(scene):
     with pytest.raises(ValueError, match="Not possible"):
         simulated(scene, math.inf, False, 1)
+
+
+def test_a_long_file_name_loses_its_middle_and_keeps_its_end() -> None:
+    assert without_middle("105.mat", NAME_IN_LINE) == "105.mat"
+    long = "12k_Drive_End_Bearing_Fault_Data_IR_007_105_0.mat"
+    short = without_middle(long, NAME_IN_LINE)
+    assert len(short) == NAME_IN_LINE
+    head, tail = short.split("…")
+    assert long.startswith(head)
+    assert tail == "7_105_0.mat"
+    made = brought(long, case_western(), signal())
+    assert made.state.line.startswith(f"{short} · 167 ms")
+    assert made.state.whole_name == long

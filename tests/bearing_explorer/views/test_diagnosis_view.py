@@ -22,6 +22,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.session import Explorer
 from bearing_explorer.views import part_words
 from bearing_explorer.views.diagnosis import PartDiagnosis, panel_state
+from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.part_lines import (
     FAINT,
     STRONG,
@@ -101,6 +102,22 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
     assert diagnosed(truth).sentence in sentence
     truthful = "the bearing is healthy" if truth == "none" else f"the {truth} is damaged"
     assert f"The signal is simulated: {truthful}." in sentence
+
+
+def test_a_step_is_on_the_page_once_there_is_a_signal():
+    form, *steps = next(one for one in SECTIONS if one.name == "diagnosis").views
+    waiting = [kind for kind in steps if issubclass(kind, MeasuredView)]
+    assert len(waiting) == 9
+    for kind in (form, *waiting):
+        view = kind(PackedSource())
+        view.measure(measuring(None))
+        view.say(RESULTS, view.sentence(RESULTS))
+        assert view.panel.visible == (kind is form)
+    view = shown("outer race")
+    assert view.panel.visible
+    view.measure(measuring(None))
+    view.say(RESULTS, "")
+    assert not view.panel.visible
 
 
 @pytest.mark.parametrize("truth", list(SCENES))

@@ -29,6 +29,8 @@ def words_of(error: ValueError) -> str:
         return str(error).removesuffix(".")
     if error.field == "shaft_speed" and error.value == 0.0:
         return "the shaft speed is 0 Hz, so nothing turns"
+    if error.field.endswith("groove_radius") and error.value is None:
+        return "the groove radii are not known; the Bearing tab takes them"
     field = field_of(error)
     si = error.unit or (field.unit if field else "")
 

@@ -19,7 +19,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.work_precision import WorkPrecision, paragraph, prose
+from bearing_explorer.views.work_precision import REST, WorkPrecision, paragraph, prose
 from bearing_explorer.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
@@ -116,7 +116,7 @@ class Accuracy(JobView[Found]):
     def build(self, packed: PackedSource) -> Any:
         self._cost = Fields(lambda _: self._redraw())
         self._cost.add("cost", select("Cost as", COSTS))
-        self._origin, self._foot = prose(), prose()
+        self._origin, self._foot = prose("", REST), prose()
         self._charts: list[tuple[Chart, WorkPrecision]] = []
         sections: list[Any] = []
         for heading, charts in CHARTS.items():
@@ -133,8 +133,7 @@ class Accuracy(JobView[Found]):
         self._stability = Stability()
         return [
             self.job,
-            self._origin,
-            row(self._cost.widgets["cost"]),
+            row(self._cost.widgets["cost"], self._origin),
             *sections,
             prose("<h3>Stability</h3>"),
             self._stability.panel,

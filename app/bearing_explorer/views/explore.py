@@ -172,7 +172,7 @@ class ExplorePlane(JobView[Plane]):
         plane = self._newest(results)[0]
         if plane is not None:
             return summary(plane)
-        return "There is no map yet." if self.found is None else "Faint: an earlier map."
+        return "There is no map yet." if self.is_empty else "Faint: an earlier map."
 
     def say(self, results: Results | None, sentence: str) -> None:
         if results is None or self._request is None:

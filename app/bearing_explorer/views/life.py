@@ -138,7 +138,7 @@ class LifeOfBearing(View):
             return found.no_life
         bearings = "healthy bearings" if results.scene.defects else "bearings"
         words = found.healthy.sentence.replace("bearings", bearings, 1)
-        return f"{words} {found.assumed}".strip()
+        return words
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -46,7 +46,7 @@ PALE = 0.3
 """Opacity of shipped points beside those of this machine."""
 
 _WIDE = ":host { grid-column: 1 / -1; }"
-_REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
+REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
 
 _POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
@@ -119,7 +119,7 @@ class WorkPrecision:
         self.plot = self._figure(TALL if wide else HEIGHT)
         self._words = prose()
         self.panel = stack(
-            row(prose(f"<h4>{html.escape(title)}</h4>", _REST), self._fields.widgets["error"]),
+            row(prose(f"<h4>{html.escape(title)}</h4>", REST), self._fields.widgets["error"]),
             self.plot,
             self._words,
             stylesheets=[_WIDE] if wide else [],

@@ -22,6 +22,7 @@ from bearing_explorer.views.accuracy import Accuracy
 from bearing_explorer.views.alternatives import OtherModels
 from bearing_explorer.views.bearing import BearingDrawing
 from bearing_explorer.views.bearing_editor import BearingEditor
+from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.diagnosis import PartDiagnosis
 from bearing_explorer.views.dof_comparison import DofDifferences
@@ -58,6 +59,7 @@ from bearing_explorer.views.trend import TrendOfFiles
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.widgets.form import stack
+from bearingcore import presets
 
 SECTIONS = (
     Section(
@@ -135,7 +137,8 @@ def page(lessons: Path | None = None) -> PageTemplate:
     explorer = Explorer(SECTIONS, address=address(), lessons=known)
     explorer.lesson.teachers = _for_teachers()
     template = PageTemplate(_frame())
-    template.add_variable("style", asset_text("page.css") + dark_properties())
+    style = "".join(map(asset_text, ("page.css", "picture.css"))) + dark_properties()
+    template.add_variable("style", style)
     template.add_variable("logo", asset_text("logo.svg"))
     template.add_variable("themes", themes())
     template.add_variable("look_script", asset_text("look.js"))
@@ -143,6 +146,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_variable("order_script", asset_text("in_order.js"))
     template.add_variable("figures_script", "" if PLAIN else asset_text("fast_figures.js"))
     template.add_variable("glossary", glossary.as_html())
+    template.add_variable("bearing_picture", bearing_picture(presets["fan-rig"].bearing))
     template.add_variable("python_install", PYTHON_INSTALL)
     template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
     template.add_variable("page_script", scripts("element.js", "page.js"))

@@ -180,7 +180,9 @@ class View:
             plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
         ]
         if self.figures and _only_figures(body):
-            body = self.only_with_numbers(body)
+            # whether a figure's own pane is visible is taken back from the figure
+            body = body if isinstance(body, pn.Column) else stack(body)
+            self._pictures.append(body)
         line, rest = parts_of(self.caption())
         self._caption = Caption(
             title=self.title,
@@ -220,7 +222,6 @@ class View:
 
         A view of figures alone has them so by itself.
         """
-        # a layout: whether a figure's own pane is visible is taken back from the figure
         self._pictures.append(stack(*parts, **params))
         return self._pictures[-1]
 

@@ -45,6 +45,7 @@ class BearingRows(Rows):
         asset_text("button.css"),
         asset_text("controls.css"),
         asset_text("bearing_editor.css"),
+        asset_text("picture.css"),
     ]
 
 

@@ -150,7 +150,7 @@ def _numbers(figure: PaperFigure) -> str:
         f"<td>{html.escape(one.ours(figure.scenes))}</td></tr>"
         for one in figure.printed
     )
-    slip = f"<p><b>Where the paper slips.</b> {html.escape(figure.slip)}</p>" if figure.slip else ""
+    slip = f"<p><b>Where the paper slips.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
     head = "".join(f"<th scope='col'>{word}</th>" for word in ("", "Paper", "Here"))
     return f"<table class='printed'><tr>{head}</tr>{rows}</table>{slip}"
 

@@ -72,6 +72,6 @@ def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
 def test_a_figure_is_drawn_outside_of_the_page() -> None:
     drawn = figures.paper(presets["6205"], choices={"figure": 8})
     assert len(drawn.layout.children) == 6
-    assert "(a) kxx 0° x" in drawn.table()
+    assert "(a) k xx 0° x" in drawn.table()
     with pytest.raises(ValueError, match="figure is 2"):
         figures.paper(presets["6205"], choices={"figure": 2})

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import logging
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -30,7 +29,7 @@ from bearing_explorer.state.sentences import words_of
 from bearing_explorer.views.base import View
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.still_figure import Figure
-from bearing_explorer.widgets.facts import html_table, html_text
+from bearing_explorer.widgets.facts import html_table, html_text, sentence_html
 from bearing_explorer.widgets.limits import rows_of
 from bearing_explorer.widgets.status import status_of
 from bearingcore import Scene
@@ -165,11 +164,6 @@ def now() -> datetime:
     return datetime.now(UTC)
 
 
-def _sentence(words: str) -> str:
-    """A sentence in which stiffnesses have their directions under their letter, as on the page."""
-    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
-
-
 def _link(address: str) -> str:
     """An address as a link; nothing where it is none of the web's."""
     try:
@@ -188,7 +182,7 @@ def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: st
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (
         f"<section><h2>{title}</h2><p class='about'>{caption}</p>"
-        f"<figure>{drawings}<figcaption>{_sentence(sentence)}</figcaption></figure></section>"
+        f"<figure>{drawings}<figcaption>{sentence_html(sentence)}</figcaption></figure></section>"
     )
 
 

@@ -45,14 +45,13 @@ export function render({ model }) {
     panel.choice("kind"), panel.choice("numbers"), waits, ...boxes)
   // A table of bearings, which the search in the side panel then finds too.
   const { file: name_of_file, template, needed } = model.spec.table
-  const file = element("input", { type: "file", accept: ".csv,.txt,.tsv,text/csv,text/plain", id: "bearing-file",
-    "aria-describedby": "bearing-file-words" })
-  const file_words = element("p", { class: "note", id: "bearing-file-words", role: "status" })
-  sends_text(file, LARGEST_TABLE, (...said) => write_note(file_words, ...said), (catalogue) => panel.send({ catalogue }))
-  const upload = element("div", { class: "upload own-table" },
-    element("label", { for: "bearing-file" }, `Bearings of your own for the search, as a table (CSV with ${needed})`), file,
+  const upload = element("div", { class: "upload own-table" })
+  const write_table = file_box(upload, "bearing-file",
+    `Bearings of your own for the search, as a table (CSV with ${needed})`,
+    ".csv,.txt,.tsv,text/csv,text/plain", LARGEST_TABLE, (catalogue) => panel.send({ catalogue }))
+  upload.lastChild.before(
     element("a", { download: name_of_file, href: `data:text/csv;charset=utf-8,${encodeURIComponent(template)}` },
-      "Download CSV template"), file_words)
+      "Download CSV template"))
   const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })
   const note = element("p", { class: "origin" })
 
@@ -72,7 +71,7 @@ export function render({ model }) {
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
     }
-    if (state.table) write_note(file_words, state.table.words, state.table.bad)
+    if (state.table) write_table(state.table.words, state.table.bad)
     if (state.draft) {
       waits.hidden = !state.draft.words
       words.textContent = state.draft.words

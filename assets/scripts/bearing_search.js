@@ -42,10 +42,7 @@ function bearing_search(model, panel) {
     open(false)
     panel.send({ choose })
   }
-  const refuse = (sentence) => {
-    refusal.textContent = sentence
-    refusal.hidden = !sentence
-  }
+  const refuse = (sentence) => panel.refuse("preset", sentence)
   const list_found = ({ text, entries, words }) => {
     if (input.getRootNode().activeElement !== input || text !== (input.value === name ? "" : input.value.trim().replace(/\s+/g, " "))) return
     list.replaceChildren(...entries.map(({ choose, label, words: about, mark }, i) => {
@@ -78,8 +75,7 @@ function bearing_search(model, panel) {
   })
   model.on("msg:custom", ({ found, refused }) => {
     if (found) list_found(found)
-    const sentence = refused?.bearing ?? refused?.preset
-    if (sentence) refuse(sentence)
+    if (refused?.bearing) refuse(refused.bearing)
   })
   const follow_state = ({ bearing }) => {
     if (!bearing) return

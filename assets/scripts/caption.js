@@ -45,7 +45,7 @@ export function render({ model }) {
   const file = (ending) => `bearing-${model.name_of_files}.${ending}`
   // Bokeh's figures, or the drawing that the view has instead.
   const views = () => model.picture
-    ? [drawing_of(find_deep(root.getRootNode().host.getRootNode(), "svg.picture"))]
+    ? [drawing_of([...inside(root.getRootNode().host.getRootNode())].find((one) => one.matches("svg.picture")))]
     : figures_on_screen(model.figures)
   // What a picture says of itself: its title, its key, the scene and the link to it.
   const about = () => {

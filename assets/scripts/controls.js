@@ -97,12 +97,10 @@ export function render({ model }) {
   }
 
   // A measured floor: the file is read here, sent as text, and checked by the server.
-  const file = element("input", { type: "file", accept: ".csv,.txt,.dat,.tsv,text/plain",
-                                  id: "floor-file", "aria-describedby": "floor-words" })
-  const words = element("p", { class: "note", id: "floor-words", role: "status" })
-  sends_text(file, LARGEST_FILE, (...said) => write_note(words, ...said), (floor) => send({ floor }))
-  const floor = element("div", { class: "upload" }, element("label", { for: "floor-file" },
-    "Two columns: angle in °, depth in µm, or in the units of its headings"), file, words)
+  const floor = element("div", { class: "upload" })
+  const write_floor = file_box(floor, "floor-file",
+    "Two columns: angle in °, depth in µm, or in the units of its headings",
+    ".csv,.txt,.dat,.tsv,text/plain", LARGEST_FILE, (file) => send({ floor: file }))
 
   const search = bearing_search(model, panel)
   panel.selects.preset = search
@@ -167,7 +165,7 @@ export function render({ model }) {
     }
     if (state.floor) {
       floor.hidden = !state.floor.shown
-      write_note(words, state.floor.words, state.floor.bad)
+      write_floor(state.floor.words, state.floor.bad)
     }
     count_changed()
   }

@@ -46,6 +46,14 @@ function markup(text, acts = {}) {
   return content.firstElementChild
 }
 
+// All elements below a node, those in shadows too.
+function* inside(where) {
+  for (const found of where.querySelectorAll("*")) {
+    yield found
+    if (found.shadowRoot) yield* inside(found.shadowRoot)
+  }
+}
+
 // Calls `write` now and whenever one of these properties of the model changes.
 function follow(model, names, write) {
   for (const name of names) model.on(name, write)

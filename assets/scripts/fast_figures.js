@@ -28,7 +28,6 @@
 
   const renderer = view_of("GlyphRenderer")
   const line = view_of("Line")
-  const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
 
   // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
@@ -94,51 +93,6 @@
         return index.call(this)
       },
     })
-  })
-
-  // An axis works out its ticks and their words six times a repaint; they follow from its ranges.
-  const ticks = getter(axis, "tick_coords")
-  const extents = getter(axis, "extents")
-  const labels = method(axis, "compute_labels")
-  part("ticks of axes", [ticks, extents, labels], () => {
-    const kept = new WeakMap()
-    const ends = (range) => [range.start, range.end]
-    const key_of = (view) => {
-      const known = Object.values(view.model.formatter.args ?? {})
-      const shown = known.filter((one) => typeof one?.start === "number").flatMap(ends)
-      return [...view.ranges.flatMap(ends), view.loc, ...shown]
-    }
-    const known = (view) => {
-      const key = key_of(view)
-      let found = kept.get(view)
-      if (found === undefined) {
-        const { model } = view
-        const forget = () => { kept.set(view, { key: [] }) }
-        view.connect(model.change, forget)
-        view.connect(model.ticker.change, forget)
-        view.connect(model.formatter.change, forget)
-      }
-      if (!found || found.key.length !== key.length || found.key.some((v, i) => v !== key[i]))
-        kept.set(view, found = { key, labels: new Map() })
-      found.labels ??= new Map()
-      return found
-    }
-    const numeric = (view) => view.ranges.every((range) => typeof range.start === "number")
-    const keep = (name, compute) => Object.defineProperty(owner(axis, name), name, {
-      configurable: true,
-      get() {
-        return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
-      },
-    })
-    keep("tick_coords", ticks)
-    keep("extents", extents)
-    owner(axis, "compute_labels").compute_labels = function (ticks) {
-      if (!numeric(this) || this._major_label_views?.size) return labels.call(this, ticks)
-      const { labels: found } = known(this)
-      const name = ticks.join()
-      if (!found.has(name)) found.set(name, labels.call(this, ticks))
-      return found.get(name)
-    }
   })
 
   // Where anything on the page grew by a line of text, or an axis by a digit, all figures of all tabs

@@ -33,17 +33,6 @@ function drawing_of(svg) {
   return { el: svg, draw }
 }
 
-// The first element with `selector` below a node, shadows included.
-function find_deep(node, selector) {
-  const found = node.querySelector(selector)
-  if (found) return found
-  for (const part of node.querySelectorAll("*")) {
-    const deeper = part.shadowRoot && find_deep(part.shadowRoot, selector)
-    if (deeper) return deeper
-  }
-  return null
-}
-
 function svg_of(view) {
   if (view.draw) return view.draw()
   const { width, height } = view.bbox

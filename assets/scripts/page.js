@@ -72,12 +72,6 @@
   on_event("drawn", root, () => { if (wanted !== null && is_open()) wait_for(null, "") })
 
   // Figures come and go with their tabs, each inside the shadow of another.
-  const inside = function* (where) {
-    for (const found of where.querySelectorAll("*")) {
-      yield found
-      if (found.shadowRoot) yield* inside(found.shadowRoot)
-    }
-  }
   let marked = [], veiled = false  // veiled: they would answer what is to be predicted
   const mark = () => {
     const missing = new Set(marked)

@@ -1,7 +1,6 @@
 // The status line: a chip whose words say what its colour says, and details. Where the line is
 // folded, the details are a list that opens above it.
 export function render({ model }) {
-  const REST = 200  // ms after which the hidden list is written
   const chip = element("strong")
   const more = element("button", { type: "button", "aria-controls": "status-list" }, "Details")
   const list = model.folded ? element("ul", { id: "status-list", class: "list" }) : element("span")
@@ -9,14 +8,7 @@ export function render({ model }) {
   // of a folded line only the chip is live: reading out each residual would be noise
   const live = model.folded ? chip : line
   live.setAttribute("role", "status")
-  let later
-  const write_details = () => {
-    clearTimeout(later)
-    const { details } = model.line
-    if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
-    else list.textContent = details.join("  ·  ")
-  }
-  const open = model.folded && unfolds(more, list, write_details)
+  const open = model.folded && unfolds(more, list)
   follow(model, ["line"], () => {
     const { mood, words, details, tab, resting } = model.line
     if (tab) Object.assign(window, { __tab: tab, __resting: resting })  // for tests and benchmarks
@@ -24,9 +16,8 @@ export function render({ model }) {
     if (chip.textContent !== words) chip.textContent = words
     more.hidden = !details.length
     if (open && !details.length) open(false)
-    clearTimeout(later)
-    if (model.folded && list.hidden) later = setTimeout(write_details, REST)
-    else write_details()
+    if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
+    else list.textContent = details.join("  ·  ")
   })
   // Until the first kernels are compiled sliders would move nothing: they say so by not moving.
   const bar = element("progress"), said = element("span")

@@ -48,7 +48,7 @@ from bearing_explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
 from bearing_explorer.widgets.controls import Rows
-from bearing_explorer.widgets.facts import table_to_read
+from bearing_explorer.widgets.facts import sentence_html, table_to_read
 from bearing_explorer.widgets.form import stack
 from bearingcore import Scene
 from bearingcore.common.table import as_csv
@@ -88,7 +88,7 @@ class Caption(LiveComponent):
 
 
 class Sentence(LiveComponent):
-    """One live sentence: text that screen readers announce, set without a layout pass."""
+    """One live sentence: HTML that screen readers announce, set without a layout pass."""
 
     text = param.String()
 
@@ -258,7 +258,7 @@ class View:
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
-        self._sentence.put(text=sentence)
+        self._sentence.put(text=sentence_html(sentence))
         self._caption.put(
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )

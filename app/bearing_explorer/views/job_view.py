@@ -15,6 +15,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.base import Sentence, SessionParts, View
 from bearing_explorer.views.still_figure import editor_of
+from bearing_explorer.widgets.facts import sentence_html
 from bearing_explorer.widgets.form import (
     SEARCHED,
     Fields,
@@ -125,7 +126,7 @@ class JobForm(pn.Column):
             visible=state.running,
         )
         self._cancel.disabled = not state.running
-        self._sentence.text = state.words
+        self._sentence.text = sentence_html(state.words)
         self.css_classes = ["job", state.mood]
 
     def _changed(self, name: str) -> None:

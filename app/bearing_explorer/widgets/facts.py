@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import zip_longest
 from typing import Any, NamedTuple
@@ -72,6 +73,11 @@ def groups_html(groups: Iterable[FactGroup]) -> str:
 def html_text(words: str) -> str:
     """Words as HTML."""
     return html.escape(words, quote=True)
+
+
+def sentence_html(words: str) -> str:
+    """A sentence in which a stiffness, ``k_yy``, has its directions under its letter."""
+    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
 
 
 def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]]) -> str:

@@ -22,5 +22,5 @@ def test_this_version_of_bokehjs_has_them() -> None:
 
 def test_the_models_are_there_whose_views_are_changed() -> None:
     named = set(re.findall(r'(?:view_of|get)\("(\w+)"\)', asset_text("fast_figures.js")))
-    assert {"GlyphRenderer", "LinearAxis"} <= named
+    assert {"GlyphRenderer", "Column"} <= named
     assert all(hasattr(models, name) for name in named)

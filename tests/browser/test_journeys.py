@@ -62,7 +62,8 @@ def _outer_race(scene: Scene) -> str:
     return f"{scene.bearing.bpfo(scene.shaft_speed):.2f} Hz"
 
 
-#: of each tab: cards, figures at least, a number of the core that it says, and what moves it
+#: of each tab: cards, figures at least, a number of the core or words that it says, and what moves
+#: it
 TABS = {
     "Overview": (4, 3, _frequency, "Extent"),
     "Load": (3, 3, _most_loaded, "Extent"),
@@ -77,7 +78,7 @@ TABS = {
     "Speed run": (1, 1, None, None),
     "Bearing": (1, 0, _outer_race, None),
     "Model": (2, 0, None, None),
-    "Diagnosis": (2, 0, None, None),
+    "Diagnosis": (2, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 10, None, None),
     "Paper": (1, 3, None, None),
 }

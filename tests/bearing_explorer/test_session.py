@@ -1,12 +1,10 @@
 """A session without a browser: what its messages do, and that strangers' messages do nothing."""
 
 import asyncio
-import math
 from collections.abc import Callable, Sequence
 
 import pytest
 from bearing_explorer.messages import LinksChange, SceneChange, take
-from bearing_explorer.results.results import Results
 from bearing_explorer.session import Explorer, Section
 from bearing_explorer.views.alternatives import OtherModels, takeable
 
@@ -157,33 +155,6 @@ def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch)
     session(ask_twice)
     assert [list(news) for news in answers] == [["report"]]
     assert "http://localhost:5006/?v=1&amp;preset=fan-rig" in answers[0]["report"]["html"]
-
-
-def test_limits_are_looked_at_when_the_hand_rests(
-    news: list[dict], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    looked: list[float] = []
-    real = Results.limits.func
-
-    def looking(results: Results) -> object:
-        looked.append(results.scene.load.fy)
-        return real(results)
-
-    monkeypatch.setattr(Results.limits, "func", looking)
-    monkeypatch.setattr("bearing_explorer.session._LIMITS_EVERY", math.inf)
-    calm = session(changing({"mark": 1, "choose": {"preset": "6205"}}), rest=True)
-    # no motion has been simulated on this tab and no oil given: what depends on them says so
-    unknown = {row["name"] for row in calm.limits.rows if row["state"] == "unknown"}
-    assert unknown <= {"contact pressure in motion", "compression in motion", "film parameter"}
-    assert {row["state"] for row in calm.limits.rows} - {"unknown"} == {"kept"}
-    looked.clear()
-    heavy = session(
-        *(changing({"mark": 1, "typed": {"fy_n": f"{fy}"}}) for fy in (-120, -130, -140, -20000)),
-        rest=True,
-    )
-    assert heavy.limits.rows[0]["state"] == "crossed"
-    assert looked[-1] == -20000.0
-    assert not {-130.0, -140.0} & set(looked), "not while it moves"
 
 
 @pytest.mark.parametrize(

@@ -320,19 +320,6 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     assert "nearly a whole number" in made.state.refused["bearing"]
 
 
-def test_a_file_can_be_given_up():
-    made = measuring(signal())
-    made.begin_upload("long.csv", 5000)
-    made.take_piece(bytes(2000), 1)
-    assert made.state.busy
-    made.cancel()
-    assert not made.state.busy
-    assert made.state.words == f"Cancelled. {signal().recording.name} stays."
-    made.take_piece(bytes(3000), 1)
-    assert made.measured is signal()
-    assert not made._tasks
-
-
 def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
     run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
     made = brought("run.mat", mat_of(bearing=run_))
@@ -468,17 +455,6 @@ def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
     ratio = np.std(with_noise - clean, axis=0) / np.sqrt(np.mean(clean**2, axis=0))
     assert ratio == pytest.approx([0.1, 0.1], rel=0.03)
     assert quiet.recording.duration * RIG.bearing.bpfo(RIG.shaft_speed) > 50.0
-
-
-def test_a_different_machine_is_not_the_scene_but_has_its_defect():
-    same, other, third = (
-        simulated(RIG, math.inf, different, seed)
-        for different, seed in ((False, 5), (True, 5), (True, 6))
-    )
-    assert same.true_extent == other.true_extent == third.true_extent
-    spectra = [made.spectrum("y", 32.0).density for made in (same, other, third)]
-    for one, two in ((0, 1), (0, 2), (1, 2)):
-        assert np.abs(np.log(spectra[one] / spectra[two])).mean() > 0.1
 
 
 @pytest.mark.parametrize("scene", [RIG.replace(dofs=("z",), fz=10.0), RIG.replace(fy=0.0)])

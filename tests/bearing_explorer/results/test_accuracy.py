@@ -7,7 +7,7 @@ import math
 import time
 
 import pytest
-from bearing_explorer.results.accuracy import Found, compute, preset_like, shipped
+from bearing_explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -81,18 +81,6 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
         base.stability.trials if base.stability else ()
     )
-
-
-def test_of_another_scene_it_says_whose_numbers_these_are() -> None:
-    view = Accuracy(PackedSource())
-    other = RIG.replace(extent=0.3)
-    assert preset_like(other) == "fan-rig"
-    assert "Nothing is shipped for this scene" in view.sentence(Results(other))
-    assert "Nothing is shipped" not in view.sentence(Results(RIG))
-    unlike = Results(RIG.replace(n_balls=11))
-    words = view.sentence(unlike)
-    assert "those of Fan rig, deep groove bearing as it comes" in words
-    assert "Balls are massless" in view.sentence(Results(RIG.replace(balls="with mass")))
 
 
 def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:

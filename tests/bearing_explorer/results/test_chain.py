@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from bearing_explorer.results.chain import off_line, over_turn
 from bearing_explorer.results.results import Results
 
 from bearingcore import equilibrium, modes, presets, simulate, spectrum
@@ -36,28 +33,6 @@ def test_the_numbers_are_those_of_the_core(scene) -> None:
         assert chain.peaks[dof].level == pytest.approx(10 * np.log10(density[line, i]), abs=0.2)
     assert chain.loudest == "y"
     assert not chain.silent
-
-
-def test_the_angle_off_the_line_of_the_load() -> None:
-    """None with the load straight on one ball, else what each ball carries weighs its angle."""
-    scene = FAN_RIG.healthy()
-    spacing = scene.bearing.ball_spacing
-    turned = scene.replace(n_balls=2, dofs=("y",))
-    found = equilibrium(turned, [math.radians(270.0)])
-    assert found.loaded_balls[0] == 1
-    assert off_line(found, turned) == pytest.approx(0.0, abs=1e-12)
-    found = equilibrium(scene, [math.radians(270.0) + 0.5 * spacing])
-    load, angle = found.ball_load[0], found.ball_angle[0]
-    down = np.cos(angle - math.radians(270.0))
-    assert off_line(found, scene) == pytest.approx(load @ np.arccos(down) / load.sum())
-    assert math.isnan(off_line(found, scene.replace(fy=0.0, fz=50.0)))
-
-
-def test_a_mean_counts_angles_by_how_far_apart_they_stand() -> None:
-    angles = np.array([0.0, 0.1, 0.2, 1.0])
-    assert over_turn(angles, angles) == pytest.approx(0.5)
-    assert over_turn(angles, np.array([1.0, np.nan, 1.0, 1.0])) == 1.0
-    assert math.isnan(over_turn(angles, np.full(4, np.nan)))
 
 
 def test_what_is_missing_is_said() -> None:

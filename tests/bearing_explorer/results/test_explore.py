@@ -140,22 +140,6 @@ def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     assert words.startswith("9 × 7 points after")
 
 
-def test_a_slow_first_picture_grows_and_is_gone_on_with(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(explore, "_SHOW_EVERY", 0.0)
-    job = Recorder(stop_after=1)
-    asked = question("acceleration_rms_y", x=("shaft_speed_hz", "10", "20"))
-    words = refine(job, asked, 8)
-    (part,) = job.shown
-    assert words.startswith(f"{20 - part.missing} of 5 × 4 points after")
-    assert part.values.shape == (4, 5)
-    assert 0 < part.missing < 20
-    assert set(part.reasons[np.isnan(part.values)]) == {explore.NOT_COMPUTED}
-    survey = Survey(asked, part)
-    assert survey.missing(16) == part.missing
-    assert survey.compute(16)
-    assert survey.plane(16).missing == 0
-
-
 def test_what_takes_too_long_is_told_with_its_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(explore, "BUDGET", 0.05)
     job = Recorder()

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 
 import pytest
-from bearing_explorer.results import jobs as module
 from bearing_explorer.results.jobs import Jobs, JobState, Work
 
 from tests.helpers.loops import run
@@ -168,35 +167,6 @@ def test_a_job_that_fails_says_so_and_the_next_one_runs(error: Exception, words:
 
     run(session())
     assert page.states[-1].mood == "done"
-
-
-def test_sessions_wait_for_a_thread_and_can_be_cancelled_meanwhile(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    from concurrent.futures import ThreadPoolExecutor
-
-    monkeypatch.setattr(module, "JOBS", ThreadPoolExecutor(1))
-    mine, other = Page(), Page()
-
-    async def session() -> None:
-        began = threading.Event()
-        others, jobs = Jobs(assign), Jobs(assign)
-        others.start(steps(500, began), other.take, other.report)
-        while not began.is_set():
-            await asyncio.sleep(0.005)
-        jobs.start(steps(3), mine.take, mine.report)
-        while not mine.states:
-            await asyncio.sleep(0.005)
-        assert mine.states[-1].mood == "waiting"
-        jobs.cancel()
-        await idle(jobs)
-        assert others.busy
-        others.cancel()
-        await idle(others)
-
-    run(session())
-    assert mine.states[-1].mood == "stopped"
-    assert not mine.found
 
 
 def test_a_job_cannot_go_on_for_ever() -> None:

@@ -84,21 +84,6 @@ def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_thei
     assert sizes[1]
 
 
-def test_the_search_for_an_orbit_is_short_while_a_hand_moves() -> None:
-    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi)
-    quick, patient = (Results(hopeless, moving=moving).orbit for moving in (True, False))
-    assert quick is not None
-    assert patient is not None
-    assert quick.status == patient.status == OrbitStatus.NOT_CONVERGED
-    assert quick.right_hand_side_calls < 0.5 * patient.right_hand_side_calls
-    usual = presets["fan-rig"]
-    short = Settings(duration=0.3)  # which takes no coarser steps while a hand moves
-    found = Results(usual, moving=True, settings=short).orbit
-    assert found is not None
-    assert found.stable
-    assert Results(usual, settings=short).orbit is found
-
-
 def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -138,10 +123,8 @@ def test_a_band_is_the_same_however_finely_curves_are_drawn(extent_deg: float) -
     assert rested.bands == by_hand.bands == run.bands == rested.chain.bands
 
 
-@pytest.mark.parametrize("name", list(presets))
-def test_curves_have_a_fixed_number_of_cage_angles(name: str) -> None:
-    """Also where a bearing can only move in some directions, as one of cylindrical rollers."""
-    scene = presets[name]
+def test_curves_have_a_fixed_number_of_cage_angles() -> None:
+    scene = presets["nu208"]  # which can only move in some directions
     for moving, n in ((True, 121), (False, 361)):
         assert Results(scene, moving=moving).equilibrium.cage_angles.size == n
     turning = Results(scene.replace(race="inner"))

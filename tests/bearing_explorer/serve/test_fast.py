@@ -88,24 +88,3 @@ def test_all_changes_are_one_message() -> None:
     sent, moved = changed()
     assert (moved.start, moved.end) == (1, 2)
     assert [len(message.content["events"]) for message in sent] == [2]
-
-
-def test_without_a_lock_decorator_bokehs_own_way_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("_needs_document_lock_on_loop", "_needs_document_lock"):
-        monkeypatch.delattr(bokeh_session, name, raising=False)
-    sent, _ = changed(fast._with_lock(lambda session, act: act(session.document)))
-    assert len(sent) == 1
-
-
-def test_models_are_looked_for_bokehs_way_where_a_name_is_gone(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    from bokeh.model import util
-
-    def slow(*_: object) -> None: ...
-
-    monkeypatch.setattr(util, "visit_immediate_value_references", slow)
-    monkeypatch.setattr(fast, "missing", lambda: ["it is gone"])
-    fast.find_models_quickly()
-    assert util.visit_immediate_value_references is slow
-    assert "it is gone" in caplog.text

@@ -43,19 +43,6 @@ def test_dimensions_reach_the_bearing(
     assert editor.changed
 
 
-def test_a_bearing_that_cannot_be_built_is_refused_in_the_words_of_the_page(
-    editor: SceneEditor,
-) -> None:
-    before = editor.scene
-    refused, changed = editor.set({"ball_diameter_mm": 11.0})
-    assert list(refused) == ["ball_diameter_mm"]
-    assert "number of balls is 14" in refused["ball_diameter_mm"]
-    assert "_" not in refused["ball_diameter_mm"]
-    assert changed == {}
-    assert editor.scene is before
-    assert editor.values["ball_diameter_mm"] == 8.0
-
-
 def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
     assert editor.choose({"numbers": "drawing"}) == {}
     drawn = editor.scene.bearing
@@ -214,13 +201,3 @@ def test_a_file_that_is_no_floor_is_refused_in_words(
     assert floor["bad"]
     assert len(floor["words"]) < 300
     assert re.search(words, floor["words"]), floor["words"]
-
-
-def test_the_focus_passes_over_defects_that_are_none(editor: SceneEditor) -> None:
-    editor.choose({"defect": "add"})
-    editor.choose({"defect": "0"})
-    editor.set({"depth_um": 0})
-    assert editor.focus == 0
-    editor.choose({"defect": "1"})
-    assert editor.focus == 0, "it is the only one that the scene has"
-    assert editor.scene.defects[editor.focus].center == pytest.approx(math.pi / 2)

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.depth_profile import DepthProfile
 from bearing_explorer.views.stiffness import Stiffness
 
-from bearingcore import Defect, RoughFloor, presets
+from bearingcore import presets
 
 OUTER = presets["fan-rig"]
 INNER = OUTER.replace(race="inner")
@@ -41,18 +40,3 @@ def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
     )
     assert set(cells["foot"]) == {0.0, 360.0}
     assert sources["stiffness_axis"]["shaft"].tolist() == [1.0]
-
-
-def test_the_profile_is_that_of_the_defect_in_hand() -> None:
-    scene = OUTER.replace(
-        defect=(OUTER.defect, Defect(0.3, 30e-6, 1.0, "inner", floor=RoughFloor(3e-6, 2e-4)))
-    )
-    outer, inner = (Results(scene, 0.2, focus=focus) for focus in (0, 1))
-    assert outer.profile.race == "outer"
-    assert inner.profile.race == "inner"
-    view = DepthProfile(PackedSource())
-    assert view.sentence(outer).startswith("The outer-race defect is 12.9° (5.97 mm) long")
-    assert "turns with the shaft" in view.sentence(inner)
-    turned = 1.0 + 0.2 / OUTER.bearing.cage_ratio
-    middle = 0.5 * (inner.profile.angle[0] + inner.profile.angle[-1])
-    assert math.remainder(middle - turned, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)

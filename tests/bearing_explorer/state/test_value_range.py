@@ -7,15 +7,13 @@ import pytest
 from bearing_explorer.state.field_values import limits_of
 from bearing_explorer.state.value_range import (
     SWEEPABLE,
-    focused,
     sweep,
     usual_range,
-    value_of,
 )
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bearingcore import Defect, presets
+from bearingcore import presets
 
 RIG = presets["fan-rig"]
 LIMITS = limits_of(RIG)
@@ -69,12 +67,3 @@ def test_every_quantity_has_a_range_to_begin_with(preset: str) -> None:
         assert low < high
         assert limits[name].least <= low
         assert high <= limits[name].most
-
-
-def test_the_defect_in_hand_is_the_one_that_runs() -> None:
-    near, far = Defect(0.2, 5e-5, 4.7), Defect(0.1, 3e-5, 1.0)
-    scene = RIG.replace(defect=(near, far))
-    turned = focused(scene, 1)
-    assert turned.defect == (far, near)
-    assert value_of(turned, SWEEPABLE["extent_deg"]) == pytest.approx(math.degrees(0.1))
-    assert focused(RIG, 0) is RIG

@@ -37,18 +37,6 @@ def test_as_in_the_paper_a_ball_does_not_reach_the_floor_of_5_degrees_but_of_20(
     assert "reaches its floor of 50 µm" in view.sentence(long)
 
 
-def test_balls_lie_on_the_path_of_their_centres() -> None:
-    scene = FAN_RIG.replace(extent=math.radians(38.6), center=0.0)
-    sources, ranges = DepthProfile(PackedSource()).data(Results(scene, math.radians(17.0)))
-    balls, path = sources["depth_profile_balls"], sources["depth_profile_path"]
-    seen = np.isfinite(balls["angle"])
-    assert seen.sum() >= 2
-    start, end = ranges["depth_profile_angle"]
-    assert np.all((balls["angle"][seen] >= start) & (balls["angle"][seen] <= end))
-    expected = np.interp(balls["angle"][seen], path["angle"], path["drop"])
-    np.testing.assert_allclose(balls["drop"][seen], expected, atol=1e-6)
-
-
 def test_a_rough_floor_is_drawn_as_it_was_cut_and_balls_roll_over_its_peaks() -> None:
     floor = RoughFloor(rms_height=5e-6, correlation_length=0.5e-3, seed=3)
     scene = FAN_RIG.replace(extent=math.radians(38.6), floor=floor)

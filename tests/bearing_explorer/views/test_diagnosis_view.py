@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import dataclasses
 import math
 import re
-import time
 from functools import cache
 
 import numpy as np
-import panel as pn
 import pytest
-from bearing_explorer.measurement.diagnoses import Answers, Question, answered
+from bearing_explorer.measurement.diagnoses import Question, answered
 from bearing_explorer.measurement.session import simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.messages import LessonChange, take
@@ -32,7 +29,6 @@ from bearing_explorer.views.part_lines import (
 )
 
 from bearingcore import Diagnosis, Recording, presets
-from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.helpers.measuring import measuring
 
 MOTOR = presets["6205"]
@@ -245,30 +241,6 @@ def test_names_of_lines_stand_clear_of_each_other(first, low, high):
 # -- the evidence ----------------------------------------------------------------------------------
 
 
-def test_a_search_of_the_list_shows_its_progress_and_can_be_cancelled():
-    found = dataclasses.replace(diagnosed("outer race"), status=DiagnosisStatus.OTHER_SOURCE)
-    view = view_of(heard("outer race"), found)
-
-    def said() -> str:
-        view.say(RESULTS, "")
-        return " ".join(pane.object for pane in view.candidates.select(pn.pane.HTML))
-
-    assert "Looking for listed bearings" in said()
-    wanted = view.measurement.listed.wanted
-    assert wanted.progress.goes_on(3, 40)
-    assert "3 of 40 …" in said()
-    (cancel,) = view.candidates.select(pn.widgets.Button)
-    assert wanted.progress.goes_on(4, 40)
-    assert "4 of 40 …" in said()
-    assert view.candidates.select(pn.widgets.Button) == [cancel]  # a new one would lose a click
-    cancel.clicks += 1
-    assert not wanted.progress.goes_on(5, 40)
-    said()
-    assert not cancel.visible
-    view.measurement.listed.keep(wanted, ())
-    assert "cancelled after 4 of 40 listed bearings" in said()
-
-
 def test_the_evidence_is_listed_for_each_part():
     rows = part_words.evidence_rows(diagnosed("inner race"))
     assert [row["part"] for row in rows] == ["outer race", "inner race", "ball"]
@@ -300,62 +272,7 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 # -- in the background -----------------------------------------------------------------------------
 
 
-def test_a_question_depends_on_what_the_diagnosis_depends_on():
-    measured, bearing = heard("none"), MOTOR.bearing
-    same = Question.about(measured, MOTOR.replace(radial_clearance=5e-6).bearing)
-    assert Question.about(measured, bearing) == same
-    assert Question.about(measured, MOTOR.replace(ball_diameter=8e-3).bearing) != same
-    assert Question.about(measured, bearing, "rough") != same
-    assert Question.about(heard("outer race"), bearing) != same
-
-
-def test_only_the_newest_question_is_drawn_and_none_after_the_end():
-    calls: list[float] = []
-
-    def slow(question: Question) -> str:
-        calls.append(question.bearing.ball_diameter)
-        time.sleep(0.1)
-        return f"{question.bearing.ball_diameter}"
-
-    drawn: list[int] = []
-
-    async def go():
-        async def assign(change):
-            change()
-
-        made = Answers(assign, lambda: drawn.append(1), slow)
-        questions = [
-            Question.about(heard("none"), MOTOR.replace(ball_diameter=d * 1e-3).bearing)
-            for d in (7.5, 7.6, 7.7, 7.8)
-        ]
-        for question in questions:
-            made.want(question)
-            await asyncio.sleep(0.01)
-        await asyncio.sleep(0.5)
-        newest = made.of(questions[-1])
-        made.want(questions[1])
-        made.stop()
-        await asyncio.sleep(0.3)
-        return newest, made.of(questions[1])
-
-    newest, after = asyncio.run(go())
-    assert newest == "0.0078"
-    assert calls[:2] == [0.0075, 0.0078]  # those between are overtaken
-    assert len(drawn) == 1
-    assert after is None
-
-
 # -- simulated measurements ------------------------------------------------------------------------
-
-
-def test_the_noise_of_a_healthy_machine_is_that_of_a_machine():
-    """Not a share of the faint vibration that a healthy bearing makes by itself."""
-    quiet, noisy = heard("none", math.inf).recording, heard("none").recording
-    noise = np.std(noisy.acceleration - quiet.acceleration, axis=0)
-    assert noise[0] == pytest.approx(noise[1], rel=0.05)
-    damaged = heard("outer race", math.inf).recording.acceleration.std(axis=0).max()
-    assert 0.02 * damaged < noise[0] < 0.5 * damaged
-    assert (noise > 2.0 * quiet.acceleration.std(axis=0)).all()
 
 
 @pytest.mark.parametrize(

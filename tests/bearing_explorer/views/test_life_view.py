@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import numpy as np
 import pytest
-from bearing_explorer.results.endurance import ESTIMATED, LifeInputs, endurance, with_usual_grooves
+from bearing_explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.results.results import Results
-from bearing_explorer.views.life import FIELDS, groups_of, read
+from bearing_explorer.views.life import groups_of
 from bearing_explorer.widgets.limits import rows_of
 
 from bearingcore import (
@@ -63,14 +62,6 @@ def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
     assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
 
 
-def test_the_life_of_an_estimated_bearing_says_so() -> None:
-    scene = presets["fan-rig"]
-    bearing = dataclasses.replace(scene.bearing, estimated=("n_balls", "ball_diameter"))
-    words = endurance(scene.replace(bearing=bearing), LifeInputs()).assumed
-    assert words.startswith(ESTIMATED)
-    assert ESTIMATED not in endurance(scene, LifeInputs()).assumed
-
-
 def number(text: str) -> float:
     return float(text.split(" ")[0].replace("\u202f", ""))
 
@@ -107,14 +98,3 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
         assert rated.life is not None
         assert math.isfinite(rated.life.million_revolutions)
         assert rated.pressures is not None
-
-
-def test_numbers_are_read_as_people_write_them_and_refused_in_words() -> None:
-    by_name = {field.name: field for field in FIELDS}
-    assert read(by_name["dynamic_load_rating"], " 14,5 ") == pytest.approx(14_500.0)
-    assert read(by_name["dynamic_load_rating"], "") is None
-    assert read(by_name["viscosity"], "") is None
-    assert read(by_name["race_roughness"], "0.2") == pytest.approx(2e-7)
-    for name, text in (("race_roughness", ""), ("viscosity", "0"), ("race_roughness", "nan")):
-        with pytest.raises(ValueError, match=r"possible: |is missing"):
-            read(by_name[name], text)

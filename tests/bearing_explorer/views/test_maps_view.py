@@ -127,17 +127,3 @@ def test_the_extent_that_varies_is_that_of_the_defect_in_hand() -> None:
     )
     np.testing.assert_array_equal(maps.loaded_balls[30], row.loaded_balls)
     assert np.any(maps.loaded_balls[30] != Results(both, focus=0).maps.loaded_balls[30])
-
-
-def test_with_an_inner_race_defect_maps_are_over_a_turn_of_the_shaft() -> None:
-    scene = LIEW_LIM.replace(race="inner")
-    turn = 2.0 * math.pi * scene.bearing.cage_ratio
-    results = Results(scene, 1.25 * turn)
-    grid = {k: float(v[0]) for k, v in sent(results)["maps_grid"].items()}
-    middle = 0.5 * (grid["x_first"] + grid["x_last"])
-    assert (middle, grid["of_shaft"]) == (pytest.approx(180.0), 1.0)
-    # what a click in the middle asks for
-    assert grid["start"] + middle / grid["turn"] == pytest.approx(math.degrees(1.5 * turn))
-    marks = sent(results)["maps_now"]
-    share = (marks["x"] - marks["left"]) / (marks["right"] - marks["left"])
-    np.testing.assert_allclose(share, 0.25, atol=2e-3)

@@ -60,16 +60,6 @@ def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
     assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"].size == 0
 
 
-def test_a_signal_of_few_turns_has_no_order_map_and_the_page_says_so():
-    view = view_of(MeasuredSpectrogram, run_up(1.0))
-    view.look_changed("map", "orders")
-    assert view.sentence(RESULTS) == (
-        "An order map needs 40 turns of the shaft, and the signal has 15."
-    )
-    assert view.all_data(RESULTS)[0]["spectrogram_cells"]["packed"].size == 0
-    assert view.table(RESULTS) == {}
-
-
 def test_the_kurtogram_is_drawn_where_its_bands_are():
     measured = run_up()
     found = measured.kurtogram("y")

@@ -12,7 +12,6 @@ from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.dof_comparison import DofDifferences
 from bearing_explorer.views.dof_comparison import facts_of as differences_of
-from bearing_explorer.views.model_editor import ModelEditor
 
 from bearingcore import DOF_NAMES, presets
 
@@ -43,16 +42,6 @@ def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None
     assert ("roller_length_mm" in groups) == (bearing.kind.element == "roller")
     assert ("row_distance_mm" in groups) == (len(bearing.rows) == 2)
     assert "nan" not in bearing_picture(bearing)
-
-
-def test_the_automatic_damping_is_shown_and_a_given_one_said() -> None:
-    view = ModelEditor(PackedSource())
-    results = Results(presets["fan-rig"])
-    view.say(results, "")
-    assert float(view.rows.automatic) == pytest.approx(results.contact_damping, rel=1e-3)
-    assert "from its stiffness" in view.sentence(results)
-    given = Results(presets["fan-rig"].replace(contact_damping=77.0))
-    assert "77 N·s/m, given" in view.sentence(given)
 
 
 def test_an_exact_reduction_changes_nothing() -> None:

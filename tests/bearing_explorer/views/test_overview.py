@@ -5,16 +5,13 @@ from __future__ import annotations
 import dataclasses
 import re
 
-import numpy as np
 import pytest
 from bearing_explorer.results.chain import Chain, Peak
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.overview.change import LastChange
-from bearing_explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.views.overview.stiffness import OverviewStiffness, free_terms
 from bearing_explorer.views.overview.words import story
-from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
 from bearingcore import DOF_NAMES, Scene, equilibrium, presets
 
@@ -127,20 +124,3 @@ def test_only_terms_that_matter_are_lively() -> None:
     assert all_of["overview_terms"]["lively"].sum() > 10
     held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
     assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
-
-
-def test_curves_and_bands_of_the_spectrum_are_named_in_the_figure() -> None:
-    for scene in (FAN_RIG, presets["liew-lim"]):
-        results = Results(scene, 0.1)
-        drawn, ranges = OverviewSpectrum(PackedSource()).data(results)
-        full = VibrationSpectra(PackedSource()).data(results)[0]["spectrum_lines"]
-        np.testing.assert_array_equal(drawn["overview_lines"]["y"], full["y"])
-        bands, names = drawn["overview_bands"], drawn["overview_names"]
-        assert len(bands["low"]) == len(results.bands)
-        assert {0.0, 1.0} <= set(names["which"]), "horizontal and vertical"
-        low, high = ranges["overview_level"]
-        assert ((names["y"] > low) & (names["y"] < high)).all()
-        for line in set(bands["line"]):
-            own = np.flatnonzero(bands["line"] == line)
-            ends = bands["low"][own] + bands["room"][own]
-            assert (ends[:-1] <= bands["low"][own][1:] + 1e-9).all()

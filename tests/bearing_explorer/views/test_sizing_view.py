@@ -15,7 +15,6 @@ from bearing_explorer.measurement.signal import Measured, Origin, Simulated
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.frequency_lines import (
     FAMILIES,
     NAME_WIDTH,
@@ -253,20 +252,6 @@ def test_balls_enter_at_zero_and_leave_as_geometry_says(sized):
     assert left < 0.2
 
 
-def test_events_are_marked_in_the_signal_once_it_is_sized(sized):
-    view = view_of(MeasuredSignal, signal())
-    assert not view.all_data(RESULTS)[0]["measurement_events"]["time"].size
-    view.measurement.sized = sized
-    sources, ranges = view.all_data(RESULTS)
-    begin, end = ranges["measurement_close_time"]
-    events = sources["measurement_events"]
-    assert len(events["time"]) in (7, 8, 9)  # of four ball passes
-    assert ((events["time"] >= begin) & (events["time"] <= end)).all()
-    assert (events["named"][events["time"] > end - 0.1 * (end - begin)] == 0.0).all()
-    view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
-    assert not view.all_data(RESULTS)[0]["measurement_events"]["time"].size  # of another signal
-
-
 def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
     view = view_of(DefectSize, signal())
     view._draw = lambda: None
@@ -302,17 +287,6 @@ def test_an_answer_at_the_edge_of_the_search_is_a_bound(sized):
     )  # fmt: skip
     assert has_answer(sizing)
     assert not has_answer(dataclasses.replace(sizing, status=SizingStatus.SEVERAL))
-
-
-def test_the_outer_race_may_be_known_to_be_damaged():
-    view = view_of(DefectSize, signal())
-    editor = SceneEditor("fan-rig")
-    assert view.form(editor) == ({"fault": "", "support": ""}, {})
-    assert [value for value, _ in view.fields()[0]["options"]] == ["", "outer race"]
-    view.prepare({"fault": "outer race"}, editor)
-    view.prepare({}, editor)
-    with pytest.raises(ValueError, match="outer race"):
-        view.prepare({"fault": "cage"}, editor)
 
 
 def test_a_sizing_can_be_given_up_and_refusals_are_sentences():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from functools import partial
 
@@ -19,7 +18,6 @@ from bearing_explorer.views.speed_run import (
     SPEED,
     SpeedRunSpectra,
     compute,
-    harmonics,
     levels_of,
 )
 from bearing_explorer.views.swept_view import Swept
@@ -51,17 +49,6 @@ def test_rows_are_speeds_and_columns_frequencies(found: Swept) -> None:
     loudest = np.nanmax(drawn[:, found.result.frequency[:m] >= 100.0])
     assert low < loudest <= high
     assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
-
-
-def test_harmonics_are_multiples_of_the_ball_pass_frequency(found: Swept) -> None:
-    lines = harmonics(found.result, SPEEDS, 2500.0)["speed_run_harmonics"]
-    ends = np.column_stack([lines["frequency"], lines["speed"]]).reshape(-1, 3, 2)
-    for k, (start, end, gap) in enumerate(ends, start=1):
-        for frequency, speed in (start, end):
-            passing = RIG.bearing.bpfo(2.0 * math.pi * speed)
-            assert frequency == pytest.approx(k * passing)
-            assert frequency <= 2500.0 + 1e-6
-        assert np.isnan(gap).all()
 
 
 def test_marched_speeds_are_marked_and_told(found: Swept) -> None:

@@ -17,7 +17,6 @@ from bearing_explorer.views.stability_map import (
     GRIDS,
     KINDS,
     OrbitStability,
-    border,
     codes_of,
     compute,
     legend,
@@ -46,21 +45,6 @@ def test_every_outcome_of_the_core_has_a_kind_and_each_a_colour() -> None:
     assert {kind.outcome for kind in KINDS} == set(OUTCOMES) - {"not computed"}
     assert len({kind.color for kind in KINDS}) == len(KINDS)
     assert all(kind.words in legend() for kind in KINDS[1:])
-
-
-def test_the_border_runs_around_what_is_not_stable() -> None:
-    codes = np.zeros((3, 4))
-    codes[1, 2] = 1.0
-    sides = border(np.arange(4.0), np.arange(3.0), codes)
-    segments = {tuple(float(sides[k][n]) for k in ("x0", "y0", "x1", "y1")) for n in range(4)}
-    assert segments == {
-        (1.5, 0.5, 1.5, 1.5),
-        (2.5, 0.5, 2.5, 1.5),
-        (1.5, 0.5, 2.5, 0.5),
-        (1.5, 1.5, 2.5, 1.5),
-    }
-    codes[:, 3] = np.nan  # nothing is known beyond: no border there
-    assert border(np.arange(4.0), np.arange(3.0), codes)["x0"].size == 3
 
 
 def test_the_picture_carries_values_and_place() -> None:

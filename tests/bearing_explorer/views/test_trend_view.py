@@ -15,7 +15,7 @@ from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
-from bearing_explorer.views.trend import FoundTrend, TrendOfFiles
+from bearing_explorer.views.trend import TrendOfFiles
 
 from bearingcore import presets
 from tests.helpers.loops import run
@@ -137,14 +137,6 @@ def test_another_baseline_needs_no_file_again(
     with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
         view.prepare({"baseline": "9"}, EDITOR)(Work())
     view.found = before
-
-
-def test_what_was_read_before_cancel_stays() -> None:
-    made = view_of(brought())
-    computed(made, stopped=True)
-    assert isinstance(made.found, FoundTrend)
-    assert len(made.found.trend.points) == 1
-    assert "One recording along y" in made.sentence(RESULTS)
 
 
 def test_cancel_while_files_are_read_keeps_the_signal_before() -> None:

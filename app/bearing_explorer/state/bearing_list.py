@@ -94,11 +94,13 @@ class BearingTable:
             mark = "yours" if own else ""
             ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
         best = [entry for rank, entry in ranked if rank == 0]
-        # a designation may be the first word of a longer name
-        yield from sorted(best, key=lambda one: _rank(text.lower(), one["label"], "") != 0)
+        # a designation may be the first word of a longer name; what only has its number comes last
+        named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
+        yield from named
         if by_number is not None:
             yield _estimated(by_number)
-        elif len(text) > 1:
+        yield from (one for one in best if one not in named)
+        if by_number is None and len(text) > 1:
             for basic in islice(designations(text), MOST_NUMBERS):
                 yield _estimated(read_designation(basic))
         yield from (entry for rank, entry in ranked if rank == 1)

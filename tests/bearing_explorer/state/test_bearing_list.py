@@ -43,7 +43,9 @@ def found(text: str) -> list[tuple[str, str]]:
     [
         ("6208", ("6208", "estimated")),
         ("6208-2RS/C3", ("6208-2RS/C3", "estimated")),
-        ("7208 bep", ("7208, angular contact, 15°", "")),
+        ("7208 bep", ("7208 BEP", "estimated")),  # 40°, and the preset has 15°
+        ("7208", ("7208, angular contact, 15°", "")),
+        ("6205 C3", ("6205 C3", "estimated")),
         ("7208 pair", ("7208 pair, back to back (O)", "")),
         ("nu", ("NU 208, cylindrical rollers", "")),
         ("30206", ("30206 pair of tapered rollers, back to back", "")),

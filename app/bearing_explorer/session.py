@@ -318,6 +318,7 @@ class Explorer:
             self._slow_cost = self._slow_at - before
             await self._assign(picture, inputs.mark)
         write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+        compiling.drawn()
         if self._on_screen != self._shown:
             # opened meanwhile, and these inputs may have been the newest
             self.draw()

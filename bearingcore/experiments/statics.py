@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import trapezoid
 
 from bearingcore import kernels
 from bearingcore.common import checks
@@ -587,7 +586,7 @@ class _DenseTruth:
         self.size = np.nanmax(np.abs(self.values), axis=0)
         self.size = np.maximum(self.size, self.scale)
         self.complete = bool(known.all())
-        self.mean = trapezoid(self.values, self.angles, axis=0) / (last - first)
+        self.mean = np.trapezoid(self.values, self.angles, axis=0) / (last - first)
         # midpoints of equal intervals, never at an edge: another rule, other angles
         n = 2**14
         middle = first + (np.arange(n) + 0.5) * (last - first) / n
@@ -622,5 +621,5 @@ class _DenseTruth:
         """Of lines between the angles, and of the trapezoidal rule's mean."""
         errors = curve_errors(angles, values, self.angles, self.values)
         trace = float(errors.max(initial=0.0))
-        mean = trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
+        mean = np.trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
         return {"trace": trace, "mean": float((np.abs(mean - self.mean) / self.size).max())}

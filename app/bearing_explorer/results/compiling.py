@@ -3,6 +3,9 @@
 On a first start that compiles, which takes long; later starts read machine code from disk in a
 second. Until then pages draw what comes with the package (`default_results`), their sliders do not
 move, and a progress bar says why. What a part is needed for raises `StillCompiling`.
+
+numba holds the interpreter as it compiles, and a page takes twice as long next to it: compiling
+begins once the first picture is sent, or after `FIRST_PICTURE` where nobody has come.
 """
 
 from __future__ import annotations
@@ -19,6 +22,9 @@ from bearingcore.warm_up import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS
 __all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling"]
 
 log = logging.getLogger(__name__)
+
+FIRST_PICTURE = 5.0
+"""For which compiling waits for a first picture [s]."""
 
 _WORDS = {
     STATICS: "loads and stiffness",
@@ -41,6 +47,7 @@ class Compilation:
     def __init__(self) -> None:
         self._begun = False
         self._left: tuple[str, ...] = ()
+        self._drawn = threading.Event()
         self._over = threading.Event()
         self._lock = threading.Lock()
 
@@ -55,11 +62,17 @@ class Compilation:
             if self._begun:
                 return
             self._begun, self._left = True, tuple(PARTS)
-        if not all_on_disk():
+        if all_on_disk():
+            self._drawn.set()
+        else:
             default_results.keep()
         threading.Thread(
             target=self._work, args=(report, done), name="compile", daemon=True
         ).start()
+
+    def drawn(self) -> None:
+        """A picture is sent: compiling may begin."""
+        self._drawn.set()
 
     def wait(self, seconds: float) -> bool:
         """Whether it has ended, after so many seconds at most."""
@@ -89,6 +102,7 @@ class Compilation:
         return {"done": len(PARTS) - len(left), "of": len(PARTS), "words": words, "still": still}
 
     def _work(self, report: Callable[[str], object], done: Callable[[], object]) -> None:
+        self._drawn.wait(FIRST_PICTURE)
         try:
             for part in PARTS:
                 warm(report, (part,))
@@ -103,7 +117,7 @@ class Compilation:
 
 _current = Compilation()
 begin, wait, left = _current.begin, _current.wait, _current.left
-need, progress = _current.need, _current.progress
+need, progress, drawn = _current.need, _current.progress, _current.drawn
 
 
 def all_on_disk() -> bool:

@@ -24,8 +24,9 @@ from tests.helpers.served import wait_until
 def compilation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Compilation]:
     """A process that has not begun; nothing is on disk, and nothing is in the cache."""
     made = Compilation()
-    for name in ("begin", "wait", "left", "need", "progress"):
+    for name in ("begin", "wait", "left", "need", "progress", "drawn"):
         monkeypatch.setattr(compiling, name, getattr(made, name))
+    monkeypatch.setattr(compiling, "FIRST_PICTURE", 0.0)
     monkeypatch.setattr(kernels, "all_on_disk", lambda: False)
     cache.clear()
     yield made
@@ -59,6 +60,26 @@ def test_parts_are_ready_one_after_the_other(
     assert over.wait(60.0)
     assert said == list(PARTS)
     assert compilation.progress() == {}
+
+
+def test_the_first_picture_comes_before(
+    compilation: Compilation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiling, "FIRST_PICTURE", 600.0)
+    monkeypatch.setattr(compiling, "warm", lambda *_: None)
+
+    async def live() -> None:
+        explorer = Explorer(SECTIONS)
+        assert not compilation.wait(0.2)
+        explorer.draw()
+        async with asyncio.timeout(60.0):
+            while not explorer._loop.drawn:
+                await asyncio.sleep(0.01)
+        explorer.stop()
+
+    compilation.begin()
+    run(live())
+    assert compilation.wait(60.0)
 
 
 def test_an_error_ends_it_and_kernels_are_compiled_where_they_are_needed(

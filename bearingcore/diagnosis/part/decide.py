@@ -30,19 +30,20 @@ too, by 1 or 2 %."""
 ENOUGH_SWING = 0.06
 """The swing that must be visible before the absence of lines means anything."""
 
-SILENT = 0.1
-"""Share of damage that shows in no line of a signal, however long: of a motor's damaged bearings, 3
-of 33 did not at a sensor away from them."""
+SILENT = 0.25
+"""Share of bearings without any sign that are damaged all the same: of 55 damaged bearings of a
+motor 5 showed nothing at a sensor away from them, and of bearings measured most are suspected."""
 
-SMOOTH = 3.3
-"""Kurtosis of a band's envelope (2 for noise) above which something knocks, whatever it is: no
-bearing is called healthy then."""
+SMOOTH = 2.4
+"""Kurtosis of a band (2 for noise) above which something knocks, whatever it is: no bearing is
+called healthy then. Noise whose power swings by more than six tenths of its mean has as much."""
 
 MUCH_DROPPED, MUCH_CLIPPED = 0.1, 0.02
 """Shares from which the absence of lines means nothing."""
 
-FAINT = 2.5
-"""Deviations from which a ball's lines, too faint to name it, forbid to call it healthy."""
+FAINT, FAINT_RACE = 2.5, 4.0
+"""Deviations from which lines of a ball or a race, too faint to name it, forbid to call the bearing
+healthy."""
 
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
@@ -57,7 +58,7 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
             detail += say.perhaps_a_ball()
     elif (reason := _lines_in_doubt(judged) or _hidden(signal)) is not None:
         status, detail = reason
-    elif others_stand_out and judged.other_swing >= ENOUGH_SWING:
+    elif others_stand_out and judged.other_swing >= LEAST_SWING:
         status, detail = DiagnosisStatus.OTHER_SOURCE, say.unexplained(judged.other)
     elif (reason := _nothing_and_why(signal, judged)) is not None:
         status, detail = reason
@@ -131,6 +132,9 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
         return DiagnosisStatus.IRREGULAR, say.blows(blows, signal.duration)
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(judged.detectable, signal.duration)
+    broadest = max(judged.evidence, key=lambda one: one.deviations)
+    if broadest.deviations >= FAINT_RACE:
+        return DiagnosisStatus.FAINT, say.faint(broadest)
     return None
 
 

@@ -16,7 +16,8 @@ bridge; a quarter long spalls; an eighth long spalls that differ from whole ball
 than 1.5°, so that one ball enters as another leaves, as in a pit; and an eighth long spalls whose
 entry is faint, as their floor sinks slowly over the first third (any place there is right).
 passages: entry to exit (`measure_extent`) on either race, balls with mass, three edge models,
-1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right.
+1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right,
+and counted apart ("but for spacings").
 --load gives the load to the method.
 
 "Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %
@@ -299,9 +300,10 @@ def passages(family: int, number: int, with_load: bool = False) -> list[Answer]:
     middle, half = math.degrees(0.5 * (low + found.high)), math.degrees(0.5 * (found.high - low))
     right = float(alike[np.abs(alike - 0.5 * (low + found.high)).argmin()])
     bounded = math.isfinite(found.high) and not found.measured
+    apart = (found.measured or bounded) and not low <= truth <= found.high
     return [
         Answer(
-            f"{scene.defects[0].race} race",
+            f"{scene.defects[0].race} race{', but for spacings' * apart}",
             *[math.degrees(right)] * 2,
             middle,
             half / 4.0,

@@ -82,7 +82,7 @@ def counted(question: Question) -> str:
 def extent(found: MeasuredExtent) -> str:
     """The length of a spall in a few words."""
     if found.measured:
-        return f"{found.answer.rpartition(', ')[0]} long"
+        return f"{found.answer.rpartition(', ')[0]} long, or that and whole ball spacings"
     return found.answer.partition(", ")[0] if math.isfinite(found.high) else LENGTH_HIDDEN
 
 

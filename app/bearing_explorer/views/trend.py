@@ -329,7 +329,7 @@ def part_words(shown: Trend) -> str:
     ]
     seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
     if last.extent.race and math.isfinite(last.extent.high):
-        return f"{seen} In the last: {last.extent.answer}."
+        return f"{seen} In the last: {last.extent.sentence}"
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
     if not named:
         return f"{seen} No part is named in the last ({last.fault})."

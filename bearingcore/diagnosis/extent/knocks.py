@@ -100,9 +100,9 @@ the one that grows is the exit: certainly so above the second number, and below 
 the path of the sound. There the shorter way round is taken, between the two neither."""
 
 RARE = 5.0
-"""Times the shorter way that the longer one is, from which it takes more to be believed: spalls
-that nearly reach the next ball are rare. Between the two numbers the shorter way is taken then, and
-beyond them neither."""
+"""Times the shorter way that the longer one is, from which it is not believed: spalls that nearly
+reach the next ball are rare, blows whose echo or rebound is duller are not. Between the two numbers
+the shorter way is taken then, and beyond them nothing is."""
 
 STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
 """Of a ball pass, by which one pass may be longer than the mean: a cage has inertia. Where passes
@@ -363,7 +363,9 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     rare = 1.0 - separation > RARE * separation
     if trend < -EXIT_GROWS[1] and not rare:  # the earlier one is the exit: the longer way round
         entry, leave, separation = leave, entry, 1.0 - separation
-    elif trend < -EXIT_GROWS[1 if rare else 0]:
+    elif trend < -EXIT_GROWS[1] or (trend < 0.0 and _fades(passes, reached, ratios)):
+        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+    elif trend < -EXIT_GROWS[0] and not rare:
         seen = Seen.EITHER
     others = tuple(one for one in passes if one is not best)
     return Knocks(
@@ -379,7 +381,7 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
     """
     from scipy.ndimage import gaussian_filter1d
 
-    clear = [one for one in passes if FAINTEST * one.contrast > LEAST_SEEN]
+    clear = [one for one in passes if _is_clear(one)]
     if not clear or min(one.band.low for one in clear) > min(one.band.low for one in passes):
         return math.nan
     reached = 0.0
@@ -389,6 +391,20 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
         away = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
         reached = max(reached, float(away.max()) / PLACES)
     return reached
+
+
+def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
+    """Whether the later peak is fainter and gone in a clear band above those that show both.
+
+    An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
+    """
+    above = any(one.band.low > reached and _is_clear(one) for one in passes)
+    return above and float(np.median(ratios)) < 0.0
+
+
+def _is_clear(one: MeanPass) -> bool:
+    """Whether a second peak of the faintest kind would stand out of a band's noise."""
+    return FAINTEST * one.contrast > LEAST_SEEN
 
 
 def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:

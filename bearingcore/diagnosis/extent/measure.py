@@ -69,8 +69,8 @@ _SENTENCES = {
         "meet the damage differently."
     ),
     ExtentStatus.BOUNCES: (
-        "Two impacts a ball pass have one spectrum and differ in height: a ball that bounces, not "
-        "entry and exit."
+        "Two impacts a ball pass differ in height, and the later is no sharper than the earlier: a "
+        "ball that bounces or an echo, not entry and exit."
     ),
     ExtentStatus.NO_RACE: "No damaged race is named, so there is no extent to measure.",
     ExtentStatus.NOT_VISIBLE: "Nothing repeats clearly with the ball passes of this race.",

@@ -56,19 +56,23 @@ def test_a_release_may_fade_above_the_bands_that_show_it():
     low = [mean_pass(BANDS[0], (0.3, 0.8), (0.4, 1.0)), mean_pass(BANDS[1], (0.3, 0.4), (0.4, 1.0))]
     silent = [mean_pass(Band(low, low + 2000.0), (0.4, 1.0)) for low in (9e3, 11e3, 13e3, 15e3)]
     assert seen(*low, *silent).seen == Seen.TWO
+    # backwards it is the later one that fades, as an echo does and no exit
+    echo = [MeanPass(one.band, "y", one.envelope[::-1], one.error) for one in (*low, *silent)]
+    assert seen(*echo).seen == Seen.ALIKE
     among = [mean_pass(Band(200.0, high), (0.4, 1.0)) for high in (2e3, 3e3, 5e3, 6e3)]
     assert seen(*low, *among).seen != Seen.TWO
 
 
 def test_the_peak_that_grows_is_the_exit_but_not_of_a_spall_that_nearly_reaches_the_next_ball():
-    def growing(apart: float):
-        heights = ((BANDS[0], 0.3), (BANDS[1], 1.0), (BANDS[2], 3.0))
+    def growing(apart: float, power: float = 1.0):
+        heights = ((BANDS[0], 0.3**power), (BANDS[1], 1.0), (BANDS[2], 3.0**power))
         return seen(*(mean_pass(band, (0.3, h), (0.3 + apart, 1.0)) for band, h in heights))
 
     long = growing(0.3)
     assert long.seen == Seen.TWO
     assert long.separation == pytest.approx(0.7, abs=0.01)
-    assert growing(0.1).seen == Seen.EITHER
+    assert growing(0.3, 0.5).seen == Seen.EITHER
+    assert growing(0.1).seen == Seen.ALIKE
 
 
 def test_one_knock_hides_another_only_where_it_rings():

@@ -1,14 +1,12 @@
 """Measure speed against accuracy for the page and the documents.
 
-    python -m tests.benchmarks.charts --ship --preset missing     # those that have no file yet
-    python -m tests.benchmarks.charts --ship [--preset all | NAME ...] [--only motion statics ...]
+    python -m tests.benchmarks.charts --ship [--preset NAME ...]
     python -m tests.benchmarks.charts            # only writes the documents anew
 
 `--ship` runs every experiment of `bearingcore.experiments.measurements` on presets, all of them
 unless some are named, and writes a file for each to assets/accuracy as soon as it is measured: two
 to five minutes a preset on a quiet machine. What a scene cannot have is kept in its file with the
-reason, and printed. `--only` measures some experiments anew and keeps the others of the file. Then
-the tables of assets/docs/ACCURACY.md are written from the files.
+reason, and printed. Then the tables of assets/docs/ACCURACY.md are written from the files.
 """
 
 from __future__ import annotations
@@ -16,7 +14,6 @@ from __future__ import annotations
 import argparse
 import math
 import time
-from dataclasses import replace
 from pathlib import Path
 
 from bearing_explorer.views.work_precision import ALLOWED
@@ -24,7 +21,6 @@ from bearing_explorer.views.work_precision import ALLOWED
 from bearingcore import presets
 from bearingcore.common.numbers import number, scientific, with_prefix
 from bearingcore.experiments import Experiment, Measurements, Point, measure, measurements_from
-from bearingcore.experiments.measurements import NAMES
 from tests.benchmarks.machine import pace
 
 ASSETS = Path(__file__).parents[2] / "assets"
@@ -34,34 +30,15 @@ BEGIN, END = "<!-- tables of {} begin -->", "<!-- tables of {} end -->"
 IN_DOCUMENT = ("fan-rig", "liew-lim")
 
 
-def ship(preset: str, names: tuple[str, ...]) -> None:
+def ship(preset: str) -> None:
     """Measure a preset and write its file."""
-    path = FILES / f"{preset}.json"
     began = time.perf_counter()
-    found = measure(presets[preset], names, preset=preset, c_loop=pace().motion)
-    if path.exists() and set(names) != set(NAMES):
-        before = measurements_from(path.read_text(encoding="utf-8"))
-        found = replace(
-            found,
-            experiments={**before.experiments, **found.experiments},
-            stability=found.stability or before.stability,
-            orbits=found.orbits or before.orbits,
-            refused={n: why for n, why in before.refused.items() if n not in names} | found.refused,
-        )
+    found = measure(presets[preset], preset=preset, c_loop=pace().motion)
     FILES.mkdir(exist_ok=True)
-    path.write_text(found.as_json(), encoding="utf-8")
+    (FILES / f"{preset}.json").write_text(found.as_json(), encoding="utf-8")
     print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
     for name, why in found.refused.items():
         print(f"  no {name}: {why}", flush=True)
-
-
-def wanted(given: list[str]) -> list[str]:
-    """Presets by their names, "all", or "missing": those without a file."""
-    groups = {
-        "all": list(presets),
-        "missing": [name for name in presets if not (FILES / f"{name}.json").exists()],
-    }
-    return list(dict.fromkeys(name for one in given for name in groups.get(one, [one])))
 
 
 def tables(found: Measurements) -> str:
@@ -127,12 +104,10 @@ def main() -> None:
     """Measure where that is wanted, and write the document."""
     parser = argparse.ArgumentParser(description="Speed against accuracy, measured.")
     parser.add_argument("--ship", action="store_true", help="measure and write the files")
-    names = ["all", "missing", *presets]
-    parser.add_argument("--preset", nargs="+", choices=names, default=["all"])
-    parser.add_argument("--only", nargs="+", choices=NAMES, default=NAMES)
+    parser.add_argument("--preset", nargs="+", choices=[*presets], default=[*presets])
     given = parser.parse_args()
-    for preset in wanted(given.preset) if given.ship else ():
-        ship(preset, tuple(given.only))
+    for preset in given.preset if given.ship else ():
+        ship(preset)
     DOCUMENT.write_text(document(DOCUMENT.read_text(encoding="utf-8")), encoding="utf-8")
 
 

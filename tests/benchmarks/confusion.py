@@ -11,21 +11,20 @@ lines. Prints the confusion matrix, by noise too, and how far the stated probabi
 from __future__ import annotations
 
 import argparse
-import os
-from collections import Counter
-from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from bearingcore import diagnose
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, FAULTS, NONE_SEEN
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from tests.bearingcore.diagnosis.signals_made import HEALTHY, PARTS, draw_signal
 
 SCORED = 2031
 NOISE = (0.0, 40.0)
+STATED = (0.0, 0.8, 0.9, 0.95, 0.985, 1.001)
 
 
 class Case(NamedTuple):
@@ -47,39 +46,17 @@ def run(kind: str, family: int, number: int) -> Case:
     return Case(kind, decibels, found.fault, found.probability)
 
 
-def table(cases: Sequence[Case]) -> str:
-    """The confusion matrix."""
-    lines = [f"{'truth':<12}" + "".join(f"{fault:>13}" for fault in FAULTS) + f"{'signals':>10}"]
-    for kind in (*PARTS, HEALTHY):
-        of_kind = Counter(case.fault for case in cases if case.truth == kind)
-        total = sum(of_kind.values())
-        if total:
-            cells = "".join(f"{of_kind[fault]:13d}" for fault in FAULTS)
-            lines.append(f"{kind:<12}{cells}{total:10d}")
-    return "\n".join(lines)
-
-
-def _share(cases: Sequence[Case]) -> str:
-    right = sum(case.fault == case.truth for case in cases)
-    wrong = sum(case.fault not in (case.truth, CANNOT_TELL, NONE_SEEN) for case in cases)
-    missed = sum(case.fault == NONE_SEEN for case in cases)
-    return f"{len(cases):5d} signals  {right:5d} right  {wrong:3d} wrong part  {missed:3d} not seen"
-
-
-def calibration(cases: Sequence[Case]) -> str:
-    """What the stated probabilities were worth, for answers that name a part or none."""
-    told = [case for case in cases if case.fault != CANNOT_TELL]
-    lines = []
-    for low, high in ((0.0, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.985), (0.985, 1.0)):
-        inside = [case for case in told if low <= case.probability < high]
-        if inside:
-            stated = np.mean([case.probability for case in inside])
-            right = np.mean([
-                case.fault == (NONE_SEEN if case.truth == HEALTHY else case.truth)
-                for case in inside
-            ])  # fmt: skip
-            lines.append(f"stated {stated:.3f}  right {right:.3f}  of {len(inside)}")
-    return "\n".join(lines)
+def worth(cases: pd.DataFrame) -> pd.Series:
+    """How many signals, and shares of what was said of them."""
+    named = ~cases.fault.isin([CANNOT_TELL, NONE_SEEN])
+    truth = cases.truth.replace(HEALTHY, NONE_SEEN)
+    return pd.Series({
+        "signals": len(cases),
+        "stated": cases.probability.mean(),
+        "right": (cases.fault == truth).mean(),
+        "wrong part": (named & (cases.fault != truth)).mean(),
+        "not seen": ((cases.fault == NONE_SEEN) & (truth != NONE_SEEN)).mean(),
+    })  # fmt: skip
 
 
 def main() -> None:
@@ -89,21 +66,24 @@ def main() -> None:
     parser.add_argument("--signals", type=int, default=400)
     parser.add_argument("--healthy", type=int, default=1000)
     parser.add_argument("--family", type=int, default=SCORED)
-    parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     chosen = parser.parse_args()
-    cases: list[Case] = []
-    with ProcessPoolExecutor(chosen.processes) as pool:
+    found: list[Case] = []
+    with ProcessPoolExecutor(2) as pool:
         for kind in (*PARTS, HEALTHY):
             count = chosen.healthy if kind == HEALTHY else chosen.signals
-            cases += pool.map(partial(run, kind, chosen.family), range(count), chunksize=8)
-    print(table(cases), "\n")
-    for low in range(0, 40, 10):
-        inside = [c for c in cases if c.truth != HEALTHY and low <= c.decibels < low + 10]
-        print(f"{low:2d} to {low + 10} dB:", _share(inside))
-    healthy = [case for case in cases if case.truth == HEALTHY]
-    accused = sum(case.fault in PARTS for case in healthy)
-    print(f"\nfalse alarms: {accused} of {len(healthy)} healthy ({accused / len(healthy):.2%})\n")
-    print(calibration(cases))
+            found += pool.map(partial(run, kind, chosen.family), range(count), chunksize=8)
+    cases = pd.DataFrame(found)
+    print(pd.crosstab(cases.truth, cases.fault, margins=True))
+    damaged, told = cases[cases.truth != HEALTHY], cases[cases.fault != CANNOT_TELL]
+    for title, group, by, limits in (
+        ("noise [dB] of damaged bearings", damaged, "decibels", range(0, 41, 10)),
+        ("probability, of answers that name a part or none", told, "probability", STATED),
+    ):
+        classes = pd.cut(group[by], limits, right=False)
+        shares = group.groupby(classes, observed=True)[list(cases.columns)].apply(worth)
+        print(f"\n{title}\n{shares.round(3).to_string()}")
+    accused = cases[cases.truth == HEALTHY].fault.isin(PARTS)
+    print(f"\nfalse alarms: {accused.sum()} of {len(accused)} healthy ({accused.mean():.2%})")
 
 
 if __name__ == "__main__":

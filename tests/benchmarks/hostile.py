@@ -19,12 +19,12 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 import numpy as np
+import pandas as pd
 from tornado.httpclient import AsyncHTTPClient
 
 from tests.benchmarks.machine import pace
 from tests.browser.helpers import serving
 from tests.fuzz.attacker import PATIENCE, Tally, attack
-from tests.fuzz.hostile_messages import SHAPES
 from tests.fuzz.watched_server import LONGEST_HOLD, WatchedServer, faults_of, words_of
 from tests.helpers.page_client import PageClient
 
@@ -85,10 +85,12 @@ def main() -> int:
         turns = server.longest_turns()
         server.stop()
         log = server.log
-    print(f"{'shape':<14}{'messages':>10}{'cut off':>10}{'slowest until taken':>22}")
-    for name in SHAPES:
-        slowest = tally.slowest.get(name, 0.0)
-        print(f"{name:<14}{tally.sent[name]:>10,}{tally.cut[name]:>10,}{slowest:>20.2f} s")
+    columns = {
+        "messages": tally.sent,
+        "cut off": tally.cut,
+        "slowest until taken [s]": tally.slowest,
+    }
+    print(pd.DataFrame(columns).to_string())
     print(f"{tally.sent.total():,} messages in {took:.0f} s; the longest turns of the event loop:")
     for turn in turns:
         print(words_of(turn))

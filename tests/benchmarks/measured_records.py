@@ -1,20 +1,12 @@
 """Records of real machines: finding them in a folder, and what is true of each.
 
-A table `records.csv` in the folder says it, one record a line under these headings:
-
-    file, truth, n_balls, ball_diameter_mm, pitch_diameter_mm, contact_angle_deg, speed_rpm,
-    variable, sample_rate, unit
-
-`variable` names the vector of a MATLAB file or the columns of a text file counted from 1 (4+5), and
-truth is "outer race", "inner race", "ball", "healthy", or "unknown" for damage of unknown kind.
-Without it, truth follows from the names of four public collections: Case Western Reserve
-University (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`), FEMTO-ST
-(`femto`) and HIT-SM (`hitsm`, with spalls of known length on both races).
+What is true follows from the names of four public collections: Case Western Reserve University
+(`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`), FEMTO-ST (`femto`) and
+HIT-SM (`hitsm`, with spalls of known length on both races).
 """
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from collections.abc import Iterator
@@ -27,7 +19,6 @@ from scipy.io import loadmat
 from bearingcore import Bearing, Recording
 from bearingcore.files.units import UNITS
 
-TABLE = "records.csv"
 HEALTHY, UNKNOWN = "healthy", "unknown"
 
 
@@ -89,48 +80,15 @@ FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
 
 def records(folder: Path) -> Iterator[Record]:
     """The records of a folder and its folders, in the order of their names."""
-    table = folder / TABLE
-    if table.exists():
-        with table.open(newline="", encoding="utf-8") as lines:
-            for row in csv.DictReader(lines, skipinitialspace=True):
-                yield _by_table(folder, {k.strip(): (v or "").strip() for k, v in row.items()})
-        return
     for path in sorted(folder.rglob("*")):
         if path.suffix == ".mat":
-            found = _mat(path)
+            yield _mat(path)
         elif path.suffix == ".csv" and "_acc_" in path.name:
-            found = _femto(path)
-        else:
-            continue
-        yield found
+            yield _femto(path)
 
 
 def _speed(turns_a_minute: float) -> float:
     return 2.0 * math.pi * turns_a_minute / 60.0
-
-
-def _by_table(folder: Path, row: dict[str, str]) -> Record:
-    path = folder / row["file"]
-    if path.suffix == ".mat":
-        signal = np.asarray(loadmat(path)[row["variable"]], dtype=float).reshape(-1)
-    else:
-        columns = [int(number) - 1 for number in row["variable"].split("+")]
-        signal = np.loadtxt(path, delimiter=",", usecols=columns)
-    two = signal.ndim == 2 and signal.shape[1] == 2
-    bearing = ball_bearing(
-        int(row["n_balls"]),
-        float(row["ball_diameter_mm"]),
-        float(row["pitch_diameter_mm"]),
-        float(row.get("contact_angle_deg") or 0.0),
-    )
-    recording = Recording(
-        signal * UNITS[row.get("unit") or "m/s²"],
-        float(row["sample_rate"]),
-        ("x", "y") if two else ("y",),
-        path.name,
-    )
-    speed = _speed(float(row["speed_rpm"]))
-    return Record(path.stem, row["truth"], "", bearing, speed, recording)
 
 
 def _mat(path: Path) -> Record:

@@ -17,6 +17,7 @@ import math
 import sys
 import time
 from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 
@@ -134,18 +135,32 @@ def motion_faults(scene: Scene, rng: np.random.Generator) -> tuple[str, str]:
     return "completed", ""
 
 
-def judge_motions(count: int, rng: np.random.Generator) -> int:
-    """Print what became of so many motions; the number of those wrong silently."""
+def static_faults(scene: Scene, rng: np.random.Generator) -> tuple[str, str]:
+    """What became of a static state of `scene`, and what is wrong with it, "" for nothing."""
+    angle, weight = rng.uniform(0.0, 6.3), bool(rng.integers(2))
+    found = ball_positions(scene, [angle], weight=weight)
+    outcome = found.reason(0).split(":")[0].split(" along ")[0]
+    return outcome, faults(found, 0, weights=(weight,))
+
+
+def judge(
+    what: str,
+    count: int,
+    rng: np.random.Generator,
+    one: Callable[[Scene, np.random.Generator], tuple[str, str]],
+) -> int:
+    """Print what became of so many; the number of those wrong silently."""
     outcomes: Counter[str] = Counter()
     wrong = 0
     begin = time.perf_counter()
     for number in range(count):
-        outcome, fault = motion_faults(random_scene(rng), rng)
+        outcome, fault = one(random_scene(rng), rng)
         outcomes[outcome] += 1
         if fault:
             wrong += 1
-            print(f"motion {number}: {fault}")
-    print(f"{count} motions in {time.perf_counter() - begin:.0f} s, {wrong} wrong silently")
+            print(f"{what} {number}: {fault}")
+    seconds = time.perf_counter() - begin
+    print(f"{what}: {count} in {seconds:.0f} s, {wrong} wrong silently; {pace()}")
     for outcome, times in outcomes.most_common():
         print(f"{times:8d}  {outcome}")
     return wrong
@@ -157,26 +172,11 @@ def main() -> int:
     parser.add_argument("--scenes", type=int, default=100_000)
     parser.add_argument("--motions", type=int, default=2_000)
     parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-    rng = np.random.default_rng(arguments.seed)
-    outcomes: Counter[str] = Counter()
-    wrong = 0
-    begin = time.perf_counter()
-    for number in range(arguments.scenes):
-        scene = random_scene(rng)
-        angle, weight = rng.uniform(0.0, 6.3), bool(rng.integers(2))
-        found = ball_positions(scene, [angle], weight=weight)
-        outcomes[found.reason(0).split(":")[0].split(" along ")[0]] += 1
-        fault = faults(found, 0, weights=(weight,))
-        if fault:
-            wrong += 1
-            print(f"scene {number}: {fault}")
-    seconds = time.perf_counter() - begin
-    print(f"{arguments.scenes} scenes in {seconds:.0f} s, {wrong} wrong silently; {pace()}")
-    for outcome, count in outcomes.most_common():
-        print(f"{count:8d}  {outcome}")
-    wrong += judge_motions(arguments.motions, rng)
-    return 1 if wrong else 0
+    chosen = parser.parse_args()
+    rng = np.random.default_rng(chosen.seed)
+    wrong = judge("static state", chosen.scenes, rng, static_faults)
+    wrong += judge("motion", chosen.motions, rng, motion_faults)
+    return int(wrong > 0)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The scoreboard: answers on records of real machines beside the truth, and what they are worth.
 
-`write` puts it into `assets/scoreboard.json`, from where the page, README and DIAGNOSIS.md take
+`judge` puts it into `assets/scoreboard.json`, from where the page, README and DIAGNOSIS.md take
 their numbers (`tables`; a test holds them together). What measured records have set, the
 `Calibration`, was set with these records in sight; so each machine is judged once more with what
 the other machines alone would have set.
@@ -41,6 +41,8 @@ set neither freely."""
 
 LAPSE = 0.02
 """Share of records that no law of this kind describes."""
+
+SHOWN = ("record", "truth", "answer", "probability", "verdict", "status")
 
 Row = dict[str, Any]
 
@@ -144,17 +146,17 @@ def left_out(rows: Sequence[Row]) -> None:
             }
 
 
-def write(found: Iterable[Record]) -> int:
-    """Write the scoreboard; how many answers are wrong."""
+def judge(found: Iterable[Record], write: bool) -> int:
+    """Print every answer and the tables, or write them too; how many answers are wrong."""
     rows = []
     for record in found:
         rows.append(row_of(record))
-        print({name: rows[-1][name] for name in ("record", "truth", "answer", "probability")})
+        print(" | ".join(str(rows[-1][name]) for name in SHOWN), flush=True)
     left_out(rows)
-    chosen = fitted(rows)
-    print(f"all machines together set {chosen}")
-    board = {"bins": BINS, "records": rows}
-    FILE.write_text(json.dumps(board, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    print(f"all machines together set {fitted(rows)}")
+    if write:
+        board = {"bins": BINS, "records": rows}
+        FILE.write_text(json.dumps(board, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for words in tables(rows).values():
         print(f"\n{words}")
     return sum(row["verdict"] == WRONG for row in rows)

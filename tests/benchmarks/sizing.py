@@ -18,7 +18,6 @@ entry is faint, as their floor sinks slowly over the first third (any place ther
 passages: entry to exit (`measure_extent`) on either race, balls with mass, three edge models,
 1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right,
 and counted apart ("but for spacings").
---load gives the load to the method.
 
 "Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %
 (given), 1.5° or 10 % (paths), 0.5° (pits). Wrong is a size that is off by more than that and by
@@ -31,12 +30,14 @@ import argparse
 import math
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from bearingcore import Defect, Scene, contact_damping, measure_extent, presets, simulate
 from bearingcore.diagnosis.size.answer import AT_MOST
@@ -274,7 +275,7 @@ def pits(family: int, number: int) -> list[Answer]:
     return [sized(kind, scene, recording, 0.5, least=least, given=rig)]
 
 
-def passages(family: int, number: int, with_load: bool = False) -> list[Answer]:
+def passages(family: int, number: int) -> list[Answer]:
     """A spall measured from entry to exit, the race being known."""
     rng = np.random.default_rng([family, number])
     scene = RIG.replace(
@@ -292,7 +293,6 @@ def passages(family: int, number: int, with_load: bool = False) -> list[Answer]:
         scene.bearing,
         scene.shaft_speed,
         race=scene.defects[0].race,
-        load=-scene.load.fy if with_load else None,
     )
     low = found.low if found.measured else 0.0
     alike = truth + SPACING * np.arange(-2, 3)
@@ -327,29 +327,35 @@ def size_all(
             yield from answers
 
 
-def _share(flags: Sequence[bool]) -> str:
-    return f"{100.0 * sum(flags) / len(flags):6.1f}" if flags else "     -"
+def percent(flags: Sequence[bool]) -> float:
+    """The share of those that hold."""
+    return round(100.0 * float(np.mean(flags)), 1)
 
 
 def print_table(answers: Sequence[Answer]) -> None:
     """Each kind of signal, then what probabilities and deviations are worth."""
-    print(f"{'':24}{'n':>5}{'right k %':>11}{'extent %':>10}{'sized':>7}{'bounded':>9}"
-          f"{'refused':>9}{'wrong':>7}{'error: median':>15}{'nine of ten':>13}")  # fmt: skip
+    rows = {}
     for kind in [*dict.fromkeys(a.kind for a in answers), "all"]:
         group = [a for a in answers if kind in (a.kind, "all")]
-        said = [a.outcome for a in group]
+        said = Counter(a.outcome for a in group)
         errors = [abs(a.extent - a.truth) for a in group if a.right_turns] or [math.nan]
-        print(f"{kind:24}{len(group):5}{_share([a.right_turns for a in group]):>11}"
-              f"{_share([a.right_extent for a in group]):>10}{said.count('sized'):7}"
-              f"{said.count('bounded'):9}{said.count('refused'):9}{sum(a.wrong for a in group):7}"
-              f"{np.median(errors):14.2f}°{np.quantile(errors, 0.9):12.2f}°")  # fmt: skip
-    print("\nprobability of the answer   signals   mean %   right k %")
-    for low, high in ((0.0, 0.5), (0.5, 0.7), (0.7, 0.9), (0.9, 0.99), (0.99, 0.999), (0.999, 1.1)):
-        group = [a for a in answers if low <= a.probability < high]
-        if group:
-            mean = 100.0 * np.mean([a.probability for a in group])
-            right = _share([a.right_turns for a in group])
-            print(f"{low:10.3f} to {min(high, 1.0):5.3f}{len(group):17}{mean:9.2f}{right:>12}")
+        rows[kind] = {
+            "n": len(group),
+            "right k %": percent([a.right_turns for a in group]),
+            "extent %": percent([a.right_extent for a in group]),
+            **{name: said[name] for name in ("sized", "bounded", "refused")},
+            "wrong": sum(a.wrong for a in group),
+            "median error": round(float(np.median(errors)), 2),
+            "nine of ten": round(float(np.quantile(errors, 0.9)), 2),
+        }
+    print(pd.DataFrame.from_dict(rows, orient="index").to_string())
+    frame = pd.DataFrame({
+        "stated %": [100.0 * a.probability for a in answers],
+        "right k %": [100.0 * a.right_turns for a in answers],
+    })  # fmt: skip
+    classes = pd.cut(frame["stated %"], [0.0, 50.0, 70.0, 90.0, 99.0, 99.9, 100.1], right=False)
+    groups = frame.groupby(classes.rename("probability of the answer, %"), observed=True)
+    print(f"\n{groups.mean().round(2).assign(signals=groups.size()).to_string()}\n")
     ratio = [
         (a.extent - a.truth) / a.uncertainty for a in answers if a.conclusive and a.right_turns
     ]
@@ -357,7 +363,7 @@ def print_table(answers: Sequence[Answer]) -> None:
         print(f"error over stated deviation, of those sized: spread {np.std(ratio):.2f}, median "
               f"size {np.median(np.abs(ratio)):.2f} (a normal law: 1, 0.67)")  # fmt: skip
     alone = [a.truth < math.degrees(SPACING) for a in answers]
-    print(f"right k from the time between entry and exit alone: {_share(alone)} %")
+    print(f"right k from the time between entry and exit alone: {percent(alone)} %")
 
 
 def main() -> int:
@@ -368,11 +374,9 @@ def main() -> int:
     parser.add_argument("set", choices=FAMILIES)
     parser.add_argument("--count", type=int, default=200, help="scenes")
     parser.add_argument("--family", type=int, help="the seed of the scenes")
-    parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--each", action="store_true", help="print every answer")
     parser.add_argument("--effects", default="all")
     parser.add_argument("--steady", action="store_true")
-    parser.add_argument("--load", action="store_true")
     chosen = parser.parse_args()
     named = {"all": EFFECTS, "none": ()}.get(chosen.effects, tuple(chosen.effects.split(",")))
     if unknown := set(named) - set(EFFECTS):
@@ -382,10 +386,10 @@ def main() -> int:
         "given": partial(as_given, family),
         "paths": partial(along_paths, family, effects=named, steady=chosen.steady),
         "pits": partial(pits, family),
-        "passages": partial(passages, family, with_load=chosen.load),
+        "passages": partial(passages, family),
     }
     answers = []
-    for a in size_all(sets[chosen.set], chosen.count, chosen.processes):
+    for a in size_all(sets[chosen.set], chosen.count):
         answers.append(a)
         if chosen.each or a.wrong:
             print(

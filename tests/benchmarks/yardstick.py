@@ -66,21 +66,13 @@ class CStatics:
 
     def _numbers(self, scene: Scene) -> Array:
         bearing = scene.bearing
-        return np.array(
-            [
-                bearing.n_balls,
-                bearing.ball_radius,
-                bearing.contact_angle,
-                bearing.groove_center_radius,
-                bearing.groove_center_distance,
-                bearing.radial_clearance,
-                bearing.load_deflection_factor,
-                bearing.outer_raceway_radius,
-                *_outer_defect(scene),
-                *scene.load.vector,
-                self._tolerance,
-            ]
+        names = (
+            *("n_balls", "ball_radius", "contact_angle", "groove_center_radius"),
+            *("groove_center_distance", "radial_clearance", "load_deflection_factor"),
+            "outer_raceway_radius",
         )
+        own = [getattr(bearing, name) for name in names]
+        return np.array([*own, *_outer_defect(scene), *scene.load.vector, self._tolerance])
 
     def curve(self, scene: Scene, angles: int, step: float) -> dict[str, Array]:
         """`angles` cage angles from 0, `step` rad apart: displacement, 15 terms, ball loads."""
@@ -154,26 +146,19 @@ class CMotion:
     @staticmethod
     def _numbers(scene: Scene, damping: float) -> Array:
         bearing, support = scene.bearing, scene.support
-        return np.array(
-            [
-                bearing.n_balls,
-                bearing.ball_radius,
-                bearing.radial_clearance,
-                bearing.load_deflection_factor,
-                bearing.outer_raceway_radius,
-                *_outer_defect(scene),
-                1.0 / support.inner_mass,
-                1.0 / support.outer_mass,
-                support.stiffness_x,
-                support.stiffness_y,
-                support.damping_x,
-                support.damping_y,
-                damping,
-                scene.load.fx,
-                scene.load.fy,
-                scene.cage_speed,
-            ]
-        )
+        names = ("n_balls", "ball_radius", "radial_clearance", "load_deflection_factor")
+        masses = np.array([support.inner_mass, support.outer_mass])
+        return np.array([
+            *(getattr(bearing, name) for name in names),
+            bearing.outer_raceway_radius,
+            *_outer_defect(scene),
+            *(1.0 / masses),
+            *support.stiffness("xy"),
+            *support.damping("xy"),
+            damping,
+            *scene.load.vector[:2],
+            scene.cage_speed,
+        ])  # fmt: skip
 
     def _march(
         self, name: str, scene: list[Any], start: Array, samples: int, rate: float, n_dofs: int

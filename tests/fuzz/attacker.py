@@ -117,7 +117,6 @@ async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
         tally.cut[name] += client.closed
         tally.errors += client.errors[:1]
         client.errors.clear()
-        client.messages.clear()
     if client is not None:
         await client.close()
 

@@ -101,42 +101,7 @@ def cage_angles_at(point: Point) -> NDArray[np.float64]:
     return point.cage_angle + np.array([0.0, 0.01, 0.02, 0.03]) * 2.0 * math.pi / point.n_balls
 
 
-class Columns(NamedTuple):
-    """Many points: a column of each number."""
-
-    numbers: NDArray[np.float64]
-    """(n, 16)"""
-
-    def point(self, i: int) -> Point:
-        """Point i."""
-        n_balls, D_p, size, alpha, lever, A0, r_L, K, extent, depth, center, pick, *loads = (
-            self.numbers[i].tolist()
-        )
-        *loads, cage_angle = loads
-        choice = int(pick)
-        dofs_choice, choice = divmod(choice, len(EDGES) * len(RACES))
-        edge_choice, race_choice = divmod(choice, len(RACES))
-        return Point(
-            int(n_balls),
-            D_p,
-            size,
-            alpha,
-            lever,
-            A0,
-            r_L,
-            K,
-            extent,
-            depth,
-            center,
-            RACES[race_choice],
-            EDGES[edge_choice],
-            tuple(loads),
-            None if dofs_choice >= len(DOF_SETS) else DOF_SETS[dofs_choice],
-            cage_angle,
-        )
-
-
-def draw(rng: np.random.Generator, n: int) -> Columns:
+def draw(rng: np.random.Generator, n: int) -> list[Point]:
     """N points at random, corners of the box more often than their volume would have them.
 
     A third have no clearance, no contact angle, no depth; each load is absent in half of them;
@@ -160,16 +125,15 @@ def draw(rng: np.random.Generator, n: int) -> Columns:
     # an eighth are as heavy in each direction as in the first: no load drowns
     alike = rng.random(n) < 0.125
     loads[alike] = np.sign(loads[alike]) * decades(FORCES)[alike, None]
-    n_sets = len(DOF_SETS)
-    dofs_choice = np.where(rng.random(n) < 0.5, n_sets, rng.integers(0, n_sets, n))
-    per_set = len(EDGES) * len(RACES)
-    pick = dofs_choice * per_set + rng.integers(0, per_set, n)
+    kinds = list(itertools.product((*DOF_SETS, None), EDGES, RACES))
+    n_sets, per_set = len(DOF_SETS), len(EDGES) * len(RACES)
+    chosen = np.where(rng.random(n) < 0.5, n_sets, rng.integers(0, n_sets, n))
+    pick = chosen * per_set + rng.integers(0, per_set, n)
     place = rng.random(n)
     cage_angle = rng.uniform(0.0, 2.0 * math.pi, n)
     cage_angle = np.where(place < 0.17, 1.5 * math.pi, cage_angle)
     cage_angle = np.where(place > 0.83, center, cage_angle)
     columns = [
-        n_balls,
         decades(PITCH_DIAMETERS),
         rng.random(n),
         either(0.0, 0.33, rng.uniform(0.0, math.radians(GREATEST_CONTACT_ANGLE_DEG), n)),
@@ -180,8 +144,11 @@ def draw(rng: np.random.Generator, n: int) -> Columns:
         either(2.0 * math.pi, 0.05, rng.uniform(0.0, 2.0 * math.pi, n)),
         either(0.0, 0.33, rng.random(n) ** 3),
         center,
-        pick,
-        *loads.T,
-        cage_angle,
     ]
-    return Columns(np.stack([np.broadcast_to(c, n).astype(float) for c in columns], axis=1))
+    points = []
+    for i, numbers in enumerate(np.stack(columns, axis=1).tolist()):
+        dofs, edge, race = kinds[pick[i]]
+        forces = tuple(loads[i].tolist())
+        angle = float(cage_angle[i])
+        points.append(Point(int(n_balls[i]), *numbers, race, edge, forces, dofs, angle))
+    return points

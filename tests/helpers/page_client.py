@@ -2,8 +2,7 @@
 
 It opens the page, its websocket, takes the document, says that it is ready, and then speaks as the
 scripts of the page do: a message carries a mark, and packets of the packed source come back with
-the mark of the newest change that is drawn. Packets are cut into sources and ranges as the page
-cuts them.
+the mark of the newest change that is drawn. Packets are cut into sources as the page does it.
 """
 
 from __future__ import annotations
@@ -38,15 +37,10 @@ class PageClient:
         self._held = 0.0  # how long the next is held back [s]
         self._arrived = 0.0
         self.sources: dict[str, dict[str, np.ndarray]] = {}
-        self.ranges: dict[str, tuple[float, float]] = {}
-        self.messages: list[Any] = []  # of the server to the page's own components
         self.errors: list[str] = []  # what the server said about messages it could not take
         self.words: dict[str, Any] = {}  # newest sentences, status line and states of jobs, by id
-        self.bytes_received = 0
         self.ids: dict[str, str] = {}
-        self.components: dict[str, dict[str, Any]] = {}  # what they were made with
         self._known_sources: dict[int, tuple[str, list[str]]] = {}
-        self._known_ranges: dict[int, str] = {}
         self._names: dict[str, str] = {}
         self._on_way: dict[int, float] = {}  # when changes were asked for
         self._socket: WebSocketClientConnection | None = None
@@ -108,12 +102,6 @@ class PageClient:
         """Whether the connection is over."""
         return self._task is None or self._task.done()
 
-    @property
-    def failed(self) -> BaseException | None:
-        """What went wrong in here with what the server sent."""
-        over = self._task is not None and self._task.done() and not self._task.cancelled()
-        return self._task.exception() if over else None  # type: ignore[union-attr]
-
     # Speaking
 
     async def send_frames(self, *frames: str | bytes) -> None:
@@ -146,15 +134,6 @@ class PageClient:
         """
         model = {"id": self.ids[component]}
         await self.patch(message("data_event", model=model, data=data), **buffers)
-
-    async def press(self, label: str) -> None:
-        """Press a button of Panel."""
-        await self.patch(message("button_click", model={"id": self.ids[label]}))
-
-    async def choose(self, label: str, value: str) -> None:
-        """Choose an option of a list of Panel, or type text into a field."""
-        model = {"id": self.ids[label]}
-        await self.patch({"kind": "ModelChanged", "model": model, "attr": "value", "new": value})
 
     async def ask(self, component: str = "Controls", **message: Any) -> int:
         """Ask for a change; return its mark."""
@@ -211,7 +190,6 @@ class PageClient:
                 _, content, *rest = frames
                 names, blocks = rest[::2], rest[1::2]
                 buffers = {json.loads(n)["id"]: b for n, b in zip(names, blocks, strict=True)}
-                self.bytes_received += sum(len(block) for block in blocks)
                 self._take(header, json.loads(content or "{}"), buffers)
                 self._news.set()
         finally:
@@ -240,8 +218,6 @@ class PageClient:
 
     def _event(self, event: dict[str, Any], buffers: dict[str, bytes]) -> None:
         kind, model = event["kind"], event.get("model", {}).get("id")
-        if kind == "MessageSent":
-            self.messages.append(event.get("msg_data"))
         if kind == "ModelChanged":
             self._look(event["new"])
             if model == self.ids["unpack"] and event["attr"] == "args":
@@ -264,8 +240,6 @@ class PageClient:
             block = packed[body : body + columns * length].reshape(columns, length)
             self.sources[name] = dict(zip(names, block, strict=True))
             body += columns * length
-        for index, start, end in heads[n_sources:]:
-            self.ranges[self._known_ranges[int(index)]] = (float(start), float(end))
         self.drawn, now = int(packed[0]), time.perf_counter()
         arrived = [m for m in self._on_way if m <= self.drawn]
         if arrived:
@@ -300,18 +274,13 @@ class PageClient:
                 self.ids[str(label)] = made["id"]  # of a widget
             shown = attributes.get("data")
             if isinstance(shown, dict) and shown.get("type") == "object":
-                name = shown["name"].rstrip("0123456789")
-                self.ids[name] = made["id"]
-                given = shown.get("attributes", {})
-                self.components[name] = {key: _plain(value) for key, value in given.items()}
+                self.ids[shown["name"].rstrip("0123456789")] = made["id"]
 
     def _learn_packed_source(self, args: dict[str, Any]) -> None:
         columns = args["columns"]
         for index, source in enumerate(args["sources"]):
             name = self._names.get(source["id"], source["id"])
             self._known_sources[index] = (name, columns[index])
-        for index, moved in enumerate(args["ranges"]):
-            self._known_ranges[index] = moved["id"]
 
 
 def message(name: str, **values: Any) -> dict[str, Any]:

@@ -13,8 +13,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.fft import next_fast_len
+from scipy.interpolate import make_interp_spline
+from scipy.signal import resample_poly
 
-from bearingcore.common import checks
 from bearingcore.dynamics.motion import simulate
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
@@ -33,21 +35,14 @@ TONES = 6
 
 @dataclass(frozen=True)
 class Resonance:
-    """A resonance of the path from the housing to the sensor.
-
-    Attributes
-    ----------
-    frequency
-        [Hz]
-    damping
-        ratio to the critical one.
-    gain
-        what it adds at its peak, along each direction, to the 1 of the direct path.
-    """
+    """A resonance of the path from the housing to the sensor."""
 
     frequency: float
+    """[Hz]"""
     damping: float
+    """ratio to the critical one"""
     gain: tuple[float, ...]
+    """what it adds at its peak, along each direction, to the 1 of the direct path"""
 
     def transfer(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """What it adds (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
@@ -120,8 +115,7 @@ def recorded_through(
     rng = np.random.default_rng(seed)
     start = SETTLING + float(rng.uniform(0.05, 0.25))
     motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
-    if not motion.completed:
-        raise checks.refuse("scene", motion.reason, "one whose motion can be simulated")
+    assert motion.completed, motion.reason
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)
     columns = [motion.dofs.index(name) for name in directions]
     count = round(duration * sample_rate)
@@ -180,9 +174,6 @@ def _at(
     signal: NDArray[np.float64], rate: float, clock: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """The signal (n, d) at other times [s] than those of its samples."""
-    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
-    from scipy.signal import resample_poly
-
     fine = resample_poly(signal, 4, 1, axis=0)
     return np.asarray(make_interp_spline(np.arange(len(fine)) / (4.0 * rate), fine, k=3)(clock))
 
@@ -212,8 +203,6 @@ def _through(
     signal: NDArray[np.float64], rate: float, resonances: tuple[Resonance, ...]
 ) -> NDArray[np.float64]:
     """The signal (n, d) behind a path, each direction by its own gains."""
-    from scipy.fft import next_fast_len
-
     count = len(signal)
     size = next_fast_len(count + round(0.2 * rate), real=True)
     frequency = np.asarray(np.fft.rfftfreq(size, 1.0 / rate), dtype=float)

@@ -2,42 +2,20 @@
 
 At an event the solver stops and a fresh one starts, so that each integrates smooth pieces only.
 Known events are times; found ones are zeros of one indicator a ball, which says whether the ball
-presses (positive) or not.
+presses (positive) or not. A system is as `make_motion_reference.General`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import welch
 
 SAMPLE_RATE = 65536.0
-
-
-class System(Protocol):
-    """What can be marched. A state is (displacements, velocities), inner body first, scaled."""
-
-    scale: np.ndarray
-    """SI units of one unit of each part of the state."""
-
-    def start(self) -> np.ndarray:
-        """State at time 0."""
-
-    def known_events(self, duration: float) -> list[float]:
-        """Times inside (0, duration) at which the right-hand side kinks."""
-
-    def where(self, t: float) -> np.ndarray:
-        """Piece of path of each ball at a time that is no event."""
-
-    def indicator(self, t: float, y: np.ndarray, where: np.ndarray) -> np.ndarray:
-        """Positive for balls that press."""
-
-    def slope(self, t: float, y: np.ndarray, pressing: np.ndarray, where: np.ndarray) -> np.ndarray:
-        """Right-hand side with pressing balls and pieces of path held."""
 
 
 @dataclass
@@ -51,7 +29,7 @@ class Trace:
     events: int
 
 
-def integrate(solver: Any, system: System, duration: float, tolerance: float) -> Trace:
+def integrate(solver: Any, system: Any, duration: float, tolerance: float) -> Trace:
     """March from event to event."""
     count = round(duration * SAMPLE_RATE) + 1
     grid = np.arange(count) / SAMPLE_RATE
@@ -106,7 +84,7 @@ def integrate(solver: Any, system: System, duration: float, tolerance: float) ->
 
 
 def earliest(
-    system: System,
+    system: Any,
     dense: Callable[[float], np.ndarray],
     start: float,
     end: float,

@@ -89,7 +89,7 @@ def rig_cases(like: dict[str, Any]) -> dict[str, dict[str, Any]]:
 
 
 @numba.njit
-def edge_drop(s: float, code: int, radius: float, ball_radius: float) -> tuple[float, float]:
+def edge_drop(s, code, radius, ball_radius):
     """Drop [m] and slope [m/rad] at angle s from an edge, smooth past both ends."""
     if code in (PUBLISHED, CHORD):
         reach = (0.5 if code == PUBLISHED else 1.0) * radius
@@ -103,16 +103,7 @@ def edge_drop(s: float, code: int, radius: float, ball_radius: float) -> tuple[f
 
 
 @numba.njit
-def ball(
-    phi: float,
-    cage_speed: float,
-    q: np.ndarray,
-    v: np.ndarray,
-    numbers: np.ndarray,
-    path: np.ndarray,
-    where: int,
-    turn: float,
-) -> tuple[float, float, float, float]:
+def ball(phi, cage_speed, q, v, numbers, path, where, turn):
     """Compression δ [m], its rate [m/s] and the direction (e_r, e_z) of the line of contact."""
     alpha, arm, distance, clearance = numbers[0], numbers[1], numbers[2], numbers[3]
     code, radius, ball_radius = int(path[0]), path[1], path[2]
@@ -144,7 +135,7 @@ def ball(
 
 
 @numba.njit
-def relative(y: np.ndarray, free: np.ndarray, arm: float) -> tuple[np.ndarray, np.ndarray]:
+def relative(y, free, arm):
     """Displacement and velocity of the inner against the outer ring, all five [m, rad, 1/s]."""
     q, v, m = np.zeros(5), np.zeros(5), len(free)
     for i in range(m):
@@ -155,15 +146,7 @@ def relative(y: np.ndarray, free: np.ndarray, arm: float) -> tuple[np.ndarray, n
 
 
 @numba.njit
-def press(
-    t: float,
-    y: np.ndarray,
-    free: np.ndarray,
-    numbers: np.ndarray,
-    path: np.ndarray,
-    where: np.ndarray,
-    no_tension: bool,
-) -> np.ndarray:
+def press(t, y, free, numbers, path, where, no_tension):
     """Positive for balls that press: compression in µm, and with it the force in N."""
     q, v = relative(y, free, numbers[1])
     out = np.empty(len(where))
@@ -180,17 +163,7 @@ def press(
 
 
 @numba.njit
-def right_hand_side(
-    t: float,
-    y: np.ndarray,
-    free: np.ndarray,
-    numbers: np.ndarray,
-    path: np.ndarray,
-    where: np.ndarray,
-    pressing: np.ndarray,
-    bodies: np.ndarray,
-    force: np.ndarray,
-) -> np.ndarray:
+def right_hand_side(t, y, free, numbers, path, where, pressing, bodies, force):
     """Equation (18) with the set of pressing balls held; `bodies`: m_i, m_o, k_o, c_o by DOF."""
     arm = numbers[1]
     q, v = relative(y, free, arm)

@@ -59,10 +59,9 @@ def check(point: Point) -> set[int]:
 
 def test_points_drawn_at_random_meet_every_status() -> None:
     """1000 scenes of the nightly run, with which all four kinds of true answer are met."""
-    columns = draw(np.random.default_rng([0, 0]), 1000)
     seen: set[int] = set()
-    for k in range(1000):
-        seen |= check(columns.point(k))
+    for point in draw(np.random.default_rng([0, 0]), 1000):
+        seen |= check(point)
     assert seen == {
         kernels.CONVERGED,
         kernels.NOTHING_TOUCHES,
@@ -298,10 +297,8 @@ def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
 
     So F = (what contacts carry) + way with the two at right angles, which makes it the nearest.
     """
-    columns = draw(np.random.default_rng([5, 0]), 500)
     shares = []
-    for k in range(500):
-        point = columns.point(k)
+    for point in draw(np.random.default_rng([5, 0]), 500):
         scene = scene_at(point)
         balls = Balls(scene, point.cage_angle)
         active = np.array([DOF_NAMES.index(name) for name in scene.active_dofs])

@@ -11,8 +11,8 @@ from scipy.signal import fftconvolve
 
 from bearingcore import Recording, measure_extent, presets
 from bearingcore.diagnosis.extent.measure import ExtentStatus
-from tests.benchmarks.measured import RIGHT, WRONG, extent_verdict
 from tests.benchmarks.measured_records import records
+from tests.benchmarks.scoreboard import RIGHT, WRONG, extent_verdict
 
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
 needs_records = pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")

@@ -24,8 +24,8 @@ from tests.bearingcore.diagnosis.signals_made import (
     resonances,
     tone,
 )
-from tests.benchmarks.measured import WRONG, verdict
 from tests.benchmarks.measured_records import ball_bearing, records
+from tests.benchmarks.scoreboard import WRONG, verdict
 
 TURN = 2.0 * math.pi
 MOTOR = Machine(9, 7.94 / 39.04, 29.93, 12_000.0, 4.0)

@@ -21,6 +21,7 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from playwright.sync_api import Locator, Page, sync_playwright
@@ -109,18 +110,13 @@ WORK = 60.0
 """Target of the work for a frame [ms]."""
 
 
-@dataclass(frozen=True)
-class Drag:
-    """What a drag showed."""
+class Drag(NamedTuple):
+    """Frames a second, the tail [ms], and the work of browser and server for a frame [ms]."""
 
     frames: float
-    """a second"""
     tail: float
-    """from the release to the last repaint [ms]"""
     browser: float
-    """what the browser worked for a frame [ms]"""
     server: float
-    """the same of the server"""
 
 
 def move_to_and_fro(page: Page, slider: Locator, seconds: float) -> None:

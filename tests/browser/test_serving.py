@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -22,23 +20,15 @@ from tests.browser.helpers import (
     page_server,
     serving,
 )
-from tests.helpers.proxies import Proxy
+from tests.helpers.proxies import Proxy, running
 
 
 @contextmanager
 def proxied(port: int, under: str) -> Iterator[str]:
     """A proxy on a loop of its own; where the page is behind it."""
-    loop = asyncio.new_event_loop()
-    thread = threading.Thread(target=loop.run_forever)
-    thread.start()
     proxy = Proxy(port, under, strip=False)
-    asyncio.run_coroutine_threadsafe(proxy.start(), loop).result(5)
-    try:
+    with running(proxy):
         yield f"http://localhost:{proxy.port}{under}"
-    finally:
-        asyncio.run_coroutine_threadsafe(proxy.stop(), loop).result(5)
-        loop.call_soon_threadsafe(loop.stop)
-        thread.join(5)
 
 
 def with_limits() -> Server:

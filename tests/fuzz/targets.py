@@ -36,7 +36,6 @@ class Target:
     meet: Callable[[Any], object]
     refused: int = 0
     taken: int = 0
-    slowest: float = 0.0
     found: list[str] = field(default_factory=list)
 
     def run(self, number: int) -> None:
@@ -53,7 +52,6 @@ class Target:
         except Exception as error:
             self._note(number, given, f"{type(error).__name__}: {str(error)[:200]}")
         took = time.process_time() - began
-        self.slowest = max(self.slowest, took)
         if took > LONGEST:
             self._note(number, given, f"took {took:.1f} s")
 

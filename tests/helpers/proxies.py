@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import re
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 
 class Relay:
@@ -64,6 +67,22 @@ class Proxy(Relay):
         head = f"{method} {path} {version}\r\n{rest}"
         there, back = await ask(self._to, head.encode("latin-1"))
         await asyncio.gather(pipe(reader, back), pipe(there, writer))
+
+
+@contextmanager
+def running(relay: Relay) -> Iterator[None]:
+    """A relay in a thread of this process."""
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=loop.run_forever, daemon=True)
+    thread.start()
+    asyncio.run_coroutine_threadsafe(relay.start(), loop).result(10)
+    try:
+        yield
+    finally:
+        asyncio.run_coroutine_threadsafe(relay.stop(), loop).result(10)
+        loop.call_soon_threadsafe(loop.stop)
+        thread.join(10)
+        loop.close()
 
 
 async def ask(port: int, head: bytes) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:

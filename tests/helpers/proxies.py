@@ -64,8 +64,11 @@ class Proxy(Relay):
         if self._strip:
             path = "/" + path[len(self._under) :]
         rest = head.split("\r\n", 1)[1]
-        head = f"{method} {path} {version}\r\n{rest}"
-        there, back = await ask(self._to, head.encode("latin-1"))
+        if "upgrade: websocket" not in head.lower():
+            rest = re.sub(r"(?im)^connection:.*\r\n", "", rest)
+            rest = "Connection: close\r\n" + rest
+        there, back = await asyncio.open_connection("127.0.0.1", self._to)
+        back.write(f"{method} {path} {version}\r\n{rest}".encode("latin-1"))
         await asyncio.gather(pipe(reader, back), pipe(there, writer))
 
 
@@ -82,17 +85,6 @@ def running(relay: Relay) -> Iterator[None]:
         asyncio.run_coroutine_threadsafe(relay.stop(), loop).result(10)
         loop.call_soon_threadsafe(loop.stop)
         thread.join(10)
-        loop.close()
-
-
-async def ask(port: int, head: bytes) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
-    """A connection to an explorer that was sent the head of a request; one request each."""
-    if b"upgrade: websocket" not in head.lower():
-        head = re.sub(rb"(?im)^connection:.*\r\n", b"", head)
-        head = head.replace(b"\r\n", b"\r\nConnection: close\r\n", 1)
-    there, back = await asyncio.open_connection("127.0.0.1", port)
-    back.write(head)
-    return there, back
 
 
 async def pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:

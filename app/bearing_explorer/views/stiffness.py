@@ -26,9 +26,9 @@ from bearingcore import STIFFNESS_TERMS, Scene
 from bearingcore.common.numbers import prefixed_span
 from bearingcore.statics.equilibrium import TERM_UNITS
 
-NARROWEST = 760
+NARROWEST = 920
 """[px] width from which a cell has room for its symbol and its value."""
-LEFT = 0.28
+LEFT = 0.31
 """Room for the numbers left of a cell."""
 
 

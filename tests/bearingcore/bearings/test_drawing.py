@@ -1,7 +1,5 @@
 """Bearings from drawings: contact angle and clearance are one freedom, impossible ones refused."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any
@@ -30,32 +28,15 @@ def scene_of(bearing: Bearing, load: Load, defect: Defect | None = None) -> Scen
     return Scene(bearing, defect or Defect.none(), load, 100.0, presets["fan-rig"].support)
 
 
-# --- one freedom ---
-
-
-def test_clearance_alone_is_a_deep_groove_bearing() -> None:
-    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
-    assert bearing.contact_angle == 0.0
-    assert bearing.radial_clearance == PLAY / 2
-    assert bearing.diametral_play == pytest.approx(PLAY, rel=1e-14)
-    assert math.cos(bearing.free_contact_angle) == pytest.approx(1.0 - PLAY / (2.0 * A0), rel=1e-13)
-
-
-def test_contact_angle_alone_has_no_clearance_on_top() -> None:
-    angle = math.radians(25.0)
-    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle)
-    assert bearing.radial_clearance == 0.0
-    assert bearing.free_contact_angle == pytest.approx(angle, rel=1e-13)
-    assert bearing.diametral_play == pytest.approx(2.0 * A0 * (1.0 - math.cos(angle)), rel=1e-13)
-
-
-def test_both_put_the_clearance_on_top_of_the_angle() -> None:
-    angle = math.radians(25.0)
-    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle, diametral_clearance=PLAY)
-    assert (bearing.contact_angle, bearing.radial_clearance) == (angle, PLAY / 2)
-    free = math.acos(math.cos(angle) - PLAY / 2 / A0)
-    assert bearing.free_contact_angle == pytest.approx(free, rel=1e-13)
-    assert bearing.diametral_play > PLAY
+@pytest.mark.parametrize(("angle", "play"), [(None, PLAY), (0.4, None), (0.4, PLAY)])
+def test_the_clearance_lies_on_top_of_the_angle(angle: float | None, play: float | None) -> None:
+    given = {"contact_angle": angle, "diametral_clearance": play}
+    bearing = Bearing.from_drawing(**DRAWING, **given)
+    angle, play = angle or 0.0, play or 0.0
+    assert (bearing.contact_angle, bearing.radial_clearance) == (angle, play / 2)
+    cosine = math.cos(angle) - play / 2 / A0
+    assert math.cos(bearing.free_contact_angle) == pytest.approx(cosine, rel=1e-13)
+    assert bearing.diametral_play == pytest.approx(2.0 * A0 * (1.0 - cosine), rel=1e-13)
 
 
 @pytest.mark.parametrize("angle_deg", [0.0, 20.0])
@@ -114,9 +95,6 @@ def test_clearance_and_free_angle_are_one_bearing(load: Load, play: float) -> No
     assert np.abs(one.contact_angle - other.contact_angle)[same].max() < 1e-7
 
 
-# --- what follows from the drawing ---
-
-
 def test_groove_centres_and_races_lie_where_the_drawing_puts_them() -> None:
     """Two circles in an axial section: the ball between them touches at α0 on both sides."""
     angle = math.radians(30.0)
@@ -135,12 +113,6 @@ def test_groove_centres_and_races_lie_where_the_drawing_puts_them() -> None:
     assert flat.outer_raceway_radius - flat.inner_raceway_radius == pytest.approx(D_B, rel=1e-13)
 
 
-def test_softer_material_is_softer_in_proportion() -> None:
-    steel = Bearing.from_drawing(**DRAWING, contact_angle=0.0)
-    soft = Bearing.from_drawing(**DRAWING, contact_angle=0.0, youngs_modulus=105e9)
-    assert soft.load_deflection_factor == pytest.approx(0.5 * steel.load_deflection_factor)
-
-
 CHANGES: list[dict[str, Any]] = [
     {"ball_diameter": 9.3e-3},
     {"pitch_diameter": 50e-3},
@@ -157,13 +129,6 @@ def test_a_changed_dimension_redraws_the_bearing(changes: dict[str, Any]) -> Non
     expected = Bearing.from_drawing(**{**DRAWING, "contact_angle": 0.2, **changes})
     scene = scene_of(bearing, Load(fy=-100.0, fz=50.0))
     assert scene.replace(**changes).bearing == expected
-
-
-def test_a_changed_clearance_changes_nothing_else() -> None:
-    bearing = Bearing.from_drawing(**DRAWING, diametral_clearance=PLAY)
-    scene = scene_of(bearing, Load(fy=-100.0)).replace(radial_clearance=5e-6)
-    assert scene.bearing == Bearing.from_drawing(**DRAWING, diametral_clearance=10e-6)
-    assert scene.bearing.diametral_play == pytest.approx(10e-6)
 
 
 def test_a_number_set_apart_from_the_drawing_stays_in_proportion() -> None:
@@ -187,8 +152,6 @@ def test_a_bearing_without_a_drawing_changes_field_by_field() -> None:
         bearing.race_contact("inner")
 
 
-# --- impossible drawings ---
-
 IMPOSSIBLE: list[tuple[dict[str, Any], str]] = [
     ({"inner_groove_radius": 0.5 * D_B}, r"inner_groove_radius is 0.0047625; .*above 0.0047625"),
     ({"outer_groove_radius": 4.7e-3}, r"outer_groove_radius is 0.0047; .*above 0.0047625"),
@@ -200,11 +163,8 @@ IMPOSSIBLE: list[tuple[dict[str, Any], str]] = [
     ({"ball_diameter": 47e-3}, r"pitch_diameter is 0.046; .*above 0.047"),
     ({"contact_angle": math.radians(81.0)}, r"contact_angle is 1.41372; .*80 degrees"),
     ({"contact_angle": None, "diametral_clearance": 0.9e-3}, r"diametral_clearance is 0.0009; "),
-    ({"contact_angle": None}, r"contact_angle is None; .*diametral_clearance"),
     ({"diametral_clearance": -1e-6}, r"diametral_clearance is -1e-06; .*at least 0"),
-    ({"youngs_modulus": 0.0}, r"youngs_modulus is 0; .*above 0"),
     ({"poisson": 0.5}, r"poisson is 0.5; .*below 0.5"),
-    ({"inner_groove_radius": math.nan}, r"inner_groove_radius is nan; "),
     ({"groove_center_radius": -1.0}, r"groove_center_radius is -1; "),
 ]
 

@@ -1,7 +1,5 @@
 """Rows of balls, self-aligning bearings and rollers: other numbers, not other code."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from functools import partial
@@ -9,7 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, Scene, equilibrium, modes, orbit, presets, simulate
+from bearingcore import Bearing, Scene, equilibrium, presets, simulate
 from bearingcore.bearings.hertz import spherical_contact
 from bearingcore.bearings.rows import Row
 from bearingcore.errors import FieldError
@@ -71,27 +69,6 @@ def test_a_ball_in_a_sphere_is_hertz_for_two_spheres() -> None:
     radius = 1.0 / (2.0 / D - 1.0 / R)
     expected = 4.0 / 3.0 * E / (2.0 * (1.0 - nu**2)) * math.sqrt(radius)
     assert spherical_contact(D, R, E, nu).load_deflection_factor == pytest.approx(expected)
-
-
-def test_rows_move_and_come_back_from_files() -> None:
-    pair = LIEW_LIM.bearing.paired(16e-3, "face-to-face", preload=4e-6)
-    scene = LIEW_LIM.replace(bearing=pair)
-    motion = simulate(scene, 0.02, ball_loads=True)
-    assert motion.completed
-    assert motion.ball_load is not None
-    assert motion.ball_load.shape[1] == 24
-    assert len(modes(scene).bands()) == 10
-    assert Scene.from_toml(scene.to_toml()) == scene
-    assert orbit(scene).period > 0.0
-
-
-def test_half_a_spacing_between_rows_doubles_the_ball_pass_of_the_pair() -> None:
-    spacing = FAN_RIG.bearing.ball_spacing
-    rows = (Row(), Row(turn=0.5 * spacing))
-    both = FAN_RIG.replace(bearing=FAN_RIG.bearing.replace(rows=rows))
-    angles = np.linspace(0.0, spacing, 41)
-    load = equilibrium(both, angles).displacement[:, 1]
-    np.testing.assert_allclose(load[:21], load[20:], rtol=1e-8)
 
 
 ROLLERS = Bearing.cylindrical(12, 10e-3, 10e-3, 50e-3)
@@ -168,8 +145,6 @@ def test_a_self_aligning_bearing_carries_its_contacts() -> None:
     made = Bearing.self_aligning(
         12, 7.94e-3, 20e-3, 4.13e-3, math.radians(12.0), youngs_modulus=205e9
     )
-    assert made.kind.name == "self-aligning"
-    assert made.arrangement == ""
     assert made.groove_radius("inner") == pytest.approx(4.13e-3, rel=1e-12)
     inner = made.race_contact("inner")
     assert inner.youngs_modulus == pytest.approx(205e9, rel=1e-9)
@@ -180,8 +155,6 @@ def test_a_self_aligning_bearing_carries_its_contacts() -> None:
     )
     assert sum(made.race_distances) == pytest.approx(made.groove_center_distance)
     assert made.race_distances[1] == pytest.approx(20e-3 - 3.97e-3)
-    assert LIEW_LIM.bearing.kind.name == "ball"
-    assert LIEW_LIM.bearing.paired(16e-3, "face-to-face").kind.name == "rows"
     scene = FAN_RIG.replace(bearing=made, depth=20e-6)
     assert scene.active_dofs == ("x", "y", "z")
 
@@ -207,8 +180,5 @@ def test_rollers_follow_their_dimensions_and_never_become_balls() -> None:
         ROLLERS.replace(roller_length=None)
     with pytest.raises(ValueError, match="roller_length"):
         FAN_RIG.bearing.replace(roller_length=10e-3)
-
-
-def test_a_self_aligning_bearing_has_no_length_of_rollers() -> None:
     with pytest.raises(ValueError, match=r"roller_length is 0\.01"):
         presets["1208"].bearing.replace(roller_length=0.01)

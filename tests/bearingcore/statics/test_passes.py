@@ -36,13 +36,6 @@ def test_between_entry_and_exit_a_ball_sinks_and_nowhere_else(race: str, center_
         assert inside > 0.0
 
 
-def test_an_inner_race_defect_meets_a_ball_at_the_inner_ball_pass_frequency() -> None:
-    scene = FAN_RIG.replace(race="inner")
-    entries = [c.cage_angle for c in crossings(scene, 0.0, 10 * TURN) if c.enters]
-    one_pass = np.diff(entries) / scene.cage_speed
-    np.testing.assert_allclose(1.0 / one_pass, scene.bearing.bpfi(scene.shaft_speed))
-
-
 def test_a_healthy_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:
     assert crossings(FAN_RIG.healthy(), 0.0, TURN) == []
     assert crossings(FAN_RIG.replace(extent=TURN), 0.0, TURN) == []

@@ -1,20 +1,14 @@
 """Limits of the model are met where physics says, and told in sentences with numbers."""
 
-from __future__ import annotations
-
 import math
 import re
 
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, Limit, Scene, equilibrium, film, limits, presets, simulate
+from bearingcore import Limit, Scene, equilibrium, film, limits, presets, simulate
 from bearingcore.statics.ball_positions import centrifugal_effect
-from bearingcore.statics.limit import summary
-from bearingcore.statics.validity import (
-    looked_at,
-    usual_shoulder_height,
-)
+from bearingcore.statics.validity import looked_at
 
 HEALTHY_6205 = presets["6205"].healthy()
 
@@ -70,37 +64,7 @@ def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
     assert found(gentle, name, shoulder_height=0.02).crossed
 
 
-def test_the_contact_reaches_as_far_as_its_angle_and_half_its_ellipse() -> None:
-    """Pure thrust: all balls alike, the angle from the balance N_b Q sin α = F_z."""
-    scene = presets["7208-25deg"].healthy().replace(fy=0.0, fz=3000.0, dofs=("z",))
-    state = equilibrium(scene)
-    load, angle = state.ball_load[0, 0], state.contact_angle[0, 0]
-    assert 14 * load * math.sin(angle) == pytest.approx(3000.0, rel=1e-9)
-    a = max(scene.bearing.race_contact(race).semi_axes(load)[0] for race in ("inner", "outer"))
-    expected = angle + math.asin(a / scene.bearing.ball_radius)
-    assert found(scene, "contact angle at the shoulder").value == pytest.approx(expected)
-
-
-def test_shoulders_stand_where_their_height_puts_them() -> None:
-    """As high as the ball's centre: 90°. As usual in deep grooves: 53.1°."""
-    name = "contact angle at the shoulder"
-    assert found(HEALTHY_6205, name, shoulder_height=0.5).limit == pytest.approx(math.pi / 2)
-    assert found(HEALTHY_6205, name).limit == pytest.approx(math.acos(0.6))
-    assert usual_shoulder_height(math.radians(40.0)) == pytest.approx(0.3)
-
-
-CHANGE, LEAST = "change by centrifugal force", "centrifugal force, least loaded ball"
-
-
-def test_centrifugal_force_matters_at_speed_and_not_at_rest() -> None:
-    at_rest = HEALTHY_6205.replace(shaft_speed=0.0)
-    fast = HEALTHY_6205.replace(shaft_speed=40e3 * 2.0 * math.pi / 60.0)
-    for name in (CHANGE, LEAST):
-        assert found(at_rest, name).value == 0.0
-        assert not found(HEALTHY_6205, name).crossed
-        assert found(fast, name).crossed
-    ratio = found(fast, LEAST).value / found(HEALTHY_6205, LEAST).value
-    assert ratio == pytest.approx((40e3 / 1797.0) ** 2, rel=1e-9)
+CHANGE = "change by centrifugal force"
 
 
 def test_what_centrifugal_force_changes_is_measured() -> None:
@@ -114,25 +78,6 @@ def test_what_centrifugal_force_changes_is_measured() -> None:
     assert values[0] < 0.01 < 0.04 < values[1]
     assert "parts the contact angles" in found(fast, CHANGE).sentence
     assert "of a ball, 224 mN," in found(HEALTHY_6205, CHANGE).sentence
-
-
-@pytest.mark.parametrize("conformity", [0.505, 0.52, 0.54, 0.58])
-def test_compression_stands_for_the_width_of_the_contact(conformity: float) -> None:
-    """At the limit the contact reaches 0.55 ball radii to either side, whatever the grooves."""
-    D_b = 10e-3
-    bearing = Bearing.from_drawing(
-        9, D_b, 50e-3, conformity * D_b, conformity * D_b, contact_angle=0.0
-    )
-    load = bearing.load_deflection_factor * (0.2 * bearing.groove_center_distance) ** 1.5
-    for race in ("inner", "outer"):
-        width = float(bearing.race_contact(race).semi_axes(load)[0]) / bearing.ball_radius
-        assert width == pytest.approx(0.55, rel=0.04)
-
-
-def test_overload_is_told_in_pressure_and_in_compression() -> None:
-    heavy = HEALTHY_6205.replace(fy=-40e3)
-    crossed = {limit.name for limit in limits(heavy) if limit.crossed}
-    assert {INNER, OUTER, "compression against groove centre distance"} <= crossed
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])
@@ -165,22 +110,9 @@ def test_loads_in_motion_count_where_they_are_known() -> None:
     assert found(scene, names[1], dynamic_load=50e3).crossed
 
 
-def test_the_summary_counts_all_three_kinds() -> None:
-    scene = presets["6205"]
-    known = limits(scene, dynamic_load=1.0, film=film(scene, viscosity=0.1))
-    assert summary(known) == f"{len(known)} checks passed"
-    assert summary(limits(scene)) == f"{len(known) - 3} checks passed, 3 not checked"
-    assert summary(known[:1]) == "1 check passed"
-    heavy = limits(HEALTHY_6205.replace(fy=-40e3))
-    crossed = sum(limit.crossed for limit in heavy)
-    assert summary(heavy).startswith(f"{crossed} limits exceeded, ")
-
-
 def test_the_film_counts_where_the_oil_is_given() -> None:
     scene, name = presets["6205"], "film parameter"
     assert math.isnan(found(scene, name).value)
-    assert "viscosity of the oil" in found(scene, name).sentence
-    assert "groove radii" in found(presets["fan-rig"], name).sentence
     for viscosity, crossed in ((2e-3, True), (0.1, False)):
         oil = film(scene, viscosity=viscosity)
         limit = found(scene, name, film=oil)  # type: ignore[arg-type]
@@ -190,22 +122,11 @@ def test_the_film_counts_where_the_oil_is_given() -> None:
     assert name not in {one.name for one in limits(scene.replace(shaft_speed=0.0))}
     with pytest.raises(ValueError, match="film of another scene"):
         limits(scene.replace(fy=-100.0), film=oil)
-    rollers = presets["nu208"]
-    assert found(rollers, name, film=film(rollers, viscosity=0.1)).value > 0.0  # type: ignore[arg-type]
-
-
-def test_tight_grooves_of_the_published_bearing_are_told() -> None:
-    """50 µm between the groove centres of a 6 mm ball: 1.4 kN press it up the sides."""
-    limit = found(presets["liew-lim"], "compression against groove centre distance")
-    assert limit.crossed
-    assert limit.value == pytest.approx((1389.0 / 1.45e10) ** (2 / 3) / 50e-6, rel=1e-3)
 
 
 def test_a_stiffness_that_does_not_go_with_the_drawing_is_told() -> None:
     name = "load-deflection factor against the drawing"
-    drawn = found(HEALTHY_6205, name)
-    assert drawn.value == 0.0
-    assert not drawn.crossed
+    assert found(HEALTHY_6205, name).value == 0.0
     K = HEALTHY_6205.bearing.load_deflection_factor
     softer = found(HEALTHY_6205.replace(load_deflection_factor=0.9 * K), name)
     assert softer.value == pytest.approx(0.1)
@@ -229,20 +150,6 @@ def test_the_default_steps_of_a_motion_are_enough() -> None:
     for name in presets:
         step_rate = simulate(presets[name], duration=0.01).step_rate
         assert not found(presets[name], "time steps in a defect", step_rate=step_rate).crossed
-
-
-def test_an_inner_race_defect_is_passed_at_the_relative_speed() -> None:
-    scene = presets["fan-rig"]
-    outer = found(scene, "time steps in a defect", step_rate=65536.0).value
-    inner = found(scene.replace(race="inner"), "time steps in a defect", step_rate=65536.0).value
-    cage = scene.bearing.cage_ratio
-    assert inner / outer == pytest.approx(cage / (1.0 - cage), rel=1e-12)
-
-
-def test_no_defect_or_a_shaft_at_rest_passes_nothing() -> None:
-    for scene in (HEALTHY_6205, presets["6205"].replace(shaft_speed=0.0)):
-        names = {limit.name for limit in limits(scene, step_rate=65536.0)}
-        assert "time steps in a defect" not in names
 
 
 def test_an_unloaded_bearing_has_no_numbers_and_crosses_nothing() -> None:
@@ -291,14 +198,3 @@ def test_a_state_at_hand_gives_the_same() -> None:
 def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
     with pytest.raises(ValueError, match=said):
         limits(HEALTHY_6205, **choices)  # type: ignore[arg-type]
-
-
-def test_what_still_leaves_centrifugal_load_out_is_said_of_balls_with_mass() -> None:
-    fast = presets["7208-25deg"].replace(shaft_speed=1500.0)
-    massless = found(fast, "change by centrifugal force")
-    heavy = found(fast.replace(balls="with mass"), "change by centrifugal force")
-    assert massless.crossed
-    assert heavy.crossed
-    assert heavy.value == massless.value
-    assert "static model leaves it out" in massless.sentence
-    assert "natural frequencies and life leave it out" in heavy.sentence

@@ -1,14 +1,9 @@
 """Balls with or without mass: up to where massless ones will do, and what refuses mass."""
 
-from __future__ import annotations
-
 import math
-
-import pytest
 
 from bearingcore import presets, simulate
 from bearingcore.dynamics.ball_comparison import compare_balls, mass_share
-from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.scene.pit import pit
 
@@ -33,12 +28,6 @@ def test_up_to_where_massless_balls_will_do() -> None:
 def test_share_of_the_power_that_mass_adds() -> None:
     assert abs(mass_share(FAN_RIG, 300.0, 2100.0, 0.7, 65536.0)) < 0.1
     assert mass_share(FAN_RIG, 10e3, 20e3, 0.7, 65536.0) > 0.8
-
-
-def test_those_that_do_not_know_mass_say_so() -> None:
-    """Nothing marches massless balls where balls with mass were asked for."""
-    with pytest.raises(ValueError, match="massless"):
-        orbit(FAN_RIG.replace(balls="with mass"))
 
 
 def test_bands_without_power_do_not_count() -> None:

@@ -6,8 +6,6 @@ the method: tolerances are those of steps of 1/65,536 s, as an independent Runge
 plain C has them too, and finer steps close in on the reference.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache

@@ -1,7 +1,5 @@
 """Orbits against marching, and the statements of others about where they are stable."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -56,18 +54,12 @@ def test_at_30_hz_the_orbit_doubles_its_period() -> None:
 @pytest.mark.parametrize(
     ("shaft_hz", "extent_deg"),
     [
-        (7.0, 38.6),
-        (15.0, 12.9),
         (25.0, 12.9),
         (28.0, 12.9),
         (32.0, 12.9),
         (35.0, 12.9),
-        (45.0, 20.0),
-        (60.0, 12.9),
         (60.0, 38.6),
-        (90.0, 25.0),
         (120.0, 8.0),
-        (150.0, 12.9),
     ],
 )
 def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_deg: float) -> None:
@@ -83,19 +75,6 @@ def test_where_no_orbit_is_found_none_is_claimed() -> None:
     scene = at(100.0, 12.9)
     assert marched_period(scene) == 2
     assert orbit(scene).status in (OrbitStatus.NOT_CONVERGED, OrbitStatus.UNSTABLE)
-
-
-@pytest.mark.parametrize("extent_deg", [12.9, 38.6])
-def test_the_tiled_period_is_the_marched_motion_after_its_transient(extent_deg: float) -> None:
-    scene = at(7.0, extent_deg)
-    found = orbit(scene)
-    motion = simulate(scene, 2.8)
-    late = slice(len(motion.time) // 2, None)
-    marched = spectrum(motion.outer_acceleration[late], motion.sample_rate)
-    tiled = spectrum(found.outer_acceleration(motion.time[late]), motion.sample_rate)
-    band = (marched.frequency >= 300.0) & (marched.frequency <= 2100.0)
-    error = 10.0 * np.log10(tiled.density[band] / marched.density[band])
-    assert np.abs(error).max() < 0.1
 
 
 @pytest.mark.parametrize("scene", [at(7.0, 12.9), at(60.0, 12.9), at(7.0, 38.6)])
@@ -163,28 +142,6 @@ def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
     assert error < (1e-5 if smooth else 2e-3) * np.abs(scaled * differences).max()
 
 
-def test_an_orbit_nearby_shortens_the_way() -> None:
-    first = orbit(at(20.0, 12.9))
-    nearby = at(20.0, 12.9).replace(depth=49.5e-6, fy=-101.0)
-    warm, cold = orbit(nearby, start=first), orbit(nearby)
-    assert warm.status == cold.status == OrbitStatus.STABLE
-    assert warm.right_hand_side_calls < cold.right_hand_side_calls
-    assert warm.largest_multiplier == pytest.approx(cold.largest_multiplier, rel=1e-3)
-
-
-def test_an_orbit_in_five_directions_is_as_exact_as_the_march() -> None:
-    """Halving the steps twice takes off far more than the three quarters that order 1 would."""
-    scene = presets["liew-lim"]
-    fine, *coarser = (
-        orbit(scene, step_rate=65536.0 * 2.0**k).inner_displacement(np.linspace(0.0, 0.03, 301))
-        for k in (3, 1, -1)
-    )
-    size = np.ptp(fine, axis=0).max()
-    near, far = (np.abs(found - fine).max() / size for found in coarser)
-    assert near < 3e-6
-    assert near < far / 12.0
-
-
 def test_another_family_of_methods_finds_the_orbit_closed() -> None:
     """DOP853 on the plain equations of motion, over one ball pass of the Liew-Lim bearing."""
     scene = presets["liew-lim"]
@@ -207,12 +164,15 @@ def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
     inner = at(7.0, 12.9).replace(race="inner")
     assert common_ball_passes(inner) == 259
     assert common_ball_passes(at(7.0, 12.9)) == 1
+    assert common_ball_passes(at(7.0, 12.9).replace(unbalance=1e-4)) != 1
     unlike = inner.replace(contact_angle=math.radians(15.0))
     assert common_ball_passes(unlike) is None
     assert orbit(unlike).status == OrbitStatus.NO_PERIOD
     assert math.isnan(orbit(unlike).largest_multiplier)
 
 
-def test_a_shaft_that_stands_still_is_refused() -> None:
+def test_balls_with_mass_and_a_shaft_that_stands_still_are_refused() -> None:
+    with pytest.raises(ValueError, match="massless"):
+        orbit(RIG.replace(balls="with mass"))
     with pytest.raises(ValueError, match="shaft_speed"):
         orbit(RIG.replace(shaft_speed=0.0))

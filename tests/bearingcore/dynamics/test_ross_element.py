@@ -1,7 +1,5 @@
 """The bearing of a scene for rotors in ROSS."""
 
-from __future__ import annotations
-
 import math
 import sys
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Maps of stability and speed runs: their parts are those of single orbits and motions."""
 
-from __future__ import annotations
-
 import math
 import re
 
@@ -44,18 +42,6 @@ def test_a_cancelled_map_says_what_it_lacks() -> None:
     assert np.all(np.isnan(found.multiplier[found.outcome == OUTCOMES.index("not computed")]))
 
 
-def test_progress_is_told_to_its_end() -> None:
-    told: list[float] = []
-    stability_map(
-        RIG,
-        ("shaft_speed", SPEEDS[:2]),
-        ("depth", [40e-6, 50e-6]),
-        progress=lambda part, _: told.append(part),
-    )
-    assert told == sorted(told)
-    assert told[-1] == 1.0
-
-
 @pytest.mark.parametrize(
     ("x", "y", "words"),
     [
@@ -83,26 +69,6 @@ def test_a_point_that_is_refused_does_not_stop_a_map() -> None:
     with pytest.raises(ValueError, match=re.escape(reason)):
         rig.replace(ball_diameter=9e-3, pitch_diameter=36e-3)
     assert any(reason in sentence for sentence in regions(found))
-
-
-def test_a_map_of_nothing_but_refusals_is_refused() -> None:
-    with pytest.raises(ValueError, match="stiffness_z"):
-        stability_map(
-            presets["liew-lim"].replace(stiffness_z=None),
-            ("shaft_speed", SPEEDS[:2]),
-            ("depth", [4e-5, 5e-5]),
-        )
-
-
-def test_a_speed_that_is_refused_does_not_stop_a_run() -> None:
-    """At such a speed the steps that a ball needs across the defect are too many."""
-    rig = RIG.replace(extent=math.radians(0.05), depth=1e-7)
-    speeds = 2.0 * math.pi * np.array([10.0, 50000.0])
-    run = speed_run(rig, speeds, duration=0.3)
-    assert run.completed
-    assert list(run.refusals) == [1]
-    assert np.all(np.isfinite(run.density[0]))
-    assert np.all(np.isnan(run.density[1]))
 
 
 def test_a_speed_run_takes_orbits_where_they_are_stable_and_marches_elsewhere() -> None:

@@ -1,7 +1,5 @@
 """Steps that the program takes see what longer ones miss, and steps that are too long say so."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Flights and strikes of balls, read off their loads."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bearingcore.dynamics.strikes import Flight, Strike, flights, strikes
@@ -28,12 +26,6 @@ def test_a_strike_is_told_with_its_first_touch_and_its_peak() -> None:
         Strike(0, "outer", TIME[6], 8.0, TIME[7]),
         Strike(0, "inner", TIME[8], 3.0, TIME[8]),
     )
-
-
-def test_a_ball_that_never_lets_go_strikes_nothing() -> None:
-    always = [1.0] * 10
-    assert flights(TIME, loads(always, always)) == ()
-    assert strikes(TIME, loads(always, always)) == ()
 
 
 def test_balls_are_told_apart() -> None:

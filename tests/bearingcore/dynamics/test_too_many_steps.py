@@ -3,14 +3,12 @@
 A light ring on a support of 2.6e13 N/m swings at 19 MHz: a ball pass takes 700,000 steps.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
-from bearingcore import Scene, equilibrium, modes, presets, simulate, stiffness_maps
+from bearingcore import equilibrium, kernels, modes, presets, simulate, stiffness_maps
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.orbit import orbit
@@ -19,9 +17,6 @@ from bearingcore.dynamics.stability_map import regions, stability_map
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions
-from bearingcore.sweep import STATUSES
-from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import Settings
 from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 
 STIFF = presets["liew-lim"].replace(
@@ -35,20 +30,19 @@ STIFF = presets["liew-lim"].replace(
 LESS_STIFF = STIFF.replace(stiffness_x=1e12, stiffness_y=1e12, stiffness_z=1e12)
 
 
+def begun(*_: object) -> None:
+    raise AssertionError("it was begun")
+
+
 @pytest.fixture
 def _no_marching(monkeypatch: pytest.MonkeyPatch) -> None:
     """A kernel that is begun has failed: that it would end after minutes is no answer."""
-    from bearingcore import kernels
-
-    def begun(*_: object) -> None:
-        raise AssertionError("it was begun")
-
-    for name in ("march", "march_balls"):
+    for name in ("march", "march_balls", "static_maps", "ball_positions"):
         monkeypatch.setattr(kernels, name, begun)
 
 
 @pytest.mark.usefixtures("_no_marching")
-def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
+def test_orbits_and_motions_of_too_many_steps_are_not_begun_and_say_what_it_would_cost() -> None:
     found = orbit(STIFF)
     assert found.status == OrbitStatus.TOO_MANY_STEPS
     assert found.cost.startswith(f"{thousands(725688)} steps a period")
@@ -57,9 +51,6 @@ def test_an_orbit_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -
     assert math.isnan(found.largest_multiplier)
     assert found.right_hand_side_calls == 0
 
-
-@pytest.mark.usefixtures("_no_marching")
-def test_a_motion_of_too_many_steps_is_not_begun_and_says_what_it_would_cost() -> None:
     motion = simulate(STIFF, 0.02, 4e7, ball_loads=True)
     assert not motion.completed
     assert motion.reason.startswith(f"too many steps: {thousands(6399992)} of 3.12 ns each")
@@ -92,12 +83,8 @@ def test_a_run_of_too_many_steps_in_all_is_not_begun_and_says_what_it_would_cost
     assert np.isnan(run.density[17, 5]).all()
     axis = np.linspace(100.0, 110.0, 1000)
     found = stability_map(STIFF, ("fz", axis), ("fy", axis), most_steps=10**8)
-    assert found.cost == (
-        f"too many steps: about {thousands(2 * 725688 * 1e6)} at 1000000 points, allowed are "
-        f"most_steps_in_all = {thousands(1e9)}"
-    )
+    assert f"{thousands(2 * 725688 * 1e6)} at 1000000 points" in found.cost
     assert found.count(OrbitStatus.TOO_MANY_STEPS) == 1_000_000
-    assert not found.completed
 
 
 def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> None:
@@ -119,38 +106,19 @@ def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> No
     assert not run.cost
     assert run.from_orbit.tolist() == [True, True, False]
     assert "too many steps" in str(run.refusals[2])
-    for ask in (lambda n: stability_map(rig, x, y, most_steps_in_all=n),
-                lambda n: speed_run(rig, speeds, most_steps_in_all=n)):  # fmt: skip
-        with pytest.raises(ValueError, match="most_steps_in_all"):
-            ask(0)
+    with pytest.raises(ValueError, match="most_steps_in_all"):
+        speed_run(rig, speeds, most_steps_in_all=0)
 
 
 @pytest.mark.parametrize(
-    ("what", "asked"),
-    [
-        ("duration", {"duration": 1e9}),
-        ("sample_rate", {"sample_rate": -1.0}),
-        ("resolution", {"resolution": 1e-6}),
-        ("resolution", {"resolution": math.nan}),
-    ],
+    ("what", "asked"), [("duration", 1e9), ("resolution", 1e-6), ("resolution", math.nan)]
 )
-def test_spectra_of_orbits_and_runs_hold_no_more_than_memory(
-    what: str, asked: dict[str, float]
-) -> None:
+def test_spectra_of_orbits_and_runs_hold_no_more_than_memory(what: str, asked: float) -> None:
     rig = presets["fan-rig"]
     with pytest.raises(ValueError, match=f"^{what} is"):
-        orbit(rig).spectrum(**asked)
+        orbit(rig).spectrum(**{what: asked})
     with pytest.raises(ValueError, match=f"^{what} is"):
-        speed_run(rig, [260.0], **asked)
-
-
-@pytest.mark.usefixtures("_no_marching")
-def test_a_sweep_says_so_too() -> None:
-    settings = Settings(duration=0.1, sample_rate=1e7)
-    grid = Grid.of(LESS_STIFF, {"fz": [100.0]}, ["acceleration_rms_x"], settings)
-    status, numbers = grid.compute()
-    assert STATUSES[int(status.ravel()[0])] == "too_many_steps"
-    assert np.isnan(numbers["acceleration_rms_x"]).all()
+        speed_run(rig, [260.0], **{what: asked})
 
 
 def test_the_bound_is_an_argument() -> None:
@@ -168,27 +136,7 @@ def test_the_bound_is_an_argument() -> None:
             simulate(rig, 0.01, most_steps=refused)  # type: ignore[arg-type]
 
 
-def test_a_motion_has_no_more_samples_than_memory_holds() -> None:
-    scene: Scene = presets["fan-rig"]
-    with pytest.raises(ValueError, match="duration"):
-        simulate(scene, 1e9)
-
-
-# Contacts: cage angles, times extents, times balls
-
-
-@pytest.fixture
-def _no_solving(monkeypatch: pytest.MonkeyPatch) -> None:
-    from bearingcore import kernels
-
-    def begun(*_: object) -> None:
-        raise AssertionError("it was begun")
-
-    for name in ("static_states", "static_maps", "ball_positions"):
-        monkeypatch.setattr(kernels, name, begun)
-
-
-@pytest.mark.usefixtures("_no_solving")
+@pytest.mark.usefixtures("_no_marching")
 def test_too_many_contacts_are_not_begun_and_say_what_they_would_cost() -> None:
     rig = presets["fan-rig"]
     many = np.zeros(10_000_000)
@@ -205,25 +153,14 @@ def test_too_many_contacts_are_not_begun_and_say_what_they_would_cost() -> None:
     places = ball_positions(rig.replace(balls="with mass"), many)
     assert places.reason(0) == places.cost == words
     assert np.isnan(places.load[1, 5]).all()
+    assert equilibrium(rig, [0.0], most_contacts=14).converged.all()
+    assert modes(rig, [0.0], most_contacts=13).cost
+    with pytest.raises(ValueError, match="most_contacts"):
+        equilibrium(rig, [0.0], most_contacts=0)
     maps = stiffness_maps(rig, np.linspace(0.0, 1.0, 5000), np.linspace(0.0, 0.4, 2000))
     assert maps.cost == maps.reason(3, 4) == words
     assert maps.stiffness.shape == (15, 5000, 2000)
     assert np.isnan(maps.mean_loaded_balls).all()
-
-
-def test_the_bound_of_contacts_is_an_argument() -> None:
-    rig = presets["fan-rig"]
-    angles = np.linspace(0.0, 0.4, 10)
-    assert equilibrium(rig, angles, most_contacts=140).converged.all()
-    assert "140, allowed are most_contacts = 139" in equilibrium(
-        rig, angles, most_contacts=139
-    ).reason(0)
-    assert stiffness_maps(rig, [0.1, 0.2], angles, most_contacts=280).converged.all()
-    assert stiffness_maps(rig, [0.1, 0.2], angles, most_contacts=279).cost
-    assert modes(rig, angles, most_contacts=139).cost
-    for refused in (0, -3, 2.5):
-        with pytest.raises(ValueError, match="most_contacts"):
-            equilibrium(rig, angles, most_contacts=refused)  # type: ignore[arg-type]
 
 
 # Sizes
@@ -233,10 +170,6 @@ def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_wou
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     signal = Recording(noisy(signal_of(RIG), 20.0), RATE)
-
-    def begun(*_: object) -> None:
-        raise AssertionError("it was begun")
-
     monkeypatch.setattr("bearingcore.diagnosis.size.sizing.guesses", begun)
     sized = size_defect(signal, RIG, fault="outer race", most_steps=100_000)
     assert sized.sentence.startswith("too many steps: about ")

@@ -8,7 +8,6 @@ from scipy.integrate import solve_ivp
 
 from bearingcore import Defect, Scene, contact_damping, equilibrium, presets, simulate
 from bearingcore.dynamics.motion import static_start
-from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.problem import motion_problem
 
 SAMPLE_RATE = 65536.0
@@ -81,18 +80,3 @@ def test_a_damaged_bearing_with_unbalance_as_another_integrator_has_it(preset: s
     without = simulate(scene.replace(unbalance=0.0), duration, SAMPLE_RATE)
     effect = np.abs(found.outer_displacement - without.outer_displacement)[:, :2].max()
     assert np.abs(found.outer_displacement[:, :2] - expected).max() < 0.02 * effect
-
-
-def test_no_motion_repeats_with_the_ball_pass_where_the_shaft_is_unbalanced() -> None:
-    rig = presets["fan-rig"]
-    assert common_ball_passes(rig) == 1
-    assert common_ball_passes(rig.replace(unbalance=1e-4)) != 1
-
-
-def test_files_without_an_unbalance_stay_as_they_were() -> None:
-    rig = presets["fan-rig"]
-    assert "unbalance" not in rig.to_toml()
-    with_it = rig.replace(unbalance=3e-4)
-    assert Scene.from_toml(with_it.to_toml()) == with_it
-    with pytest.raises(ValueError, match="unbalance is -1"):
-        rig.replace(unbalance=-1.0)

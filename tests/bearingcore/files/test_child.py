@@ -66,7 +66,6 @@ def attributes_under_many_names() -> bytes:
 @pytest.mark.parametrize(
     ("name", "content", "allowed"),
     [
-        ("a.mat", lambda: cell_of_many_dimensions(300_000), "a whole MATLAB file"),
         ("a.mat", lambda: cell_of_many_dimensions(6_000_000), "a whole MATLAB file"),
         ("a.mat", long_name_of_many_texts, f"{MEMORY}|{TIME}"),
         ("a.mat", million_empty_variables, f"{TIME}|vector or matrix"),
@@ -92,7 +91,6 @@ def test_hostile_files_end_in_a_sentence(name, content, allowed, monkeypatch, tm
         ("import os; os.abort()", "damaged"),
         ("while True: pass", "within"),
         ("print('[' * 10**8)", "damaged"),
-        ("print('{}'[:1])", "damaged"),
         ("print('{\"shape\": [9, 9]}')", "damaged"),
         ("print('{\"shape\": [1000000000, 9]}')", "damaged"),
     ],

@@ -1,8 +1,6 @@
 """Files with signals: what is read from good ones, and what is said about bad ones."""
 
-import contextlib
 import io
-import random
 
 import h5py
 import numpy as np
@@ -23,7 +21,6 @@ IN_A_PROCESS_OF_ITS_OWN = {
     "test_matlab_7_3_is_read_like_the_versions_before",
     "test_hdf5_names_no_other_files",
     "test_huge_files_are_refused_before_they_are_read",
-    "test_damaged_files_never_end_this_process",
 }
 
 
@@ -57,13 +54,9 @@ TABLE = np.column_stack([TIME, SIGNAL])
 @pytest.mark.parametrize(
     "content",
     [
-        text(TABLE),
         text(TABLE, heading="time,x,y\n"),
         text(TABLE, heading="# a remark\r\n\r\nRig 7, run 3\ntime [s],horizontal,vertical\n"),
         text(TABLE, delimiter=";", decimal=",", heading="Zeit;x;y\n"),
-        text(TABLE, delimiter="\t", heading="t\tx\ty\n"),
-        text(TABLE, delimiter="  "),
-        text(TABLE, delimiter=";").replace(b"\n", b";\n"),
         b"\xef\xbb\xbf" + text(TABLE, heading="time,x,y\n"),
         text(TABLE).decode().encode("utf-16"),
         text(TABLE, heading="Neigung 3\u00b0\nt,x,y\n").decode().encode("latin-1"),
@@ -77,15 +70,6 @@ def test_text_in_many_habits_gives_the_same_recording(content):
     got = table.recording([1, 2], ["x", "y"], "m/s²")
     assert got.sample_rate == pytest.approx(RATE, rel=1e-5)
     np.testing.assert_allclose(got.acceleration, SIGNAL, rtol=1e-7, atol=1e-9)
-
-
-def test_headings_name_the_columns_and_g_is_standard_gravity():
-    table = read_table("rig.csv", text(TABLE, heading="time,horizontal,vertical\n"))
-    assert table.names == ("time", "horizontal", "vertical")
-    got = table.recording(["vertical"], ["y"], "g", full_scale=2.0)
-    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 1] * 2.0 * 9.80665, rtol=1e-7)
-    assert got.directions == ("y",)
-    assert got.duration == pytest.approx(N / RATE, rel=1e-5)
 
 
 def test_a_file_without_a_rate_asks_for_it():
@@ -105,14 +89,6 @@ def test_rows_after_dropped_samples_are_not_joined_to_those_before():
     np.testing.assert_allclose(got.acceleration, SIGNAL[1010:], rtol=1e-7, atol=1e-9)
     assert "10 samples are missing" in got.notes[0]
     assert "rows 1001 to 2990" in got.notes[0]
-
-
-def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():
-    time = np.arange(24_000) / 12_000.0
-    time[15_001:] += 0.5
-    lines = "".join(f"{t:.6f},{np.sin(400.0 * t):.4f}\n" for t in time)
-    table = read_table("gap.csv", ("t [s],ay [m/s²]\n" + lines).encode())
-    assert "6\u202f000 samples are missing" in table.contents.sampling.trouble
 
 
 def test_gaps_matter_only_in_the_columns_taken():
@@ -252,22 +228,15 @@ def test_hdf5_names_no_other_files(tmp_path):
     ("name", "content", "told"),
     [
         ("a.csv", b"", "allowed: one that is not empty"),
-        ("a.csv", b"\n\n# nothing\n", "lines of numbers"),
         ("a.csv", b"words\n" * 5000, "a table of numbers"),
-        ("a.csv", text(TABLE) + b"\nseventeen,2,3\n", "line 3001 of a.csv"),
         ("a.csv", text(TABLE[:20]), "number of rows in a.csv is 20"),
-        ("a.csv", b",".join([b"1"] * 100) + b"\n" + text(TABLE), "columns"),
         ("a.png", b"\x89PNG\r\n\x1a\n\x00\x00" + bytes(1000), "text with numbers"),
         ("a.wav", b"RIFF\x00\x00\x00\x00WAVE", "a whole WAV file"),
-        ("a.wav", wav(SIGNAL.astype(np.float32))[:30], "a whole WAV file"),
         ("a.mat", b"MATLAB 5.0 MAT-file", "MATLAB file"),
         ("a.mat", b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(600), "MATLAB file"),
         ("a.mat", b"\x89HDF\r\n\x1a\n".ljust(600), "damaged or unknown part"),
         ("a.mat", hdf5(matlab_7_3)[:9000], "damaged or unknown part"),
         ("a.mat", matlab({"s": nested(12)}), "structs inside one another"),
-        ("a.mat", b"random text that is no such file".ljust(600), "MATLAB file"),
-        ("a.mat", matlab({"words": "only"}), "vector or matrix"),
-        ("a.mat", matlab({"a": SIGNAL[:10]}), "number of rows in a.mat is 10"),
         ("a.mat", matlab({"a": SIGNAL * 1j}), "vector or matrix"),
         ("a.mat", matlab({"a": np.zeros((500, 400))}), "number of columns in a.mat is 400"),
     ],
@@ -293,7 +262,6 @@ def test_huge_files_are_refused_before_they_are_read(monkeypatch):
         (["z"], ["y"], "g", "column is 'z'"),
         ([True, 1], ["x"], "g", "columns"),
         ([1, 1], ["x", "y"], "g", "different ones, one a direction"),
-        ([1], ["y"], "furlongs", "unit is 'furlongs'"),
         ([1], ["y"], None, "unit is None; allowed: one of m/s², g"),
         ([1], ["y"], "mV", "sensitivity is nan"),
     ],
@@ -304,30 +272,9 @@ def test_tables_refuse_what_they_do_not_have(columns, directions, unit, told):
         table.recording(columns, directions, unit)
 
 
-WHOLE = {
-    "a.csv": text(TABLE[:400], heading="time,x,y\n"),
-    "a.wav": wav((SIGNAL[:400] * 1000).astype(np.int16)),
-    "a.mat": matlab({"a": SIGNAL[:400], "fs": RATE}, do_compression=True),
-    "b.mat": matlab({"a": SIGNAL[:400], "fs": RATE}),
-    "c.mat": matlab({"s": {"a": SIGNAL[:400], "r": {"n": 7.0, "w": "x"}}}),
-    "d.mat": hdf5(matlab_7_3),
-}
-
-
-def damaged(name: str, seed: int) -> bytes:
-    draw = random.Random(seed)
-    content = bytearray(WHOLE[name])
-    for _ in range(draw.randint(1, 12)):
-        reach = min(len(content), draw.choice([64, 400, 10**6]))
-        content[draw.randrange(reach)] = draw.randrange(256)
-    if draw.random() < 0.3:
-        del content[draw.randrange(len(content)) :]
-    return bytes(content)
-
-
-@pytest.mark.parametrize("name", sorted(WHOLE))
-def test_damaged_files_never_end_this_process(name):
-    for seed in range(2):
-        with contextlib.suppress(ValueError):
-            found = read_table(name, damaged(name, seed))
-            assert found.columns.shape[1] == len(found.names)
+def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():
+    time = np.arange(24_000) / 12_000.0
+    time[15_001:] += 0.5
+    lines = "".join(f"{t:.6f},{np.sin(400.0 * t):.4f}\n" for t in time)
+    table = read_table("gap.csv", ("t [s],ay [m/s²]\n" + lines).encode())
+    assert "6\u202f000 samples are missing" in table.contents.sampling.trouble

@@ -18,10 +18,6 @@ def test_times_rounded_to_less_than_a_step_tell_the_rate(decimals: int) -> None:
     assert not found.trouble
 
 
-def test_a_clock_that_is_off_is_believed() -> None:
-    assert sampling_of(TIME * 1.001).sample_rate == pytest.approx(RATE / 1.001, rel=1e-9)
-
-
 @pytest.mark.parametrize("decimals", [4, 3])
 def test_times_rounded_to_more_than_a_step_propose_a_rate(decimals: int) -> None:
     found = sampling_of(np.round(TIME, decimals))
@@ -78,6 +74,10 @@ def test_what_is_no_time_gives_no_rate(time) -> None:
     found = sampling_of(time)
     assert found.sample_rate is None
     assert found.trouble
+
+
+def test_a_clock_that_is_off_is_believed() -> None:
+    assert sampling_of(TIME * 1.001).sample_rate == pytest.approx(RATE / 1.001, rel=1e-9)
 
 
 def test_signals_are_no_clock() -> None:

@@ -16,10 +16,8 @@ def read(text: str | bytes):
     ("text", "columns"),
     [
         ("1,2\n3,4", [[1, 2], [3, 4]]),
-        ("1;2,5\n3;4", [[1, 2.5], [3, 4]]),
         ("0;1\n0,1;2", [[0, 1], [0.1, 2]]),
         ("1\t2\n3\t4\r\n", [[1, 2], [3, 4]]),
-        ("1 2\n 3   4 ", [[1, 2], [3, 4]]),
         ("1,5 2,5\n3,0 4,0", [[1.5, 2.5], [3, 4]]),
         ("0,051\n-0,5\n1,25", [[0.051], [-0.5], [1.25]]),
         ("Weg [mm]\n1,5\n1,7\n1,9", [[1.5], [1.7], [1.9]]),
@@ -42,7 +40,6 @@ def test_habits(text, columns) -> None:
         ("time [s]  acc x\n1 2", ("time [s]", "acc x")),
         ("Time,Acc X\ns,m/s^2\n1,2", ("Time [s]", "Acc X [m/s^2]")),
         ("remarks of many words, you see, here\n1,2", None),
-        ("1,2\n3,4", None),
         ("x,x\n1,2", None),
     ],
 )
@@ -74,8 +71,6 @@ def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
         ("a,b\n1,2\n3", "line 3 of t is '3'; allowed: 2 columns"),
         ("1_000", "start of t"),
         ("2024-99-01T12:00:00,1\n", "start of t"),
-        ("", "lines of numbers"),
-        (b"\x00\x01\x02", "text with numbers"),
         ("," * 30 + "1", "number of columns in t is 31"),
         ("1 " * 40_000, "number of columns in t"),
         ("\n" * 500_001, "lines of numbers"),

@@ -1,18 +1,38 @@
-"""Two of the paper's formulas that load balls which hang free, and that the program mends."""
+"""Ways to go wrong with this model that one thinks of first, and that the program avoids.
+
+Two more: steps that are too long (`bearingcore/dynamics/test_step_size.py`), and shooting that ends
+on an orbit which no motion follows (`bearingcore/dynamics/test_orbit.py`).
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.optimize import root
 
-from bearingcore import Motion, equilibrium, presets, simulate
+from bearingcore import Motion, Scene, equilibrium, presets, simulate
+from bearingcore.statics.ball_positions import ball_positions
 from tests.helpers.contact_law import Array, Balls, newton
-from tests.helpers.recordings import contacts
+from tests.helpers.recordings import contacts, marched_elsewhere
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 RATE = 65536.0
+
+
+def fair_guess(balls: Balls) -> NDArray[np.float64]:
+    """First guess q (5,) [m]: through the clearance, as far as several balls yield."""
+    bearing, load = balls.scene.bearing, balls.load.astype(float)
+    size = np.linalg.norm(load)
+    pressed = 5.0 * (size / bearing.load_deflection_factor) ** (2.0 / 3.0)
+    gap = bearing.radial_clearance / math.cos(bearing.contact_angle)
+    return np.asarray((gap + pressed) * load / size)
+
+
+# --- statics --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -39,6 +59,107 @@ def test_the_printed_distance_loads_balls_that_hang_free(depth_um: float, wrong:
     assert greatest == pytest.approx(wrong, rel=1e-5)
     assert np.all(right.ball_load[in_defect] == 0.0)
     assert right.ball_load.max() == pytest.approx(1388.96, rel=1e-6)
+
+
+@pytest.mark.parametrize("scene", [LIEW_LIM.healthy(), FAN_RIG.healthy()])
+def test_newton_from_zero_finds_a_singular_matrix(scene: Scene) -> None:
+    """With clearance nothing touches at q = 0: there is no stiffness to divide by."""
+    for angle in (0.0, 0.1, 0.2):
+        assert newton(Balls(scene, angle), np.zeros(5)).failure == "singular matrix"
+    assert equilibrium(scene, [0.0, 0.1, 0.2]).converged.all()
+
+
+def test_newton_without_a_line_search_fails_now_and_then() -> None:
+    """From a fair first guess full steps circle, or meet a singular matrix, in some scenes."""
+    rng = np.random.default_rng(2014)
+    failures = 0
+    for _ in range(200):
+        radial = 10.0 ** rng.uniform(1.0, 4.0)
+        scene = LIEW_LIM.replace(
+            n_balls=int(rng.integers(7, 17)),
+            contact_angle=rng.uniform(0.0, math.radians(40.0)),
+            groove_center_distance=rng.uniform(50e-6, 300e-6),
+            radial_clearance=rng.uniform(0.0, 20e-6),
+            load_deflection_factor=10.0 ** rng.uniform(9.0, 10.5),
+            extent=rng.uniform(0.0, math.radians(120.0)),
+            depth=rng.uniform(0.0, 100e-6),
+            fy=-radial,
+            fz=radial * rng.uniform(0.1, 0.6),
+        )
+        balls = Balls(scene, rng.uniform(0.0, scene.bearing.ball_spacing))
+        failures += bool(newton(balls, fair_guess(balls), steps=50).failure)
+        found = equilibrium(scene, [balls.cage_angle])
+        assert found.converged[0]
+        assert found.residual[0] <= 1e-9
+    assert 2 <= failures <= 50
+
+
+@dataclass(frozen=True)
+class GapsPull(Balls):
+    """Balls whose gaps pull as compressions push, Q = K sign(δ) |δ|^1.5: easy for Newton."""
+
+    def ball_load(self, q: Array) -> Array:
+        """Q (N_b,) [N]."""
+        delta = self.compression(q)
+        K = self.scene.bearing.load_deflection_factor
+        return np.asarray(K * np.sign(delta) * np.abs(delta) ** 1.5)
+
+
+def test_gaps_that_pull_converge_to_a_wrong_answer() -> None:
+    """A solver is content, and balls across the bearing pull the ring."""
+    scene = LIEW_LIM.healthy().replace(radial_clearance=20e-6)
+    pulling, balls = GapsPull(scene, 0.1), Balls(scene, 0.1)
+    load = balls.load.astype(float)
+    answer = root(lambda q: (pulling.contact_force(q) - load).astype(float), fair_guess(balls))
+    assert answer.success
+    assert pulling.ball_load(answer.x).min() < -100.0
+    right = equilibrium(scene, [0.1])
+    assert right.converged[0]
+    assert right.ball_load.min() == 0.0
+    # what really touches there does not carry the load by far
+    assert balls.unbalanced(answer.x, [0, 1, 2, 3, 4]) > 0.2 * np.linalg.norm(load)
+
+
+def test_a_ball_is_stuck_between_its_contacts() -> None:
+    """A loaded ball put where its outer contact carries what the inner one presses with, again and
+    again, hops from contact to contact for ever where the inner contact is the stiffer one.
+    """
+    scene = presets["6205"].healthy()
+    inner, outer = scene.bearing.race_factors
+    assert inner > outer
+    force = scene.bearing.centrifugal_load(15_000 * math.pi / 30.0)
+    found = ball_positions(scene, [0.0], centrifugal_load=force)
+    assert found.converged[0]
+    Q_i, Q_e = found.load[:, 0, int(np.argmax(found.load[0, 0]))]
+    assert Q_e - Q_i == pytest.approx(force, rel=1e-9)
+    place = (Q_e / outer) ** (2.0 / 3.0)
+    both = place + (Q_i / inner) ** (2.0 / 3.0)
+    visited = [place * (1.0 + 1e-6)]
+    for _ in range(2000):
+        pressed = inner * max(both - visited[-1], 0.0) ** 1.5
+        visited.append(((pressed + force) / outer) ** (2.0 / 3.0))
+    assert abs(visited[-1] - visited[-2]) > 0.5 * both
+    assert abs(visited[-1] - visited[-3]) < 1e-9 * both
+
+
+# --- motion ---------------------------------------------------------------------------------------
+
+
+def by_scipy(duration: float, rtol: float, atol: float) -> Array:
+    """Acceleration of the fan rig's housing (n, 2) [m/s²] over a duration [s], by RK45."""
+    start = equilibrium(FAN_RIG, [0.0]).displacement[0, :2]
+    housing = FAN_RIG.load.vector[:2] / FAN_RIG.support.stiffness("xy")
+    state = np.concatenate([housing + start, housing, np.zeros(4)])
+    time = np.arange(round(duration * RATE)) / RATE
+    return marched_elsewhere(FAN_RIG, time, state, "RK45", rtol=rtol, atol=atol)
+
+
+def test_default_tolerances_are_the_size_of_the_signal() -> None:
+    """An absolute tolerance of 1e-6 m lets through errors of a fifth of all that moves."""
+    found = simulate(FAN_RIG, 0.05, RATE, step_rate=RATE).outer_acceleration
+    right, wrong = (by_scipy(0.05, *limits) for limits in ((1e-6, 1e-12), (1e-3, 1e-6)))
+    assert (right - found).std() < 0.02 * found.std()
+    assert (wrong - found).std() > 0.15 * found.std()
 
 
 def pushes(motion: Motion) -> tuple[Array, Array]:

@@ -69,32 +69,23 @@ COUNTS = """() => {
 }"""
 
 
-def first_screen(page: Page, server: Server) -> dict[str, Any]:
-    """What is seen of the page on a first visit."""
+def test_the_first_screen_is_seen_at_a_glance_and_a_figure_is_near_its_top(
+    page: Page, explorer: Server
+) -> None:
+    page.set_viewport_size({"width": 1440, "height": 900})
     page.add_init_script(SEEN)
-    page.goto(server.url)
+    page.goto(explorer.url)
     page.evaluate("localStorage.clear()")
     page.reload()
     page.wait_for_function("window.__frames >= 1")
     rest(page)
     found: dict[str, Any] = page.evaluate(COUNTS)
-    return found
-
-
-def test_the_first_screen_is_seen_at_a_glance(page: Page, explorer: Server) -> None:
-    page.set_viewport_size({"width": 1440, "height": 900})
-    found = first_screen(page, explorer)
     assert len(found["controls"]) <= 45, found["controls"]
     assert len(found["words"]) <= 150, found["words"]
     sizes = sorted(float(size) for size in found["sizes"])
     assert len(sizes) <= 4, found["sizes"]
     assert sizes[0] >= 11.0, found["sizes"]
     expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
-
-
-def test_a_figure_is_near_the_top_where_there_is_less_room(page: Page, explorer: Server) -> None:
-    page.set_viewport_size({"width": 768, "height": 900})
-    first_screen(page, explorer)
     expect(page.get_by_role("region", name="Introduction")).to_be_visible()
     for width in (768, 1199):
         page.set_viewport_size({"width": width, "height": 900})
@@ -172,11 +163,6 @@ def test_the_bearing_turns_until_the_first_touch(page: Page, explorer: Server) -
     settle(page)
     expect(undo).to_be_disabled()
     assert value(page, "cage_angle_deg") == turned
-    # a link with a scene shows that scene
-    page.goto(f"{explorer.url}?v=1&preset=fan-rig&cage_angle_deg=3&tab=overview")
-    page.wait_for_function("window.__frames >= 1")
-    rest(page)
-    assert value(page, "cage_angle_deg") == 3.0
 
 
 # --- controls that are folded ---------------------------------------------------------------------

@@ -11,8 +11,6 @@ from tests.browser.helpers import PAGES, Server, page_server, serving
 CHILDREN = ("first", "second", "third")
 _SHOWN = """all => all.map(one =>
   [...one.classList].find(word => /^(first|second|third)-/.test(word)))"""
-_KNOWN = """number => Bokeh.documents[0]?.roots().flatMap((root) => [...root.references()])
-  .filter((model) => model.type === "Spacer").length === number"""
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +19,7 @@ def in_messages_page() -> Iterator[Server]:
         yield server
 
 
-def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
+def test_children_and_numbers_that_come_in_messages_of_their_own_all_arrive(
     page: Page, in_messages_page: Server
 ) -> None:
     page.goto(f"{in_messages_page.url}?boxes=2")
@@ -31,20 +29,5 @@ def test_children_that_come_in_messages_of_their_own_are_all_shown_once(
     wanted = [f"{name}-{number}" for number in range(2) for name in CHILDREN]
     assert children.evaluate_all(_SHOWN) == wanted
     assert page.evaluate("[window.in_order.missing, window.in_order.waiting]") == [[], 0]
-
-
-def test_callbacks_find_each_of_the_numbers_that_came_meanwhile(
-    page: Page, in_messages_page: Server
-) -> None:
-    page.goto(f"{in_messages_page.url}?boxes=2")
     page.wait_for_function("window.heard?.length === 3")
     assert page.evaluate("window.heard") == [3, 1, 4]
-
-
-def test_bokeh_alone_loses_what_comes_while_it_builds(page: Page, in_messages_page: Server) -> None:
-    """Where this fails, Bokeh hears of it, and the script can go."""
-    page.goto(f"{in_messages_page.url}?plain=1")
-    page.wait_for_function(_KNOWN, arg=len(CHILDREN))
-    expect(page.locator(".first-0")).to_be_visible()
-    painted(page)
-    assert page.locator(".child").evaluate_all(_SHOWN) == ["first-0"]

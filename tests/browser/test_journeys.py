@@ -19,7 +19,7 @@ from playwright.sync_api import BrowserContext, Page, expect
 from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
-from tests.browser.helpers import ROOT, Server, Watch
+from tests.browser.helpers import ROOT, Server, Watch, drag
 from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
 
@@ -31,6 +31,26 @@ _NOTHING = re.compile("could not be computed|Traceback|undefined|\\bNaN\\b")
 @pytest.fixture
 def visitor(page: Page, explorer: Server) -> Visitor:
     return Visitor(page, explorer)
+
+
+@pytest.fixture(scope="module")
+def _desk(browser: BrowserContext, explorer: Server) -> Iterator[Visitor]:
+    page, watching = browser.new_page(), Watch()
+    watching.follow(page)
+    visitor = Visitor(page, explorer)
+    visitor.open(FAN_RIG + "load")
+    yield visitor
+    page.close()
+    watching.assert_clean()
+
+
+@pytest.fixture
+def desk(_desk: Visitor, request: pytest.FixtureRequest) -> Iterator[Visitor]:
+    """One page for journeys that begin with the fan rig: to load it is most of the work."""
+    failed = request.session.testsfailed
+    yield _desk
+    if request.session.testsfailed > failed:
+        _desk.open(FAN_RIG + "load")
 
 
 # --- every tab ------------------------------------------------------------------------------------
@@ -82,6 +102,8 @@ TABS = {
     "Accuracy": (2, 10, None, None),
     "Paper": (1, 3, None, None),
 }
+IN_DARK = list(TABS)[6:]
+"""Tabs that are looked at in dark colours; `test_theme.py` has every colour in both."""
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +128,10 @@ def test_the_tabs_are_those_that_there_have_been(walk: tuple[Visitor, Watch]) ->
 def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch], tab: str) -> None:
     visitor, watching = walk
     cards, figures, known, moved = TABS[tab]
+    visitor.page.bring_to_front()
+    theme = "dark" if tab in IN_DARK else "light"
+    if visitor.page.locator("html").get_attribute("data-theme") != theme:
+        visitor.press("Dark colours")
     visitor.go_to(tab)
     headings = visitor.main.get_by_role("heading", level=2)
     visitor.wait(lambda: headings.count() >= cards and len(visitor.figures()) >= figures)
@@ -118,54 +144,44 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
         visitor.sees_change(lambda: visitor.slider(moved).press("PageUp"))
         visitor.press("Reset", visitor.scene)
         expect(visitor.box("Extent")).to_have_value("12.9")
-        visitor.steady()
-    hold_to_rules(visitor.page, "html" if tab == "Overview" else "main")
+    hold_to_rules(visitor.page, theme, "html" if tab == "Overview" else "main")
     watching.assert_clean()
 
 
 # --- the scene ------------------------------------------------------------------------------------
 
 
-def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "load")
-    undo, redo = (visitor.scene.get_by_role("button", name=name) for name in ("Undo", "Redo"))
-    expect(undo).to_be_disabled()
-    track = visitor.slider("Extent").bounding_box()
-    assert track is not None
-    y = track["y"] + track["height"] / 2
-    visitor.page.mouse.move(track["x"] + 0.12 * track["width"], y)
-    visitor.page.mouse.down()
-    visitor.page.mouse.move(track["x"] + 0.5 * track["width"], y, steps=10)
-    visitor.page.mouse.up()
-    visitor.steady()
-    dragged = visitor.number("Extent")
+def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(desk: Visitor) -> None:
+    desk.begin("Load")
+    drag(desk.page, desk.slider("Extent"), 0.12, 0.5)
+    desk.steady()
+    dragged = desk.number("Extent")
     assert dragged > 40
     scene = FAN.replace(extent=math.radians(dragged))
-    visitor.reads(re.compile(re.escape(_most_loaded(scene))))
-    visitor.type("Depth", "20")
-    visitor.press("Undo")
-    expect(visitor.box("Depth")).to_have_value("50")
-    visitor.page.keyboard.press("Control+z")
-    expect(visitor.box("Extent")).to_have_value("12.9")
-    visitor.reads(re.compile(re.escape(_most_loaded(FAN))))
-    expect(undo).to_be_disabled()
-    redo.click()
-    expect(visitor.box("Extent")).to_have_value(f"{dragged:g}")
+    desk.reads(re.compile(re.escape(_most_loaded(scene))))
+    desk.type("Depth", "20")
+    desk.press("Undo")
+    expect(desk.box("Depth")).to_have_value("50")
+    desk.page.keyboard.press("Control+z")
+    expect(desk.box("Extent")).to_have_value("12.9")
+    desk.reads(re.compile(re.escape(_most_loaded(FAN))))
+    desk.press("Redo")
+    expect(desk.box("Extent")).to_have_value(f"{dragged:g}")
 
 
-def test_what_cannot_be_is_refused_and_what_is_drawn_stays(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "load")
-    before = visitor.figures()
+def test_what_cannot_be_is_refused_and_what_is_drawn_stays(desk: Visitor) -> None:
+    desk.begin("Load")
+    before = desk.figures()
     for text in ("400", "a lot"):
-        visitor.type("Extent", text)
-        visitor.reads(re.compile("from 0 to 360"), visitor.scene)
-        visitor.box("Extent").press("Escape")
-    visitor.steady()
-    assert visitor.figures() == before
-    visitor.type("Force, up", "0")  # nothing presses the balls
-    visitor.reads("No answer", visitor.page.get_by_role("contentinfo"))
-    visitor.type("Extent", "33,25")
-    expect(visitor.box("Extent")).to_have_value("33.25")
+        desk.type("Extent", text)
+        desk.reads(re.compile("from 0 to 360"), desk.scene)
+        desk.box("Extent").press("Escape")
+    desk.steady()
+    assert desk.figures() == before
+    desk.type("Force, up", "0")  # nothing presses the balls
+    desk.reads("No answer", desk.page.get_by_role("contentinfo"))
+    desk.type("Extent", "33,25")
+    expect(desk.box("Extent")).to_have_value("33.25")
 
 
 def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
@@ -173,14 +189,21 @@ def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "load")
     visitor.sees_change(lambda: visitor.find_bearing("NU 208, cylindrical rollers"))
     visitor.reads(re.compile(re.escape(_most_loaded(presets["nu208"]))))
-    for tab in ("Life", "Stiffness", "Ball mass", "Bearing", "Model", "Accuracy"):
+    for tab in ("Life", "Stiffness", "Ball mass", "Bearing", "Model"):
         visitor.go_to(tab)
         assert "blank" not in visitor.figures(), tab
         assert not _NOTHING.search(" ".join(visitor.sentences())), tab
 
 
-def test_dimensions_wait_until_they_fit_each_other(visitor: Visitor) -> None:
+def test_dimensions_wait_for_each_other_and_a_crossed_limit_is_said(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=6205&tab=bearing")
+    limits = visitor.page.get_by_role("region", name="Limits of the model")
+    visitor.type("Force, up", "-20000")
+    visitor.reads(re.compile("GPa"), limits)
+    limits.get_by_role("button").first.click()
+    expect(limits.get_by_role("row").nth(7)).to_be_visible()
+    visitor.page.keyboard.press("Escape")
+    expect(limits.get_by_role("row").first).to_be_hidden()
     visitor.type("Ball diameter", "17.462")
     visitor.reads(re.compile("overlap"))
     visitor.reads(re.compile("Not applied yet"))
@@ -192,17 +215,6 @@ def test_dimensions_wait_until_they_fit_each_other(visitor: Visitor) -> None:
     visitor.page.keyboard.press("Enter")
     chosen = visitor.page.get_by_role("combobox", name="Bearing", exact=True)
     expect(chosen).to_have_value("Pump 3")
-
-
-def test_a_crossed_limit_of_the_model_is_said(visitor: Visitor) -> None:
-    visitor.open("?v=1&preset=6205&tab=load")
-    limits = visitor.page.get_by_role("region", name="Limits of the model")
-    visitor.type("Force, up", "-20000")
-    visitor.reads(re.compile("GPa"), limits)
-    limits.get_by_role("button").first.click()
-    expect(limits.get_by_role("row").nth(7)).to_be_visible()
-    visitor.page.keyboard.press("Escape")
-    expect(limits.get_by_role("row").first).to_be_hidden()
 
 
 def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
@@ -245,44 +257,45 @@ def test_a_map_is_read_and_clicked(visitor: Visitor) -> None:
     assert 0.99 * np.min(near) <= value <= 1.01 * np.max(near)
 
 
-def test_defects_are_added_chosen_and_removed(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "load")
-    before = visitor.figures()
-    visitor.press("Add a defect")
-    visitor.wait(lambda: visitor.figures() != before)
-    expect(visitor.box("Centre")).to_have_value("90")
-    visitor.choose("Floor", "Rough")
-    expect(visitor.box("Roughness, RMS")).to_be_visible()
-    visitor.press(re.compile("^Defect 1"))
-    expect(visitor.box("Centre")).to_have_value("270")
-    visitor.press("Remove defect 1")
-    expect(visitor.box("Centre")).to_have_value("90")
-    expect(visitor.scene.get_by_role("button", name="Remove defect 1")).to_be_disabled()
+def test_defects_are_added_chosen_and_removed(desk: Visitor) -> None:
+    desk.begin("Load")
+    before = desk.figures()
+    desk.press("Add a defect")
+    desk.wait(lambda: desk.figures() != before)
+    expect(desk.box("Centre")).to_have_value("90")
+    desk.choose("Floor", "Rough")
+    expect(desk.box("Roughness, RMS")).to_be_visible()
+    desk.press(re.compile("^Defect 1"))
+    expect(desk.box("Centre")).to_have_value("270")
+    desk.press("Remove defect 1")
+    expect(desk.box("Centre")).to_have_value("90")
+    expect(desk.scene.get_by_role("button", name="Remove defect 1")).to_be_disabled()
 
 
-def test_the_bearing_turns_and_stops(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "load")
-    visitor.press("Turn the bearing")
-    visitor.wait(lambda: visitor.number("Cage angle") > 5)
-    visitor.press("Stop turning")
-    visitor.steady()
-    stopped = visitor.number("Cage angle")
+def test_the_bearing_turns_and_stops(desk: Visitor) -> None:
+    desk.begin("Load")
+    desk.type("Cage angle", "0")
+    desk.press("Turn the bearing")
+    desk.wait(lambda: desk.number("Cage angle") > 5)
+    desk.press("Stop turning")
+    desk.steady()
+    stopped = desk.number("Cage angle")
     found = equilibrium(FAN, [math.radians(stopped)])
-    visitor.reads(re.compile(rf"\b{found.loaded_balls[0]} of 14 balls"))
+    desk.reads(re.compile(rf"\b{found.loaded_balls[0]} of 14 balls"))
 
 
 # --- what is special to a tab ---------------------------------------------------------------------
 
 
-def test_life_is_computed_from_what_is_known_of_oil_and_rating(visitor: Visitor) -> None:
-    visitor.open("?v=1&preset=6205&tab=life")
-    visitor.reads(re.compile("GPa"))
-    visitor.main.get_by_label("Dynamic load rating of the catalogue").fill("14")
-    visitor.page.keyboard.press("Enter")
-    visitor.reads(re.compile("14 kN"))
-    visitor.main.get_by_label("Viscosity of the oil").fill("much")
-    visitor.page.keyboard.press("Enter")
-    visitor.reads("must be a number, not “much”")
+def test_life_is_computed_from_what_is_known_of_oil_and_rating(desk: Visitor) -> None:
+    desk.begin("Life")
+    desk.reads(re.compile("GPa"))
+    desk.main.get_by_label("Dynamic load rating of the catalogue").fill("14")
+    desk.page.keyboard.press("Enter")
+    desk.reads(re.compile("14 kN"))
+    desk.main.get_by_label("Viscosity of the oil").fill("much")
+    desk.page.keyboard.press("Enter")
+    desk.reads("must be a number, not “much”")
 
 
 def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor) -> None:
@@ -311,29 +324,29 @@ def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor) -> None:
     assert len(table.decode().strip().splitlines()) >= 63
 
 
-def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "vibration")
+def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(desk: Visitor) -> None:
+    desk.begin("Vibration")
     for act in (
-        lambda: visitor.main.get_by_role("checkbox").first.check(),
-        lambda: visitor.main.get_by_label("Frequency", exact=True).select_option(index=1),
+        lambda: desk.main.get_by_role("checkbox").first.check(),
+        lambda: desk.main.get_by_label("Frequency", exact=True).select_option(index=1),
     ):
-        before = visitor.figures()
+        before = desk.figures()
         act()
-        visitor.wait(lambda before=before: visitor.figures() != before)  # type: ignore[misc]
-        visitor.steady()
-    visitor.choose("Balls", "With mass")
-    visitor.steady()
-    visitor.press("Undo")
-    expect(visitor.page.get_by_label("Balls", exact=True)).to_have_value("massless")
+        desk.wait(lambda before=before: desk.figures() != before)  # type: ignore[misc]
+        desk.steady()
+    desk.choose("Balls", "With mass")
+    desk.steady()
+    desk.press("Undo")
+    expect(desk.page.get_by_label("Balls", exact=True)).to_have_value("massless")
 
 
-def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "ball-mass")
-    visitor.reads(re.compile("strikes the outer race after"))
-    sentence = " ".join(visitor.sentences())
+def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
+    desk.begin("Ball mass")
+    desk.reads(re.compile("strikes the outer race after"))
+    sentence = " ".join(desk.sentences())
     strikes = re.findall(r"the (inner|outer) race after ([\d.]+) ms with ([\d.]+) N", sentence)
     assert {race for race, *_ in strikes} >= {"outer"}
-    _, text = visitor.download(lambda: visitor.export("CSV"))
+    _, text = desk.download(lambda: desk.export("CSV"))
     table = np.genfromtxt(io.StringIO(text.decode()), delimiter=",", names=True)
     for race, after, load in strikes:
         apart = table["time_s"] - 1e-3 * float(after)
@@ -344,37 +357,37 @@ def test_a_ball_strikes_where_the_numbers_say(visitor: Visitor) -> None:
         assert max(table[name][strike].max() for name in flying) > 0.9 * float(load)
 
 
-def test_orbits_are_mapped_and_a_long_map_is_cancelled(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "orbits")
-    visitor.reads(re.compile("Stable orbit"))
-    visitor.type("Shaft speed", "30")
-    visitor.reads(re.compile("Unstable"))
-    visitor.press("Undo")
-    visitor.choose("Points", "13 × 13")
-    visitor.press("Compute the map")
-    visitor.reads(re.compile("13 × 13 points after"))
-    visitor.steady()
-    assert len(visitor.figures()) >= 2
-    visitor.choose("Points", "97 × 97")
-    visitor.press("Compute the map")
-    cancel = visitor.main.get_by_role("button", name="Cancel")
-    expect(visitor.main.get_by_role("progressbar")).to_be_visible()
+def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
+    desk.begin("Orbits")
+    desk.reads(re.compile("Stable orbit"))
+    desk.type("Shaft speed", "30")
+    desk.reads(re.compile("Unstable"))
+    desk.press("Undo")
+    desk.choose("Points", "13 × 13")
+    desk.press("Compute the map")
+    desk.reads(re.compile("13 × 13 points after"))
+    desk.steady()
+    assert len(desk.figures()) >= 2
+    desk.choose("Points", "97 × 97")
+    desk.press("Compute the map")
+    cancel = desk.main.get_by_role("button", name="Cancel")
+    expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
-    visitor.reads(re.compile("Cancelled"))
+    desk.reads(re.compile("Cancelled"))
     expect(cancel).to_be_disabled()
 
 
-def test_a_run_up_is_drawn(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "speed-run")
-    visitor.choose("Speeds", "25")
-    visitor.press("Run up")
-    visitor.reads(re.compile("25 speeds after"))
-    visitor.steady()
-    before = visitor.figures()
+def test_a_run_up_is_drawn(desk: Visitor) -> None:
+    desk.begin("Speed run")
+    desk.choose("Speeds", "25")
+    desk.press("Run up")
+    desk.reads(re.compile("25 speeds after"))
+    desk.steady()
+    before = desk.figures()
     assert before
     assert "blank" not in before
-    visitor.press("Along x")
-    visitor.wait(lambda: visitor.figures() != before)
+    desk.press("Along x")
+    desk.wait(lambda: desk.figures() != before)
 
 
 def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visitor) -> None:
@@ -398,20 +411,20 @@ def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visi
     assert visitor.main.get_by_role("img").first.is_visible()
 
 
-def test_rotor_support_and_directions_are_changed(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "model")
-    visitor.type("Mass of the rotor", "4")
-    visitor.reads(re.compile("rotor of 4 kg"))
-    visitor.choose("Contact law", "Without tension")
-    tilt = visitor.main.get_by_role("checkbox", name=re.compile("^z"))
+def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
+    desk.begin("Model")
+    desk.type("Mass of the rotor", "4")
+    desk.reads(re.compile("rotor of 4 kg"))
+    desk.choose("Contact law", "Without tension")
+    tilt = desk.main.get_by_role("checkbox", name=re.compile("^z"))
     tilt.click()
     expect(tilt).to_be_checked()
-    visitor.steady()
-    visitor.press("As the scene needs")
+    desk.steady()
+    desk.press("As the scene needs")
     expect(tilt).not_to_be_checked()
-    visitor.go_to("Frequencies")
+    desk.go_to("Frequencies")
     expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no tension"))
-    visitor.reads(re.compile(rf"\b{expected} Hz"))
+    desk.reads(re.compile(rf"\b{expected} Hz"))
 
 
 def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) -> bytes:
@@ -426,26 +439,24 @@ def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) 
     return file.getvalue()
 
 
-def test_a_measurement_is_brought_its_part_named_and_its_size_found(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "diagnosis")
-    visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
-    visitor.reads(re.compile("broken.csv cannot be used"))
-    visitor.bring(visitor.main, "fan.wav", _recording(38.6))
-    visitor.reads(re.compile(r"fan.wav · 3 s · 48 kHz · 420 rpm\? · unit\?"))
-    visitor.reads(re.compile("outer race is (probably )?damaged"))  # whatever the unit is
-    visitor.bring(visitor.main, "broken.csv", b"x,y\n1,2\nhello,3")
-    visitor.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
-    visitor.press("Change")
-    visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
-    visitor.reads(re.compile("outer race is (probably )?damaged"))
-    visitor.choose("Support is", "as in the scene")
-    visitor.press("Find the size")
-    visitor.reads(re.compile(r"38\.[4-8]°"))
-    visitor.steady()
-    assert len(visitor.figures()) >= 3
-    assert "blank" not in visitor.figures()
-    visitor.press(re.compile(r"38\.\d° into the scene"))
-    visitor.wait(lambda: abs(visitor.number("Extent") - 38.6) < 0.3)
+def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visitor) -> None:
+    desk.begin("Diagnosis")
+    desk.bring(desk.main, "fan.wav", _recording(38.6))
+    desk.reads(re.compile(r"fan.wav · 3 s · 48 kHz · 420 rpm\? · unit\?"))
+    desk.reads(re.compile("outer race is (probably )?damaged"))  # whatever the unit is
+    desk.bring(desk.main, "broken.csv", b"x,y\n1,2\nhello,3")
+    desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
+    desk.press("Change")
+    desk.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    desk.reads(re.compile("outer race is (probably )?damaged"))
+    desk.choose("Support is", "as in the scene")
+    desk.press("Find the size")
+    desk.reads(re.compile(r"38\.[4-8]°"))
+    desk.steady()
+    assert len(desk.figures()) >= 3
+    assert "blank" not in desk.figures()
+    desk.press(re.compile(r"38\.\d° into the scene"))
+    desk.wait(lambda: abs(desk.number("Extent") - 38.6) < 0.3)
 
 
 def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_on_one_sheet(
@@ -467,7 +478,7 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     answer = visitor.main.get_by_role("heading", name="The outer race is damaged")
     expect(answer).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Probability .* long|not show"))).to_be_in_viewport()
-    expect(visitor.main.get_by_text(re.compile("Impacts at .* Hz")).first).to_be_in_viewport()
+    expect(visitor.main.get_by_text(re.compile("Impacts at .*Hz")).first).to_be_in_viewport()
     name, sheet = visitor.download(lambda: visitor.press("Report on one page"))
     (tmp_path / name).write_bytes(sheet)
     page = browser.new_page()
@@ -508,7 +519,9 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer
     visitor.reads(re.compile("No damage seen"))
 
 
-def test_accuracy_is_measured_and_the_measuring_cancelled(visitor: Visitor) -> None:
+def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
+    visitor: Visitor,
+) -> None:
     visitor.open(FAN_RIG + "accuracy")
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
@@ -519,10 +532,6 @@ def test_accuracy_is_measured_and_the_measuring_cancelled(visitor: Visitor) -> N
     visitor.reads(re.compile(r"\d+ points after"))
     visitor.reads(re.compile("Measured on this machine"))
     visitor.wait(lambda: visitor.figures() != before)
-
-
-def test_what_less_would_do_is_said_with_its_error(visitor: Visitor) -> None:
-    visitor.open(FAN_RIG + "accuracy")
     visitor.press("Compare simpler models", visitor.main)
     visitor.reads(re.compile(r"\d+ models after"))
     rows = visitor.main.get_by_role("table").get_by_role("row")
@@ -552,7 +561,7 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: 
     first = title.inner_text()
     veil = visitor.main.locator(".view.veiled")
     expect(veil).to_have_count(2)  # what it asks to watch has the answer
-    answer = visitor.main.get_by_text(re.compile(r"\b39 N"))
+    answer = visitor.main.get_by_text(re.compile(r"\b39\sN"))
     expect(answer).to_be_attached()  # computed, and behind the veil
     expect(answer).to_be_hidden()
     expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
@@ -584,52 +593,6 @@ def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor) -> None:
     expect(visitor.main.locator(".view.veiled")).to_have_count(0)
     expect(lesson.get_by_role("button", name=re.compile("answer"))).to_have_count(0)
     assert "39" not in lesson.inner_text()
-
-
-def test_the_projector_shows_larger_letters(visitor: Visitor) -> None:
-    visitor.open("?lesson=what-a-ball-carries")
-    question = visitor.page.get_by_role("region", name="Lesson").get_by_role("paragraph").first
-    small, drawn = question.bounding_box(), visitor.figures()
-    visitor.press("Projector")
-    undo = visitor.scene.get_by_role("button", name="Undo")
-    expect(undo).to_be_hidden()
-    visitor.steady()
-    large = question.bounding_box()
-    assert small is not None
-    assert large is not None
-    assert large["height"] > small["height"]
-    assert visitor.figures() != drawn
-    visitor.press("Projector")
-    expect(undo).to_be_visible()
-
-
-def _brightness(page: Page) -> float:
-    """Mean brightness of a figure, from 0 to 255."""
-    canvas = page.get_by_role("main").locator("canvas").locator("visible=true").first
-    return float(
-        canvas.evaluate(
-            """canvas => {
-              const {width, height} = canvas
-              const {data} = canvas.getContext("2d").getImageData(0, 0, width, height)
-              return data.reduce((sum, value) => sum + value, 0) / data.length
-            }"""
-        )
-    )
-
-
-def test_dark_colours_are_chosen_and_remembered(visitor: Visitor) -> None:
-    visitor.page.emulate_media(color_scheme="light")
-    visitor.open(FAN_RIG + "frequencies")
-    light = _brightness(visitor.page)
-    visitor.press("Dark colours")
-    visitor.steady()
-    dark = _brightness(visitor.page)
-    assert dark < light - 50
-    visitor.open(FAN_RIG + "stiffness")
-    assert _brightness(visitor.page) < light - 50
-    visitor.press("Dark colours")
-    visitor.steady()
-    assert _brightness(visitor.page) > dark + 50
 
 
 def test_two_people_do_not_disturb_each_other_and_share_a_link(
@@ -689,7 +652,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     visitor.page.keyboard.press("Escape")
     visitor.type("Extent", "30")
     names = "12.9°, 50 µm, long"
-    for tab in ("Load", "Stiffness", "Frequencies", "Orbits", "Ball mass", "Vibration", "Overview"):
+    for tab in ("Load", "Stiffness", "Frequencies", "Orbits", "Vibration"):
         visitor.go_to(tab)
         visitor.wait(lambda: names in _keys(visitor))
     other = visitor.page.context.new_page()
@@ -765,7 +728,7 @@ def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
 
 def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
     links = tomllib.loads(_LINKS.read_text(encoding="utf-8"))["link"]
-    for link in links[8::4]:
+    for link in links[8::9]:
         visitor.page.goto(f"{explorer.url}?{link['text']}")
         scene, defects = link["scene"], link["scene"].get("defect", [])
         speed = scene["shaft_speed"] / (2.0 * math.pi)
@@ -779,18 +742,9 @@ def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
         assert not _NOTHING.search(" ".join(visitor.sentences()))
 
 
-@pytest.mark.parametrize(
-    ("link", "words"),
-    [
-        ("?v=9&extent_deg=3", "version"),
-        ("?v=1&preset=%3Cscript%3Ealert(1)%3C/script%3E", "no bearing “<script>alert"),
-        ("?v=1&extent_deg=" + "9" * 200_000, "far too long"),
-    ],
-    ids=["version", "markup", "length"],
-)
-def test_a_link_that_cannot_be_read_says_so(visitor: Visitor, link: str, words: str) -> None:
-    visitor.open(link)
-    visitor.reads(re.compile(words), visitor.page.locator("body"))
+def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:
+    visitor.open("?v=1&preset=%3Cscript%3Ealert(1)%3C/script%3E")
+    visitor.reads(re.compile("no bearing “<script>alert"), visitor.page.locator("body"))
     assert visitor.number("Extent") == 12.9
 
 
@@ -893,7 +847,7 @@ def test_figures_are_taken_along(visitor: Visitor, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_first_visits_are_shown_in(visitor: Visitor, explorer: Server) -> None:
+def test_first_visits_are_shown_in(visitor: Visitor) -> None:
     visitor.open()
     what = visitor.page.get_by_role("button", name="Help")
     welcome = visitor.page.get_by_role("region", name="Introduction")

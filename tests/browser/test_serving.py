@@ -95,7 +95,6 @@ def test_panel_serve_shows_the_page_too(page: Page) -> None:
     ("code", "reason", "words"),
     [
         (1013, "All places are taken.", "All places are taken. Reload the page in a minute."),
-        (1008, "This message was not understood.", "understood. Reload the page to go on."),
         (4000, "", "The connection to the server is lost. Reload the page to go on."),
     ],
 )

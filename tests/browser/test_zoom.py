@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 from playwright.sync_api import Page, ViewportSize
 
 from tests.browser.explorer_page import (
     open_page,
     painted,
     place,
-    rest,
     settle,
     show,
     slider,
@@ -19,23 +17,6 @@ from tests.browser.explorer_page import (
 from tests.browser.helpers import Server, move
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
-PHONE: ViewportSize = {"width": 390, "height": 844}
-SCROLLS = """() => {
-  const main = document.querySelector("main")
-  return [main.scrollHeight - main.clientHeight, main.scrollWidth - main.clientWidth]
-}"""
-
-
-@pytest.mark.proof
-def test_all_fits_with_every_contact_law(page: Page, explorer: Server) -> None:
-    page.set_viewport_size(LAPTOP)
-    open_page(page, explorer, "model")
-    for law in page.locator("#choice-law option").evaluate_all("all => all.map((o) => o.value)"):
-        show(page, "model")
-        page.locator("#choice-law").select_option(law)
-        show(page, "overview")
-        rest(page)
-        page.wait_for_function(f"({SCROLLS})().join() === '0,0'")
 
 
 RANGE = """view => {

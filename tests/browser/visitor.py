@@ -58,6 +58,14 @@ class Visitor:
         unfold(self.page)
         self.steady()
 
+    def begin(self, tab: str) -> None:
+        """Go on with an open page: its scene as it came, on this tab."""
+        self.page.bring_to_front()
+        self.page.keyboard.press("Escape")  # a menu may be open
+        self.press("Reset", self.scene)
+        expect(self.box("Extent")).to_have_value("12.9")
+        self.go_to(tab)
+
     def go_to(self, tab: str) -> None:
         """Choose a tab and wait until its views are there."""
         self.page.get_by_role("tab", name=tab, exact=True).click()
@@ -129,6 +137,8 @@ class Visitor:
 
     def reads(self, words: str | re.Pattern[str], where: Locator | None = None) -> None:
         """Wait until these words are to be seen, in the figures' part unless said otherwise."""
+        if isinstance(words, re.Pattern):  # a unit does not break from its number
+            words = re.compile(re.sub(r"\\? ", r"\\s", words.pattern))
         expect(
             (where or self.main).get_by_text(words).locator("visible=true").first
         ).to_be_visible()

@@ -39,14 +39,6 @@ def test_entry_to_exit_takes_the_time_that_the_paper_gives(results: Results) -> 
     assert following.time == pytest.approx(ONE_PASS)
 
 
-def test_a_ball_spacing_more_and_another_ball_leaves_at_the_same_time() -> None:
-    spacing = FAN_RIG.bearing.ball_spacing
-    longer = Results(FAN_RIG.replace(extent=math.radians(12.9) + spacing)).excerpt
-    entry, leaving, _ = longer.events
-    assert leaving.ball == (entry.ball + 1) % 14
-    assert leaving.time == pytest.approx(math.radians(12.9) / FAN_RIG.cage_speed)
-
-
 def test_the_signal_is_the_housing_and_the_loads_are_those_of_the_balls_named(
     results: Results,
 ) -> None:

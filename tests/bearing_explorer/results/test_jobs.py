@@ -114,6 +114,7 @@ def test_a_new_request_replaces_the_old_one() -> None:
 
     run(session())
     assert first.states[-1].mood == "stopped"
+    assert first.found[-1] != 499, "it went on to its end"
     assert second.states[-1] == JobState("done", 1.0, "All 3 steps.")
     assert [state.mood for state in second.states].count("done") == 1
 

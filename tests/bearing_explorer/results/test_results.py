@@ -11,13 +11,11 @@ from bearing_explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.compared import Compared
-from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.base import View
 from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.orbit import SteadyOrbit
 
 from bearingcore import equilibrium, presets
-from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.dynamics.status import OrbitStatus
 
 
@@ -112,15 +110,6 @@ def test_bands_of_frequencies_are_looked_at_coarsely_while_a_hand_moves(name: st
     assert moving.modes.cage_angles.size < 0.5 * rested.modes.cage_angles.size
     for label, band in moving.bands.items():
         assert band == pytest.approx(rested.bands[label], rel=0.03)
-
-
-@pytest.mark.parametrize("extent_deg", [12.9, 38.6])
-def test_a_band_is_the_same_however_finely_curves_are_drawn(extent_deg: float) -> None:
-    """By more or fewer cage angles, along a speed run: within what is written of it."""
-    scene = presets["fan-rig"].replace(extent=math.radians(extent_deg))
-    rested, by_hand = Results(scene), Results(scene, settings=Settings(n_cage_angles=31))
-    run = speed_run(scene, [scene.shaft_speed], duration=0.1)
-    assert rested.bands == by_hand.bands == run.bands == rested.chain.bands
 
 
 def test_curves_have_a_fixed_number_of_cage_angles() -> None:

@@ -6,12 +6,10 @@ import math
 
 import pytest
 from bearing_explorer.state import address
-from bearing_explorer.state.bearing_list import BearingTable, read_table
+from bearing_explorer.state.bearing_list import BearingTable
 from bearing_explorer.state.scene_editor import SceneEditor
 
 from bearingcore import catalogue, equilibrium, limits
-
-TABLE = "name;balls;ball_diameter_mm;pitch_diameter_mm\nPump 3;9;7,94;39,04\n"
 
 
 def test_a_published_bearing_is_put_into_the_scene() -> None:
@@ -24,14 +22,6 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
     assert "Harris, Rolling Bearing Analysis" in editor.note
     editor.choose({"bearing": "6804RS, FEMTO-ST"})
     assert "Assumed here: an inner groove of 0.52 ball diameters" in editor.note
-
-
-def test_a_bearing_of_the_same_name_replaces_the_published_one() -> None:
-    table = BearingTable()
-    table.take("a.csv", read_table(TABLE.replace("Pump 3", "209, Harris")))
-    names = [one.name for one, _ in table.all()]
-    assert names.count("209, Harris") == 1
-    assert table.find("209, Harris").bearing.ball_diameter == pytest.approx(7.94e-3)
 
 
 def found(text: str) -> list[tuple[str, str]]:

@@ -173,13 +173,6 @@ def test_a_rough_floor_is_the_same_surface_for_the_same_seed(editor: SceneEditor
     assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
 
 
-def test_a_floor_finer_than_can_be_computed_is_refused(editor: SceneEditor) -> None:
-    editor.choose({"floor": "rough"})
-    assert editor.set({"correlation_length_um": "1", "extent_deg": "360"})[0] == {}
-    refused, _ = editor.set({"outer_raceway_radius_mm": "9000"})
-    assert "correlation length" in refused["outer_raceway_radius_mm"]
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [

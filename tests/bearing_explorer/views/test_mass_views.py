@@ -10,7 +10,6 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.mass_spectrum import MassInSpectrum
 from bearing_explorer.views.mass_time import MassInTime
 from bearing_explorer.views.mechanism import WhichMechanism, in_words
-from bearing_explorer.views.vibration_spectrum import VibrationSpectra
 
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
@@ -70,17 +69,3 @@ def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> N
     assert (bars["right"][:-1] < bars["left"][1:]).all()
     words = in_words(found)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
-
-
-def test_the_spectrum_of_the_vibration_can_go_up_to_half_the_sample_rate() -> None:
-    view = VibrationSpectra(PackedSource())
-    results = Results(FAN_RIG.replace(balls="with mass"), moving=True)
-    assert view.all_data(results)[0]["spectrum_wide_lines"]["frequency"].size == 0
-    assert view.choices() == {}
-    view.look_changed("axis", "logarithmic")
-    again = VibrationSpectra(PackedSource())
-    with pytest.raises(ValueError, match="axis is 'round'; it can be linear or logarithmic"):
-        again.choose({"axis": "round"}, results)
-    sources, _ = view.all_data(results)
-    assert sources["spectrum_wide_lines"]["frequency"][-1] > 32e3
-    assert sources["spectrum_wide_resonance"]["low"].size == 1

@@ -11,7 +11,6 @@ from bearing_explorer.state.settings import Settings
 from bearing_explorer.views.bearing_editor import facts_of
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.dof_comparison import DofDifferences
-from bearing_explorer.views.dof_comparison import facts_of as differences_of
 
 from bearingcore import DOF_NAMES, presets
 
@@ -65,11 +64,3 @@ def test_a_forced_set_shows_its_error() -> None:
     words = DofDifferences(PackedSource()).sentence(results)
     assert "forced on the scene" in words
     assert "%" in words
-
-
-def test_a_motion_that_cannot_be_simulated_is_said() -> None:
-    scene = presets["fan-rig"].replace(stiffness_z=None)
-    found = Results(scene, settings=SHORT).dof_comparison
-    assert found.motion == {}
-    assert "stiffness_z" in found.no_motion
-    assert any("none:" in fact.value for fact in differences_of(found))

@@ -50,6 +50,6 @@ async def fill() -> None:
 
 pn.state.onload(fill)
 template = pn.Template(TEMPLATE)
-template.add_variable("order_script", "" if "plain" in given else asset_text("in_order.js"))
+template.add_variable("order_script", asset_text("in_order.js"))
 template.add_panel("main", main)
 template.servable()

@@ -445,7 +445,7 @@ def descend(q, place, contacts, load, work, most):
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
-@called
+@inlined
 def minimise_energy(q, place, contacts, load, work):
     """Move q to the minimum of V over the active directions.
 
@@ -680,7 +680,7 @@ def static_states(cage_angles, contacts, path, load):
     return (
         memory.q,
         memory.loads,
-        np.moveaxis(answers.stiffness[_TERMS, 0], 2, 0),
+        answers.stiffness[:, 0].take(_TERMS, axis=0).transpose(2, 0, 1),
         answers.loaded[0],
         answers.status[0],
         answers.residual[0],

@@ -5,7 +5,7 @@ second. Until then pages draw what comes with the package (`default_results`), t
 move, and a progress bar says why. What a part is needed for raises `StillCompiling`.
 
 numba holds the interpreter as it compiles, and a page takes twice as long next to it: compiling
-begins once the first picture is sent, or after `FIRST_PICTURE` where nobody has come.
+begins once the first picture is sent, or after `FIRST_PICTURE` where none is asked for.
 """
 
 from __future__ import annotations

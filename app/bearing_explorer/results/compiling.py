@@ -4,7 +4,7 @@ On a first start that compiles, which takes long; later starts read machine code
 second. Until then pages draw what comes with the package (`default_results`), their sliders do not
 move, and a progress bar says why. What a part is needed for raises `StillCompiling`.
 
-numba holds the interpreter as it compiles, and a page takes twice as long next to it: compiling
+numba holds the interpreter as it compiles, which a page that is being made needs too: compiling
 begins once the first picture is sent, or after `FIRST_PICTURE` where none is asked for.
 """
 

@@ -145,8 +145,7 @@ class Visitor:
 
     def sentences(self) -> list[str]:
         """What the views say about themselves."""
-        said = self.main.get_by_role("status").all_inner_texts()
-        return [words.replace("\u00a0", " ") for words in said]
+        return self.main.get_by_role("status").all_inner_texts()
 
     def figures(self) -> list[str]:
         """What each visible figure shows, without the lines of its key; none must be blank."""

@@ -83,7 +83,7 @@ def shown_name(name: Any) -> str:
 def without_middle(name: str, longest: int) -> str:
     """A name with its middle left out where it is longer than so many characters.
 
-    Its end, with the number and the kind of a file, tells files of one set apart.
+    Its end, with the number and the kind of a file, distinguishes files of one set.
     """
     if len(name) <= longest:
         return name

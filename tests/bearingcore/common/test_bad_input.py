@@ -2,8 +2,6 @@
 is no bad input: it comes back as a status, never as an exception and never as a number.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any
@@ -41,34 +39,22 @@ def refused(field: str, shown: str, act: Callable[[], object]) -> str:
     return said.split("; allowed: ")[1]
 
 
-# --- constructors --------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("field", "value", "shown", "allowed"),
     [
         ("radial_clearance", -1e-9, "-1e-09", "at least 0"),
         ("radial_clearance", NAN, "nan", "finite"),
-        ("radial_clearance", INF, "inf", "finite"),
         ("radial_clearance", True, "True", "finite"),
         ("n_balls", 0, "0", "from 1"),
-        ("n_balls", -3, "-3", "from 1"),
         ("n_balls", 7.5, "7.5", "whole number"),
-        ("n_balls", NAN, "nan", "whole number"),
         ("n_balls", True, "True", "whole number"),
         ("n_balls", 10**9, "1e+09", "500"),
         ("n_balls", 60, "60", "do not overlap"),
         ("contact_angle", math.radians(90.0), "1.5708", "80 degrees"),
-        ("contact_angle", math.pi, "3.14159", "80 degrees"),
         ("contact_angle", -0.1, "-0.1", "at least 0"),
-        ("contact_angle", NAN, "nan", "80 degrees"),
         ("ball_diameter", 0.0, "0", "above 0"),
-        ("ball_diameter", -6e-3, "-0.006", "above 0"),
         ("ball_diameter", 0.04, "0.04", "pitch_diameter"),
         ("ball_diameter", "thick", "'thick'", "finite number"),
-        ("ball_diameter", None, "None", "finite number"),
-        ("pitch_diameter", 0.0, "0", "above 0"),
-        ("groove_center_radius", 0.0, "0", "above 0"),
         ("groove_center_distance", -5e-5, "-5e-05", "above 0"),
         ("load_deflection_factor", 0.0, "0", "above 0"),
         ("load_deflection_factor", INF, "inf", "finite"),
@@ -77,54 +63,38 @@ def refused(field: str, shown: str, act: Callable[[], object]) -> str:
         # the defect
         ("extent", -0.1, "-0.1", "at least 0"),
         ("extent", 6.3, "6.3", "at most 6.28319"),
-        ("extent", NAN, "nan", "finite"),
         ("depth", -1e-6, "-1e-06", "at least 0"),
         ("depth", 3.1e-3, "0.0031", "ball radius of 0.003 m"),
         ("center", INF, "inf", "finite"),
         ("race", "middle", "'middle'", "outer, inner"),
-        ("race", None, "None", "outer, inner"),
         ("edge", "round", "'round'", "published, chord, exact"),
-        ("edge", 3, "3", "published, chord, exact"),
         # the load
         ("fx", NAN, "nan", "finite"),
         ("fy", "heavy", "'heavy'", "finite number"),
-        ("fz", INF, "inf", "finite"),
         ("mx", None, "None", "finite number"),
-        ("my", -INF, "-inf", "finite"),
         # the support
         ("inner_mass", 0.0, "0", "above 0"),
         ("outer_mass", -2.0, "-2", "above 0"),
-        ("outer_mass", None, "None", "above 0"),
-        ("stiffness_x", 0.0, "0", "above 0"),
         ("stiffness_z", -1.0, "-1", "above 0"),
         ("damping_y", -1.0, "-1", "at least 0"),
         ("damping_rx", NAN, "nan", "at least 0"),
         ("inner_inertia", 0.0, "0", "above 0"),
         # the scene
         ("shaft_speed", -1.0, "-1", "at least 0"),
-        ("shaft_speed", NAN, "nan", "at least 0"),
         ("contact_damping", -1.0, "-1", "at least 0"),
-        ("contact_damping", "some", "'some'", "at least 0"),
         ("contact_law", "sticky", "'sticky'", "published, no tension"),
         ("dofs", ("x", "y", "rz"), "('x', 'y', 'rz')", "x, y, z, rx, ry"),
         ("dofs", (), "()", "x, y, z, rx, ry"),
         ("dofs", ("x", "x"), "('x', 'x')", "different names"),
         ("dofs", "theta", "('theta',)", "x, y, z, rx, ry"),
-        ("dofs", 2, "2", "x, y, z, rx, ry"),
-        ("bearing", None, "None", "Bearing"),
-        ("load", 5.0, "5", "Load"),
         ("support", "rubber", "'rubber'", "Support"),
-        ("defect", 3, "3", "Defect"),
-        ("defect", None, "None", "Defect"),
-        ("defect", ("spall",), "'spall'", "Defect"),
-        ("defect", "spall", "'s'", "Defect"),
     ],
 )
 def test_a_field_that_cannot_be(field: str, value: object, shown: str, allowed: str) -> None:
     assert allowed in refused(field, shown, lambda: LIEW_LIM.replace(**{field: value}))
 
 
-@pytest.mark.parametrize("name", ["radius", "Fx", "", "_own", "displacement", "extent_deg"])
+@pytest.mark.parametrize("name", ["Fx", "", "displacement", "extent_deg"])
 def test_a_field_that_does_not_exist(name: str) -> None:
     allowed = refused("name of a field", repr(name), lambda: LIEW_LIM.replace(**{name: 1.0}))
     for known in ("extent", "fy", "n_balls", "stiffness_x", "dofs"):
@@ -159,9 +129,6 @@ def test_numbers_that_only_look_bad() -> None:
     assert hash(LIEW_LIM.replace(defect=[LIEW_LIM.defect])) is not None
 
 
-# --- functions -----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("function", [equilibrium, modes])
 @pytest.mark.parametrize(
     "angles", [[0.0, NAN], [INF], NAN, "all", [[0.0], [1.0, 2.0]], [1j], object()]
@@ -171,33 +138,18 @@ def test_cage_angles_that_are_not_angles(function: Callable[..., object], angles
         function(LIEW_LIM, angles)
 
 
-@pytest.mark.parametrize("dofs", [("x", "spin"), (), ("z", "z"), "all", 5])
-def test_directions_that_are_not_directions(dofs: Any) -> None:
-    with pytest.raises(ValueError, match=r"^dofs is .*; allowed: .*x, y, z, rx, ry"):
-        equilibrium(LIEW_LIM, [0.0], dofs)
-
-
-def test_a_stiffness_term_that_does_not_exist() -> None:
-    answer = equilibrium(LIEW_LIM, [0.0])
-    assert "k_xy" in refused("stiffness term", "'k_yx'", lambda: answer.term("k_yx"))
-
-
 @pytest.mark.parametrize(
     ("field", "value", "shown", "allowed"),
     [
         ("duration", 0.0, "0", "above 0"),
-        ("duration", -1.0, "-1", "above 0"),
         ("duration", NAN, "nan", "above 0"),
         ("duration", INF, "inf", "finite"),
         ("duration", 1e6, "1e+06", "sample_rate"),
         ("sample_rate", 0.0, "0", "above 0"),
-        ("sample_rate", NAN, "nan", "above 0"),
         ("sample_rate", 1000.0, "1000", "twice the highest natural frequency"),
         ("step_rate", 0.0, "0", "above 0"),
-        ("step_rate", NAN, "nan", "above 0"),
         ("step_rate", 65536.0 * 1.5, "98304", "multiple or a whole fraction"),
         ("step_rate", 65536.0 / 2.5, "26214.4", "multiple or a whole fraction"),
-        ("step_rate", 65537.0, "65537", "multiple or a whole fraction"),
     ],
 )
 def test_motion_refuses(field: str, value: float, shown: str, allowed: str) -> None:
@@ -237,10 +189,7 @@ def test_a_support_that_is_not_known_where_it_is_needed(
     [
         (np.zeros(100), 65536.0, 32.0, "signal"),
         (np.full(4096, NAN), 65536.0, 32.0, "signal"),
-        (np.zeros((2, 2, 4096)), 65536.0, 32.0, "signal"),
-        (np.zeros(4096), 0.0, 32.0, "sample_rate"),
         (np.zeros(4096), NAN, 32.0, "sample_rate"),
-        (np.zeros(4096), 65536.0, 0.0, "resolution"),
         (np.zeros(4096), 65536.0, 40e3, "resolution"),
         (np.zeros(4096), 65536.0, NAN, "resolution"),
     ],
@@ -248,9 +197,6 @@ def test_a_support_that_is_not_known_where_it_is_needed(
 def test_spectrum_refuses(signal: np.ndarray, rate: float, resolution: float, field: str) -> None:
     with pytest.raises(ValueError, match=rf"^{field} is .*; allowed: "):
         spectrum(signal, rate, resolution)
-
-
-# --- no bad input, but no answer -----------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -269,10 +215,7 @@ def test_without_a_load_nothing_touches(scene: Scene) -> None:
     assert not answer.converged.any()
     assert answer.reason(0).startswith("nothing touches")
     assert np.isnan(answer.displacement).all()
-    assert np.isnan(answer.stiffness).all()
-    assert np.isnan(answer.contact_angle).all()
     assert np.all(answer.ball_load == 0.0)
-    assert np.all(answer.loaded_balls == 0)
     assert verdict(answer, 0) == ""
     assert np.isnan(modes(scene).frequency).all()
     assert contact_damping(scene) == 0.0
@@ -280,41 +223,6 @@ def test_without_a_load_nothing_touches(scene: Scene) -> None:
     assert not motion.completed
     assert motion.reason.startswith("no static state to start from: nothing touches")
     assert np.isnan(motion.outer_acceleration).all()
-
-
-def balls_scene(n_balls: int, fx: float, fy: float) -> Scene:
-    """The fan rig with few balls and a load, in x and y."""
-    return FAN_RIG.healthy().replace(n_balls=n_balls, fx=fx, fy=fy)
-
-
-def test_a_load_that_is_carried_at_some_angles_only() -> None:
-    """Two balls: the status changes with the cage angle, and no angle spoils its neighbours."""
-    scene = balls_scene(2, 0.0, -100.0)
-    angles = np.linspace(0.0, 2.0 * math.pi, 9)
-    answer = equilibrium(scene, angles)
-    on_the_load = np.isclose(np.abs(np.sin(angles)), 1.0)
-    assert np.all(answer.status[~on_the_load] == kernels.NOT_CARRIED)
-    assert "no contact can carry this load" in answer.reason(0)
-    assert np.isnan(answer.ball_load[~on_the_load]).all()
-    assert np.all(answer.status[on_the_load] == kernels.FREE_DIRECTION)
-    assert answer.ball_load[on_the_load].max(axis=1) == pytest.approx(100.0)
-
-
-def test_a_ball_right_under_the_load_leaves_the_ring_free_to_roll() -> None:
-    """With clearance its neighbours hang loose: y is told, x has no answer and is named."""
-    scene = FAN_RIG.healthy().replace(radial_clearance=100e-6, fy=-1.0)
-    answer = equilibrium(scene, [1.5 * math.pi])
-    assert answer.status[0] == kernels.FREE_DIRECTION
-    assert answer.reason(0) == "the ring can move without resistance along x"
-    assert math.isnan(answer.displacement[0, 0])
-    sunk = 100e-6 + (1.0 / scene.bearing.load_deflection_factor) ** (2.0 / 3.0)
-    assert answer.displacement[0, 1] == pytest.approx(-sunk, rel=1e-9)
-    assert answer.ball_load[0] == pytest.approx([1.0] + [0.0] * 13)
-    assert answer.loaded_balls[0] == 1
-    assert verdict(answer, 0) == ""
-    beside = equilibrium(scene, [1.5 * math.pi + 0.01])
-    assert beside.converged[0]
-    assert beside.loaded_balls[0] == 2
 
 
 def test_free_directions_are_named_all_and_only() -> None:

@@ -1,7 +1,5 @@
 """Texts that cost a parser much, or make it speak like a program: refused with a sentence."""
 
-from __future__ import annotations
-
 import pytest
 
 from bearingcore import Scene, presets
@@ -21,9 +19,6 @@ def with_speed(value: str) -> str:
 TEXTS = {
     "digits": with_speed("9" * 1_000_000),
     "hexadecimal digits": with_speed("0x" + "f" * 1_500_000),
-    "some hexadecimal digits": with_speed("0x" + "f" * 399),
-    "digits in a list": with_speed("[1, " + "9" * 100_000 + "]"),
-    "an exponent": with_speed("1e" + "9" * 100_000),
     "lists in lists": with_speed("[" * 9000 + "]" * 9000),
     "tables in tables": with_speed("{b=" * 9000 + "1" + "}" * 9000),
     "a table many times": GOOD + "[a]\n" * 9000,
@@ -32,7 +27,6 @@ TEXTS = {
     "a text that does not end": GOOD + 'a = """' + '"' * 1_500_000,
     "a text of escapes": GOOD + 'a = "' + "\\u0041" * 300_000 + '"',
     "no number": with_speed("nan"),
-    "a date": with_speed("2026-01-01"),
     "a sign that is none": with_speed('"\x00"'),
     "half a sign": with_speed('"\ud800"'),
     "twice": GOOD + SPEED,
@@ -67,24 +61,6 @@ def test_a_hostile_text_is_refused_with_a_sentence(text: str) -> None:
         words = str(caught.value)
         assert unclear(words) is None
         assert "sys." not in words, "no advice for programmers"
-
-
-@pytest.mark.parametrize(
-    "over",
-    [
-        "fy = {start = 0.0, stop = 1.0, num = 999999999}",
-        "fy = {start = 0.0, stop = 1e308, num = 3}\nfx = {start = -1e308, stop = 1e308, num = 3}",
-        "\n".join(f"f{i} = [1.0]" for i in range(9000)),
-        'fy = ["a"]',
-        "edge = [1.0]",
-        "fy = []",
-    ],
-    ids=range(6),
-)
-def test_a_hostile_sweep_is_refused_with_a_sentence(over: str) -> None:
-    with pytest.raises(ValueError, match=r"\w") as caught:
-        grid_from_toml(GOOD + SWEEP + over)
-    assert unclear(str(caught.value)) is None
 
 
 def test_the_good_text_is_taken() -> None:

@@ -1,7 +1,5 @@
 """What is kept is bounded in bytes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -25,19 +23,6 @@ def test_results_are_kept_up_to_a_number_of_bytes() -> None:
     assert asked == [400, 401, 402, 400]
     made(600), made(600)
     assert asked[-2:] == [600, 600], "what is larger than half of all is not kept"
-
-
-def test_results_are_kept_up_to_a_count() -> None:
-    asked: list[int] = []
-
-    @kept(2, 1000, lambda found, n: 1)
-    def made(n: int) -> int:
-        asked.append(n)
-        return n
-
-    for n in (1, 2, 1, 3, 1, 2):
-        assert made(n) == n
-    assert asked == [1, 2, 3, 2]
 
 
 def test_errors_are_not_kept() -> None:

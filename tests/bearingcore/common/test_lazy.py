@@ -1,7 +1,5 @@
 """Attributes that are computed once, and by nobody else's leave."""
 
-from __future__ import annotations
-
 import threading
 
 from bearingcore.common.lazy import cached_property

@@ -17,22 +17,6 @@ def ringing(every: float, ring: float, seconds: float = 4.0) -> np.ndarray:
     return np.asarray(np.exp(-700.0 * since) * np.sin(2.0 * np.pi * ring * since))
 
 
-def test_bands_cover_the_range_without_gap_and_none_is_too_narrow():
-    bands = split(RATE, 900.0)
-    assert bands[0] == (LOWEST, 8000.0)
-    assert min(band.high - band.low for band in bands) > 900.0
-    for parts in (2, 3, 4, 6, 8):
-        width = 8000.0 / parts
-        level = [
-            b
-            for b in bands
-            if b.high - b.low < width + 1e-6 and b.high - b.low > width - LOWEST - 1
-        ]
-        assert len(level) == parts
-        for one, following in itertools.pairwise(level):
-            assert one.high == pytest.approx(following.low)
-
-
 def test_the_envelope_of_a_swelling_tone_is_its_swell():
     time = np.arange(int(2.0 * RATE)) / RATE
     swell = 1.0 + 0.2 * np.cos(2.0 * np.pi * 30.0 * time)
@@ -86,3 +70,19 @@ def test_a_line_has_its_depth_and_stands_above_its_surroundings():
     away = np.abs(found.step * np.arange(len(found.level)) - 40.0) > 2.0
     assert np.mean(10.0 ** (0.1 * found.level[away])) == pytest.approx(1.0, abs=0.1)
     assert found.averages == pytest.approx(9.0 / (1.0 + 2.0 / 36.0 * 8.0 / 9.0), rel=0.02)
+
+
+def test_bands_cover_the_range_without_gap_and_none_is_too_narrow():
+    bands = split(RATE, 900.0)
+    assert bands[0] == (LOWEST, 8000.0)
+    assert min(band.high - band.low for band in bands) > 900.0
+    for parts in (2, 3, 4, 6, 8):
+        width = 8000.0 / parts
+        level = [
+            b
+            for b in bands
+            if b.high - b.low < width + 1e-6 and b.high - b.low > width - LOWEST - 1
+        ]
+        assert len(level) == parts
+        for one, following in itertools.pairwise(level):
+            assert one.high == pytest.approx(following.low)

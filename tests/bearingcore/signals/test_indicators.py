@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Recording, indicators
-from bearingcore.signals.indicators import ZONES, severity_zone, velocity_rms
+from bearingcore.signals.indicators import ZONES, severity_zone
 
 RATE = 12_000.0
 TIME = np.arange(36_000) / RATE
@@ -27,12 +27,6 @@ def test_a_sine_about_any_mean(frequency, amplitude):
     assert found.kurtosis == pytest.approx([1.5], rel=1e-6)
     velocity = amplitude / (2.0 * math.pi * frequency)
     assert found.velocity_rms == pytest.approx([velocity / math.sqrt(2.0)], rel=2e-2)
-
-
-def test_velocity_is_exact_far_above_the_resolution():
-    sine = 2.0 * np.sin(2.0 * math.pi * 500.0 * TIME)
-    expected = 2.0 / (2.0 * math.pi * 500.0) / math.sqrt(2.0)
-    assert velocity_rms(sine, RATE) == pytest.approx(expected, rel=1e-4)
 
 
 def test_what_lies_outside_of_the_band_has_no_velocity():

@@ -1,7 +1,5 @@
 """Ball passes of a cage whose speed wanders are followed; of a steady one they are left alone."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -51,27 +49,12 @@ def test_a_wandering_cage_is_followed(wander: float) -> None:
     assert found.frequency == pytest.approx(mean, rel=2e-4)
 
 
-def test_times_of_passes_are_those_of_the_signal() -> None:
-    signal, passed = passing(0.004, 20.0)
-    found = averaged(signal, True)
-    times = found.time_of(np.arange(0.0, 80.0))
-    at = np.interp(times, np.arange(len(passed)) / RATE, passed)
-    assert np.ptp(at - np.arange(80.0)) < 0.03
-    steady = averaged(passing(0.0, 20.0)[0], True)
-    assert steady.time_of(np.array([3.0]))[0] == pytest.approx(3.0 / steady.frequency)
-
-
 @pytest.mark.parametrize("decibels", [40.0, 20.0, 5.0])
 def test_a_steady_cage_is_left_alone(decibels: float) -> None:
     signal, _ = passing(0.0, decibels)
     with_it, without = averaged(signal, True), averaged(signal, False)
     assert with_it.begins is None
     assert np.array_equal(with_it.harmonics, without.harmonics)
-
-
-def test_in_noise_nothing_is_found_to_follow() -> None:
-    signal = np.random.default_rng(8).standard_normal((round(1.6 * RATE), 2))
-    assert repeating(averaged(signal, True)) < 0.1
 
 
 def test_coloured_noise_is_known_by_frequency() -> None:

@@ -1,7 +1,5 @@
 """Tones of the shaft are taken out, and nothing else."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -24,11 +22,6 @@ def test_tones_go_and_noise_stays() -> None:
     left = without_shaft_tones(noise + tones(7.03, (1, 2, 3, 5)), RATE, 7.0, 40.3)
     assert np.std(left - noise) < 0.03
     assert np.std(noise) == pytest.approx(1.0, abs=0.02)
-
-
-def test_what_holds_no_tones_is_left_as_it_is() -> None:
-    noise = np.random.default_rng(2).standard_normal((len(TIME), 2))
-    assert np.std(without_shaft_tones(noise, RATE, 7.0, 40.3) - noise) < 0.03
 
 
 def test_a_harmonic_of_the_ball_passes_beside_one_of_the_shaft_stays() -> None:

@@ -1,7 +1,5 @@
 """Differences of spectra: of known factors, in lines and in third octaves."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

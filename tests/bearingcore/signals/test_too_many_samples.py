@@ -1,11 +1,9 @@
 """Samples are counted before anything is done with them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from bearingcore import diagnose, envelope_spectrum, presets, size_defect, spectrum
+from bearingcore import diagnose, envelope_spectrum, presets, spectrum
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.status import DiagnosisStatus
@@ -29,17 +27,6 @@ def test_spectra_of_too_many_samples_are_refused_before_they_are_begun() -> None
             ask()
 
 
-def test_the_bound_of_spectra_is_an_argument() -> None:
-    noise = np.random.default_rng(1).normal(size=(4096, 2))
-    assert spectrum(noise, 4096.0, most_samples=8192).density.shape[1] == 2
-    assert len(envelope_spectrum(noise, 4096.0, (100.0, 900.0), most_samples=8192).frequency)
-    for most in (8191, 0, 2.5):
-        with pytest.raises(ValueError, match="most_samples"):
-            spectrum(noise, 4096.0, most_samples=most)  # type: ignore[arg-type]
-        with pytest.raises(ValueError, match="most_samples"):
-            envelope_spectrum(noise, 4096.0, (100.0, 900.0), most_samples=most)  # type: ignore[arg-type]
-
-
 def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
     signal: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -58,8 +45,3 @@ def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
         diagnose(signal, RIG.bearing, 260.0, most_samples=40_000)
     with pytest.raises(ValueError, match="most_samples"):
         diagnose(signal, RIG.bearing, 260.0, most_samples=0)
-
-
-def test_nor_is_a_size_looked_for(signal: Recording) -> None:
-    with pytest.raises(ValueError, match="number of samples of the acceleration is 40000;"):
-        size_defect(signal, RIG.replace(shaft_speed=260.0), most_samples=39_999)

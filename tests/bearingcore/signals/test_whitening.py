@@ -23,11 +23,6 @@ def test_coloured_noise_becomes_white_and_tones_no_louder_than_told():
     np.testing.assert_allclose(powers, 1.0, atol=0.15)
 
 
-def test_phases_stay():
-    spectrum = np.fft.rfft(np.random.default_rng(3).standard_normal(4096))
-    np.testing.assert_allclose(np.angle(whiten(spectrum, 1.0, 50.0)), np.angle(spectrum), atol=1e-9)
-
-
 def test_the_local_median_follows_a_slope_and_passes_over_a_line():
     slope = np.exp(np.linspace(0.0, 3.0, 3000))
     with_line = slope.copy()

@@ -1,18 +1,17 @@
 """Sweeps: the numbers of single scenes, and nothing lost or done twice whatever is killed."""
 
-from __future__ import annotations
-
-import dataclasses
 import errno
 import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -23,27 +22,15 @@ from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
-from bearingcore import (
-    Bearing,
-    Defect,
-    Load,
-    Scene,
-    Support,
-    contact_pressures,
-    dynamic_load_rating,
-    equilibrium,
-    life,
-    modes,
-    orbit,
-    presets,
-    simulate,
-)
+from bearingcore import Scene, contact_pressures, equilibrium, life, modes, orbit, presets, simulate
+from bearingcore.statics.status import StaticStatus
 from bearingcore.sweep import OUTPUTS, STATUSES, sweep
 from bearingcore.sweep import store as stores
 from bearingcore.sweep.command import ASK_ABOVE, main
 from bearingcore.sweep.file import grid_from_toml
-from bearingcore.sweep.grid import UNITS, Grid
+from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import Settings
+from bearingcore.sweep.status import OF_STATICS, SweepStatus
 
 RIG = presets["fan-rig"]
 ANGULAR = presets["liew-lim"]
@@ -75,17 +62,13 @@ def test_static_outputs_are_those_of_single_scenes() -> None:
                 at = found.sel(fz=fz, extent=extent, edge=edge)
                 state = equilibrium(ANGULAR.replace(fz=fz, extent=extent, edge=edge))
                 assert state.converged.all()
-                for term in ("k_xx", "k_yz", "k_zrx", "k_ryry"):
-                    values = state.term(term)
+                curves = {name: state.term(name) for name in ("k_xx", "k_yz", "k_zrx", "k_ryry")}
+                for name, values in {**curves, "loaded_balls": state.loaded_balls}.items():
+                    off = 1e-8 * (np.abs(values).max() + 1.0)
                     mean = np.trapezoid(values) / (len(values) - 1)
-                    scale = np.abs(state.term(term)).max() + 1.0
-                    assert at[f"{term}_mean"] == pytest.approx(mean, abs=1e-8 * scale)
-                    assert at[f"{term}_least"] == pytest.approx(values.min(), abs=1e-8 * scale)
-                    assert at[f"{term}_greatest"] == pytest.approx(values.max(), abs=1e-8 * scale)
-                balls = state.loaded_balls
-                assert at["loaded_balls_mean"] == pytest.approx(np.trapezoid(balls) / 120)
-                assert at["loaded_balls_least"] == balls.min()
-                assert at["loaded_balls_greatest"] == balls.max()
+                    assert at[f"{name}_mean"] == pytest.approx(mean, abs=off)
+                    assert at[f"{name}_least"] == pytest.approx(values.min(), abs=off)
+                    assert at[f"{name}_greatest"] == pytest.approx(values.max(), abs=off)
                 assert at["ball_load_greatest"] == pytest.approx(state.ball_load.max(), rel=1e-9)
                 assert at["converged_share"] == 1.0
     assert (found["status"] == code("complete")).all()
@@ -169,14 +152,11 @@ def test_lives_and_pressures_are_those_of_single_scenes() -> None:
     floats = found.sel(extent=0.1, fy=0.0, shaft_speed=50.0)
     assert np.isnan(floats["life_turns"])
     assert floats["status"] == code("nothing_touches")
-    rated = sweep(deep_groove, {"fy": [-1000.0]}, ["life_turns"])
-    by_size = life(
-        deep_groove.replace(fy=-1000.0), dynamic_load_rating(deep_groove.bearing), positions="all"
-    )
-    assert rated["life_turns"][0] == pytest.approx(1e6 * by_size.million_revolutions, rel=1e-12)
 
 
 def test_failures_are_data() -> None:
+    assert set(OF_STATICS) == set(StaticStatus) - {StaticStatus.NOT_COMPUTED}
+    assert STATUSES[0] is SweepStatus.NOT_COMPUTED, "what an empty file says"
     over = {"shaft_speed": [0.0, 50.0], "extent": [0.2, 7.0], "fy": [-100.0, 0.0]}
     found = sweep(RIG, over, ["k_yy_mean", "acceleration_rms_y"], settings=COARSE)
     status = found["status"].sel(extent=0.2, fy=-100.0)
@@ -189,17 +169,6 @@ def test_failures_are_data() -> None:
     floats = found.sel(shaft_speed=50.0, extent=0.2, fy=0.0)
     assert floats["status"] == code("nothing_touches")
     assert np.isnan(floats["k_yy_mean"])
-
-
-@pytest.mark.parametrize("over", [{"extent": [0.1, 0.2]}, {"fx": [0.0]}], ids=["row", "single"])
-def test_what_nothing_carries_has_no_numbers(over: dict[str, list[float]]) -> None:
-    two_balls = RIG.replace(n_balls=2)  # the ring slips off sideways
-    found = sweep(two_balls, over, STATIC, settings=COARSE)
-    assert (found["status"] == code("load_not_carried")).all()
-    assert (found["converged_share"] == 0.0).all()
-    for name in found.data_vars:
-        if name not in ("status", "converged_share"):
-            assert np.isnan(found[name]).all(), name
 
 
 def test_directions_appear_where_some_scene_needs_them() -> None:
@@ -218,29 +187,10 @@ def test_directions_appear_where_some_scene_needs_them() -> None:
 def test_the_dataset_says_what_it_is() -> None:
     found = sweep(RIG, {"extent": [0.1, 0.2], "n_balls": [10, 14]}, STATIC)
     assert Scene.from_toml(found.attrs["scene"]) == RIG
-    assert re.fullmatch(r"[\w.+]+", found.attrs["program_version"])
     assert found["extent"].attrs["units"] == "rad"
     assert found["n_balls"].dtype.kind == "i"
-    units = {name: found[name].attrs["units"] for name in found.data_vars}
-    assert units["k_xy_mean"] == "N/m"
-    assert units["k_xrx_least"] == "N/rad"
-    assert units["k_rxry_greatest"] == "N·m/rad"
-    assert units["ball_load_greatest"] == "N"
+    assert found["k_rxry_greatest"].attrs["units"] == "N·m/rad"
     assert found["status"].attrs["flag_meanings"].split() == list(STATUSES)
-
-
-def test_every_number_and_word_of_a_scene_can_be_swept() -> None:
-    kinds = {"int", "float", "float | None", "str"}
-    names = {
-        field.name: field.type
-        for part in (Bearing, Defect, Load, Support, Scene)
-        for field in dataclasses.fields(part)
-        if field.type in kinds
-    }
-    assert set(names) == set(UNITS)
-    assert {name for name, kind in names.items() if kind == "str"} == {
-        name for name, unit in UNITS.items() if not unit
-    }
 
 
 @given(
@@ -274,13 +224,9 @@ def test_regions_cover_a_grid_once(sizes: list[int], scenes: int | None, row: in
     [
         ({}, FEW, "over is"),
         ({"extend": [0.1]}, FEW, "extend"),
-        ({"floor": [0.1]}, FEW, "floor"),
         ({"extent": []}, FEW, "number of values of extent"),
         ({"extent": [0.1, 0.1]}, FEW, "different"),
-        ({"extent": ["0.1"]}, FEW, "values of extent"),
-        ({"extent": [True]}, FEW, "values of extent"),
         ({"extent": [float("nan")]}, FEW, "extent"),
-        ({"edge": [1.0]}, FEW, "values of edge"),
         ({"edge": ["round"]}, FEW, "edge is 'round'; allowed"),
         ({"n_balls": [3.5]}, FEW, "n_balls"),
         ({"extent": [0.1]}, [], "outputs"),
@@ -296,11 +242,6 @@ def test_regions_cover_a_grid_once(sizes: list[int], scenes: int | None, row: in
 def test_impossible_sweeps_are_refused(over: Any, outputs: Any, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         sweep(RIG, over, outputs)
-
-
-def test_a_rating_of_nothing_is_refused() -> None:
-    with pytest.raises(ValueError, match="dynamic_load_rating"):
-        Settings(dynamic_load_rating=0.0)
 
 
 # ------------------------------------------------------------------------------ the store
@@ -354,13 +295,10 @@ def copied(finished_store: Path, tmp_path: Path) -> Path:
 def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "results.zarr"
     told: list[tuple[float, str]] = []
-
-    def progress(part: float, words: str) -> None:
-        told.append((part, words))
-
     found = sweep(
-        RIG, OVER, FEW, store=path, settings=COARSE, scenes_per_task=TASK, progress=progress
-    )
+        RIG, OVER, FEW, store=path, settings=COARSE, scenes_per_task=TASK,
+        progress=lambda part, words: told.append((part, words)),
+    )  # fmt: skip
     xarray.testing.assert_equal(found.load(), reference)
     assert found.attrs == reference.attrs
     for name in reference.variables:
@@ -444,7 +382,6 @@ def test_a_mark_comes_after_all_numbers(tmp_path: Path, monkeypatch: pytest.Monk
         (RIG, {}, FEW, COARSE, "settings"),
         (RIG, {}, ["k_yy_mean"], Settings(), "other outputs"),
         (RIG, {"fy": LOADS[1:5]}, FEW, Settings(), "other values of fy"),
-        (RIG, {"fy": LOADS[:5]}, FEW, Settings(), "other values of fy"),
         (RIG, {"fx": [0.0]}, FEW, Settings(), "other fields"),
     ],
 )
@@ -485,48 +422,14 @@ def test_other_folders_are_left_alone(tmp_path: Path) -> None:
 # ------------------------------------------------------------------------------ killed
 
 
-def dask_process(*arguments: str) -> subprocess.Popen[str]:
-    return subprocess.Popen(
-        [sys.executable, "-m", *arguments],
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-
-
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[tuple[str, subprocess.Popen[str], list[subprocess.Popen[str]]]]:
-    """A scheduler and two workers, each a process of its own."""
-    scheduler = dask_process(
-        *("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"),
-        *("--dashboard-address", "127.0.0.1:0"),
-    )
-    running = [scheduler]
-    try:
-        assert scheduler.stderr is not None
-        address = ""
-        for line in scheduler.stderr:
-            if found := re.search(r"Scheduler at:\s+(tcp://\S+)", line):
-                address = found[1]
-                break
-        assert address
-        # what they say is read, or they would wait for room to say it
-        threading.Thread(target=scheduler.stderr.read, daemon=True).start()
-        workers = []
-        for _ in range(2):
-            worker = dask_process(
-                *("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny"),
-                *("--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"),
-            )
-            assert worker.stderr is not None
-            threading.Thread(target=worker.stderr.read, daemon=True).start()
-            workers.append(worker)
-        running += workers
-        yield address, scheduler, workers
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
+def dask_process(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
+    """A scheduler or a worker that ends with the test."""
+    command = [sys.executable, "-m", *arguments]
+    command += ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0"]
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True)
+    stack.callback(process.wait)
+    stack.callback(process.kill)
+    return process
 
 
 class InBackground(threading.Thread):
@@ -534,63 +437,61 @@ class InBackground(threading.Thread):
 
     def __init__(self, store: Path, address: str) -> None:
         super().__init__(daemon=True)
-        self.store, self.address = store, address
+        self.asked: dict[str, Any] = {"client": address, "store": store}
         self.error: BaseException | None = None
         self.start()
 
     def run(self) -> None:
         try:
-            sweep(
-                RIG,
-                OVER,
-                FEW,
-                client=self.address,
-                store=self.store,
-                settings=COARSE,
-                scenes_per_task=TASK,
-            )
+            sweep(RIG, OVER, FEW, **self.asked, settings=COARSE, scenes_per_task=TASK)
         except BaseException as error:
             self.error = error
 
 
 @pytest.mark.proof
 def test_killed_workers_and_schedulers_lose_nothing(
-    cluster: Any, reference: xarray.Dataset, tmp_path: Path
+    reference: xarray.Dataset, tmp_path: Path
 ) -> None:
-    address, scheduler, workers = cluster
-    from distributed import Client
+    with ExitStack() as stack:
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        address = f"tcp://127.0.0.1:{port}"
+        scheduler = dask_process(stack, "distributed.cli.dask_scheduler", "--port", str(port))
+        workers = [
+            dask_process(
+                stack, "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny"
+            )
+            for _ in range(2)
+        ]
+        from distributed import Client
 
-    with Client(address, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=300)
+        with Client(address, set_as_default=False, timeout=300) as client:
+            client.wait_for_workers(2, timeout=300)
 
-    # a worker dies: the sweep comes to its end all the same
-    first = tmp_path / "worker.zarr"
-    running = InBackground(first, address)
-    until(lambda: len(marks_of(first)) >= 5)
-    workers[0].kill()
-    done = files_of(first)
-    assert 5 * 5 <= len(done) < 60 * 5
-    running.join(300)
-    assert running.error is None
-    after = files_of(first)
-    assert {file: after[file] for file in done} == done
-    xarray.testing.assert_equal(xarray.open_zarr(first).load(), reference)
+        # a worker dies: the sweep comes to its end all the same
+        first = tmp_path / "worker.zarr"
+        running = InBackground(first, address)
+        until(lambda: len(marks_of(first)) >= 5)
+        workers[0].kill()
+        done = files_of(first)
+        assert 5 * 5 <= len(done) < 60 * 5
+        running.join(300)
+        assert running.error is None
+        assert done.items() <= files_of(first).items()
+        xarray.testing.assert_equal(xarray.open_zarr(first).load(), reference)
 
-    # the scheduler dies: the sweep says so, and goes on elsewhere
-    second = tmp_path / "scheduler.zarr"
-    running = InBackground(second, address)
-    until(lambda: len(marks_of(second)) >= 5)
-    scheduler.kill()
-    running.join(300)
-    assert isinstance(running.error, ConnectionError)
-    assert "is lost" in str(running.error)
-    workers[1].kill()
-    workers[1].wait()
+        # the scheduler dies: the sweep says so, and goes on elsewhere
+        second = tmp_path / "scheduler.zarr"
+        running = InBackground(second, address)
+        until(lambda: len(marks_of(second)) >= 5)
+        scheduler.kill()
+        running.join(300)
+        assert isinstance(running.error, ConnectionError)
+        assert "is lost" in str(running.error)
     done = files_of(second)
     assert 5 * 5 <= len(done) < 60 * 5
     found = sweep(RIG, OVER, FEW, store=second, settings=COARSE)
-    after = files_of(second)
-    assert {file: after[file] for file in done} == done
+    assert done.items() <= files_of(second).items()
     xarray.testing.assert_equal(found.load(), reference)
 
 
@@ -630,8 +531,7 @@ def test_a_killed_program_goes_on_where_it_was(reference: xarray.Dataset, tmp_pa
     assert "1,200 scenes (20 extent × 60 fy), 4 numbers of each" in second.stdout
     assert "1,200 complete" in second.stdout
     assert "1.20k/1.20k" in second.stderr
-    after = files_of(out)
-    assert {name: after[name] for name in done} == done
+    assert done.items() <= files_of(out).items()
     xarray.testing.assert_equal(xarray.open_zarr(out).load(), reference)
 
 
@@ -670,23 +570,15 @@ def test_a_file_is_read() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("[sweep]", "[sweap]", "sweap"),
-        ("[sweep.over]", "[sweep.ower]", "ower"),
         ('outputs = ["k_yy_*", "loaded_balls_mean"]', "", "outputs of sweep"),
-        ('"loaded_balls_mean"', "7", "outputs of sweep"),
         ('"loaded_balls_mean"', '"loaded"', "name in outputs"),
         ("cage_angles = 13", "cage_angles = 1", "cage_angles"),
-        ("cage_angles = 13", 'cage_angles = "13"', "cage_angles"),
         ("duration = 0.05", "duration = true", "duration"),
         ("num = 20", "num = 2000000000", "num of extent"),
-        ("num = 20", "num = 2.5", "num of extent"),
         ("num = 20", "step = 20", "start, stop, num"),
         ("stop = 1.5", "stop = inf", "stop of extent"),
-        ("stop = 1.5", 'stop = "1.5"', "stop of extent"),
         ("start = 0.0, stop = 1.5", "start = -1e308, stop = 1.7e308", "stop of extent"),
-        ("fy = {start", "extent_deg = {start", "extent_deg"),
         ("fy = {", f"fy = [-{10**400}]\nfz = {{", "value of fy"),
-        ("num = 20", f"num = {10**400}", "num of extent"),
         ("shaft_speed", "shaft_sped", "shaft_sped"),
         ("version = 1", "version = 2", "version"),
         ("[sweep]", "[sweep", "allowed: TOML"),
@@ -763,16 +655,3 @@ def test_a_full_disk_is_said_in_one_sentence(
     said = capfd.readouterr()
     assert "Traceback" not in said.err + said.out
     assert "Compute Failed" not in said.err + said.out
-
-
-def test_a_worker_that_dies_while_it_starts_is_told_of_in_words(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    import distributed
-
-    def dying(*_: object, **__: object) -> object:
-        raise RuntimeError("Nanny failed to start.")
-
-    monkeypatch.setattr(distributed, "LocalCluster", dying)
-    with pytest.raises(RuntimeError, match="a worker ended while it was starting"):
-        sweep(presets["fan-rig"], {"fy": [-50.0]}, ["k_xx_mean"], processes=True, workers=2)

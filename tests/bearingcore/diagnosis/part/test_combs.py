@@ -6,12 +6,10 @@ import pytest
 from bearingcore.diagnosis.part.combs import (
     HARMONICS,
     comb_level,
-    cut,
     lines_at,
-    near_multiples,
     noise_level,
 )
-from bearingcore.signals.line_levels import LineLevels, line_levels
+from bearingcore.signals.line_levels import line_levels
 
 
 def test_the_loudest_line_does_not_count():
@@ -22,24 +20,6 @@ def test_the_loudest_line_does_not_count():
     only = np.zeros((HARMONICS, 1))
     only[0] = 40.0  # a tone
     assert comb_level(only)[0] == 0.0
-
-
-def test_harmonics_are_found_a_step_beside_and_are_nothing_above_the_end():
-    level = np.zeros(1000)
-    level[[100, 201, 299]] = 5.0
-    found = lines_at(level, 0.5, np.array([50.0]), 12)
-    np.testing.assert_array_equal(found[:3, 0], 5.0)
-    np.testing.assert_array_equal(found[3:, 0], 0.0)
-
-
-def test_lines_of_the_shaft_are_put_to_nothing():
-    level = np.full(400, 12.0)
-    levels = LineLevels(0.5, level, level, 1.0, level)
-    cleared = cut(levels, near_multiples(levels, 30.0, 0.6))
-    frequency = 0.5 * np.arange(400)
-    on_shaft = np.abs(frequency - 30.0 * np.rint(frequency / 30.0)) <= 0.6
-    assert (cleared[on_shaft] == 0.0).all()
-    assert (cleared[~on_shaft] == 12.0).all()
 
 
 @pytest.mark.parametrize("averages", [1, 4])

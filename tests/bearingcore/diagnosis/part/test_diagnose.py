@@ -79,21 +79,11 @@ def test_the_damaged_part_is_named_with_its_lines(damaged, part):
     assert abs(own.slip) <= 0.02
     assert own.order == pytest.approx(own.frequency / (found.shaft_speed / TURN))
     assert own.lead > 5.0
-    assert own.probability == found.probability
-    assert own.harmonics.shape == (6,)
-    assert own.sidebands.shape == (6, 2)
-    assert own.sideband_source == ("cage" if part == "ball" else "shaft")
-    assert found.spectrum.band == own.band
+    # what turns through the load zone has sidebands
+    weaker = own.level - own.sidebands[:3].mean()
+    assert weaker > 8.0 if part == "outer race" else weaker < 12.0
     for other in set(PARTS) - {part}:
         assert found.of(other).level < own.level - 3.0
-
-
-def test_what_turns_through_the_load_has_sidebands_and_what_stands_still_has_none(damaged):
-    for part in ("inner race", "ball"):
-        own = answer(damaged[part]).of(part)
-        assert own.sidebands[:3].mean() > own.level - 12.0
-    own = answer(damaged["outer race"]).of("outer race")
-    assert own.sidebands[:3].mean() < own.level - 8.0
 
 
 def test_a_ball_that_slips_and_wanders_is_named_by_its_broad_lines():
@@ -134,12 +124,10 @@ def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_fir
     assert all(one.diagnosis.fault == "inner race" for one in found)
     assert abs(found[0].slip) < 0.02
     assert found[0].level > 5.0
-    asked = []
-    assert explaining_bearings(
-        recording, listed, MOTOR.shaft_speed,
-        goes_on=lambda done, of: bool(asked.append((done, of))),
-    ) == ()  # fmt: skip
-    assert asked == [(0, len(listed))]
+    cancelled = explaining_bearings(
+        recording, listed, MOTOR.shaft_speed, goes_on=lambda done, of: False
+    )
+    assert cancelled == ()
 
 
 def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_them():
@@ -154,11 +142,6 @@ def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_the
     assert "ball may have marked" in stronger.sentence
 
 
-def test_every_status_has_a_sentence():
-    for status in DiagnosisStatus:
-        assert status.sentence.endswith(".")
-
-
 def test_a_healthy_machine_is_told_so_in_words(healthy):
     found = answer(healthy)
     assert found.fault == NONE_SEEN
@@ -168,21 +151,17 @@ def test_a_healthy_machine_is_told_so_in_words(healthy):
     assert found.detectable_depth < 0.06
 
 
-@pytest.mark.parametrize("decibels", [30.0, 0.0])
 @pytest.mark.parametrize("kind", [*PARTS, HEALTHY])
-def test_signals_of_any_machine_are_named_rightly_or_not_at_all(kind, decibels):
+def test_signals_of_any_machine_are_named_rightly_or_not_at_all(kind):
     right = 0
     for number in range(2):
-        rng = np.random.default_rng([5, (*PARTS, HEALTHY).index(kind), number, int(decibels)])
-        machine, recording = draw_signal(kind, rng, decibels)
+        rng = np.random.default_rng([5, (*PARTS, HEALTHY).index(kind), number, 0])
+        machine, recording = draw_signal(kind, rng, 0.0)
         found = diagnose(recording, machine.bearing, machine.shaft_speed)
         truth = NONE_SEEN if kind == HEALTHY else kind
         assert found.fault in (truth, CANNOT_TELL)
         right += found.fault == truth
     assert right >= 1
-
-
-# -- what is no damage -----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -192,12 +171,6 @@ def test_tones_on_the_lines_are_no_damage(healthy, part):
     rng = np.random.default_rng(14)
     tones = sum(tone(time, k * MOTOR.lines[part], rng, 1.0) for k in (1, 2, 3))
     assert answer(healthy + tones).fault == NONE_SEEN
-
-
-def test_a_swelling_noise_on_one_line_is_no_damage(healthy):
-    time = np.arange(len(healthy)) / MOTOR.rate
-    swell = 1.0 + 0.3 * np.cos(TURN * MOTOR.lines["outer race"] * time)
-    assert answer(healthy * swell).fault not in PARTS
 
 
 def test_a_gear_that_swells_every_turn_is_no_damage(healthy):
@@ -217,18 +190,6 @@ def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     assert found.other.frequency == pytest.approx(MOTOR.lines[part], rel=0.012) or (
         abs(found.other.frequency / MOTOR.lines[part] - 0.5) < 0.01
     )
-
-
-def test_an_inner_race_is_not_taken_for_a_ball_of_another_bearing():
-    """BPFI 4.755 of the one is 2 BSF 4.714 of the other within the slip: sidebands tell."""
-    machine = Machine(8, 0.235 / 1.245, 25.0, 20_000.0, 3.0)
-    signal = made("inner race", 15.0, 4, machine)
-    assert answer(signal, machine).fault == "inner race"
-    wrong = dataclasses.replace(machine, n_balls=9, ratio=7.94 / 39.04)
-    assert answer(signal, wrong).fault not in PARTS
-
-
-# -- speed -----------------------------------------------------------------------------------------
 
 
 def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
@@ -272,15 +233,6 @@ def test_a_speed_the_recording_carries_is_taken(damaged):
     found = diagnose(recording, MOTOR.bearing, None)
     assert found.fault == "outer race"
     assert found.speed_source.startswith("given by the recording")
-
-
-def test_a_speed_told_one_percent_wrong_does_no_harm(damaged):
-    for factor in (0.99, 1.01):
-        found = answer(damaged["inner race"], speed=factor * MOTOR.shaft_speed)
-        assert found.fault == "inner race"
-
-
-# -- poor recordings -------------------------------------------------------------------------------
 
 
 def test_scale_sign_and_offset_change_nothing(damaged):
@@ -356,29 +308,21 @@ def test_too_low_a_rate_is_said():
 
 
 @pytest.mark.parametrize(
-    ("speed", "told"),
+    ("given", "told"),
     [
-        (0.0, "shaft_speed is 0"),
-        (-3.0, "shaft_speed is -3"),
-        (math.nan, "shaft_speed is nan"),
-        ((3.0, 2.0), "upper shaft_speed is 2"),
-        ((0.0, 2.0), "lower shaft_speed is 0"),
-        ((1.0, 2.0, 3.0), "shaft_speed"),
-        ("fast", "shaft_speed"),
+        ({"speed": 0.0}, "shaft_speed is 0"),
+        ({"speed": math.nan}, "shaft_speed is nan"),
+        ({"speed": (3.0, 2.0)}, "upper shaft_speed is 2"),
+        ({"speed": (0.0, 2.0)}, "lower shaft_speed is 0"),
+        ({"speed": (1.0, 2.0, 3.0)}, "shaft_speed"),
+        ({"speed": "fast"}, "shaft_speed"),
+        ({"slip": -0.01}, "slip"),
+        ({"slip": 0.2}, "slip"),
     ],
 )
-def test_a_speed_that_cannot_be_is_refused(healthy, speed, told):
+def test_a_speed_or_slip_that_cannot_be_is_refused(healthy, given, told):
     with pytest.raises(ValueError, match=told):
-        answer(healthy, speed=speed)
-
-
-def test_a_slip_that_cannot_be_is_refused(healthy):
-    for slip in (-0.01, 0.2, math.nan):
-        with pytest.raises(ValueError, match="slip"):
-            answer(healthy, slip=slip)
-
-
-# -- real machines ---------------------------------------------------------------------------------
+        answer(healthy, **given)
 
 
 @pytest.mark.skipif("BEARING_RECORDS" not in os.environ, reason="BEARING_RECORDS names no folder")

@@ -1,7 +1,5 @@
 """The scoreboard: documents and page say what it says, and the numbers it set are those in use."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

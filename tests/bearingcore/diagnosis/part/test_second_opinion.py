@@ -1,16 +1,12 @@
 """Knocks that whitening hides, computed signals, and motions that repeat every second knock."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
-from scipy.signal import butter, sosfiltfilt
 
 from bearingcore import Recording, diagnose
-from bearingcore.diagnosis.part import diagnose as diagnosing
-from tests.bearingcore.diagnosis.signals_made import Machine, background
+from tests.bearingcore.diagnosis.signals_made import Machine
 
 MOTOR = Machine(9, 7.94 / 39.04, 29.53, 12_000.0, 10.0)
 TIME = np.arange(int(MOTOR.duration * MOTOR.rate)) / MOTOR.rate
@@ -33,12 +29,6 @@ def answer(signal: np.ndarray, speed: float = MOTOR.shaft_speed):
     return diagnose(Recording(signal, MOTOR.rate, ("y",)), MOTOR.bearing, speed)
 
 
-def hum(level: float, low: float, high: float, seed: int = 7) -> np.ndarray:
-    noise = np.random.default_rng(seed).standard_normal(len(TIME))
-    part = sosfiltfilt(butter(4, (low, high), "bandpass", fs=MOTOR.rate, output="sos"), noise)
-    return level * part / part.std()
-
-
 @pytest.fixture(scope="module")
 def hidden() -> np.ndarray:
     """An inner race that knocks as steadily as a tone, beneath another source in a lower band."""
@@ -49,13 +39,11 @@ def hidden() -> np.ndarray:
     return 0.5 * knocking / knocking.std() + 4.0 * elsewhere / elsewhere.std() + noise
 
 
-def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere(hidden, monkeypatch):
+def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere(hidden):
     found = answer(hidden)
     assert found.fault == "inner race"
     assert found.probability < 0.99
     assert found.of("inner race").band.low > 2000.0
-    monkeypatch.setattr(diagnosing, "_second_opinion", lambda *told: told[2])
-    assert answer(hidden).fault != "inner race"
 
 
 def test_the_other_source_alone_names_no_part():
@@ -66,12 +54,6 @@ def test_the_other_source_alone_names_no_part():
     swelling = steady(4.286 * MOTOR.turns, 600.0) * turning_with(MOTOR.turns)
     signal = 4.0 * swelling / swelling.std() + rng.standard_normal(len(TIME))
     assert answer(signal).fault == "cannot tell"
-
-
-def test_gears_and_tones_that_are_not_whitened_name_no_part():
-    for seed in range(3):
-        healthy = background(MOTOR, np.random.default_rng([31, seed]))
-        assert answer(healthy).fault in ("none seen", "cannot tell")
 
 
 @pytest.mark.parametrize("strengths", [(1.0,), (1.0, 0.6), (1.0, 0.8, 0.5)])

@@ -479,6 +479,11 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     expect(answer).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Probability .* long|not show"))).to_be_in_viewport()
     expect(visitor.main.get_by_text(re.compile("Impacts at .*Hz")).first).to_be_in_viewport()
+    table = visitor.main.get_by_role("region", name="Evidence for each part").bounding_box()
+    below = visitor.main.get_by_text(re.compile("^Damage on the outer race: ")).bounding_box()
+    assert table is not None
+    assert below is not None
+    assert table["y"] + table["height"] <= below["y"] + 1.0
     name, sheet = visitor.download(lambda: visitor.press("Report on one page"))
     (tmp_path / name).write_bytes(sheet)
     page = browser.new_page()

@@ -33,7 +33,7 @@ from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
-from bearing_explorer.widgets.form import stack
+from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 FIELDS: list[LookField] = [
     {
@@ -99,7 +99,9 @@ class PartDiagnosis(MeasuredView):
         )
         self.panel_of_look = LookPanel(self.look_changed, FIELDS)
         self._show_look()
-        self._seen = stack(self.lines.plot, self.evidence, visible=False)
+        self._seen = stack(
+            self.lines.plot, self.evidence, visible=False, stylesheets=[AS_HIGH_AS_SHOWN]
+        )
         self.candidates = ListedBearings(self._take_listed, self._end_search)
         self.hidden = stack(
             self.part, self.candidates, self.panel_of_look, self._seen, visible=False

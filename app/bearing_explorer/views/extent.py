@@ -22,7 +22,7 @@ from bearingcore import Bearing, Diagnosis, MeasuredExtent
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
-from bearing_explorer.widgets.form import stack
+from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 HEIGHT = 236
 BANDS = 3
@@ -70,7 +70,7 @@ class SpallExtent(MeasuredView):
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self._size = StickyRange(0.0, 1.0)
         self.plot = self._plot(packed)
-        self._seen = stack(self.status, self.plot, visible=False)
+        self._seen = stack(self.status, self.plot, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
         self.hidden = stack(self.panel_of_look, self._seen, visible=False)
         return self.hidden
 

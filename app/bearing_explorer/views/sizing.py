@@ -28,7 +28,7 @@ from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
-from bearing_explorer.widgets.form import FieldSpec, stack
+from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
 from bearingcore.common.numbers import with_deviation
@@ -89,7 +89,13 @@ class DefectSize(JobView[Sized], MeasuredView):
         self._rows = {}
         for dof in SHOWN:
             self._rows[dof] = stack(self._pass_plot(packed, dof, seconds, events))
-        self._answer_part = stack(self.status, self.candidates, *self._rows.values(), visible=False)
+        self._answer_part = stack(
+            self.status,
+            self.candidates,
+            *self._rows.values(),
+            visible=False,
+            stylesheets=[AS_HIGH_AS_SHOWN],
+        )
         self.hidden = stack(self.job, self._answer_part, visible=False)
         return self.hidden
 

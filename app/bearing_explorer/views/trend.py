@@ -40,7 +40,7 @@ from bearing_explorer.views.measured_view import (
     shown_unit,
 )
 from bearing_explorer.views.python_lines import code_of, scene_code, short
-from bearing_explorer.widgets.form import FieldSpec, stack
+from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from bearingcore.diagnosis.trend import LINES
@@ -132,7 +132,9 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         key = style.legend((COLORS[line], "━", LABELS[line]) for line in LINES)
         plots = list(self._plots.values())
         self._key_of_lines = pn.pane.HTML(key, margin=0)
-        self._results_part = stack(*plots[:2], self._key_of_lines, *plots[2:])
+        self._results_part = stack(
+            *plots[:2], self._key_of_lines, *plots[2:], stylesheets=[AS_HIGH_AS_SHOWN]
+        )
         self.hidden = stack(self.job, self._results_part, visible=False)
         return self.hidden
 

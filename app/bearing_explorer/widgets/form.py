@@ -75,6 +75,13 @@ def stack(*parts: Any, **params: Any) -> pn.Column:
     return pn.Column(*parts, **({"margin": 0} | params))
 
 
+AS_HIGH_AS_SHOWN = ":host { min-height: min-content !important; }"
+"""Style sheet of a stack within that of a card: as high as what is visible of it.
+
+Panel adds up the least heights of figures, also of hidden ones, and counts none for text.
+"""
+
+
 def _common(params: Mapping[str, Any]) -> dict[str, Any]:
     common = {"width": None, "margin": 0, "align": "end", "stylesheets": [asset_text("form.css")]}
     return common | dict(params)

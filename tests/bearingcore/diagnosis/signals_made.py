@@ -6,8 +6,6 @@ bearing's own lines. Frequencies are written out here once more: a method is nev
 reference.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Simulated measurements of small pits, with balls that have mass."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -57,14 +57,6 @@ def test_it_ends_where_it_is_cancelled_with_what_it_has():
     assert len(found.points) == 2
 
 
-def test_time_is_that_of_dates_in_all_names():
-    names = ("2004.02.12.10.32.39", "2004.02.12.12.02.39")
-    dated = trend([recorded(0.1, name) for name in names], BEARING, SPEED, band=BAND)
-    assert dated.hours == pytest.approx([0.0, 1.5])
-    mixed = trend([recorded(0.1, name) for name in (names[0], "b")], BEARING, SPEED, band=BAND)
-    assert np.isnan(mixed.hours).all()
-
-
 def test_what_is_not_known_is_not_a_number():
     short = trend([recorded(0.5, duration=0.1)], BEARING, SPEED, band=BAND)
     assert math.isnan(short.column("lines")[0, LINES.index("ftf")])

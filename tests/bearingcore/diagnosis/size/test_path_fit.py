@@ -1,7 +1,5 @@
 """Paths: the evidence is that of a Gaussian process, and a path that was there is found again."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -64,13 +62,3 @@ def test_a_path_that_was_there_is_found_again() -> None:
     # what rings before it is struck is none: the same path turned round in time is not taken up
     backwards = one.left((pass_ * transfer.conj())[None])[0]
     assert backwards > 10.0 * one.left(rest[None])[0]
-
-
-def test_no_path_is_no_more_than_the_noise() -> None:
-    one = PathFit(PathModel(0.0, 0.0, 1e-9), ORDER, FREQUENCY, NOISE).explained(
-        simulated()[None], np.zeros(1)
-    )
-    rest = 0.1 * simulated(5)
-    plain = float((np.abs(rest) ** 2 / NOISE).mean())
-    assert one.misfit(rest[None, None])[0, 0] == pytest.approx(plain, rel=1e-6)
-    assert one.complexity[0] == pytest.approx(0.0, abs=1e-9)

@@ -10,22 +10,24 @@ import pytest
 
 from bearingcore import Defect, Scene, presets, simulate
 from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
-from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT, Search
+from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT
 from bearingcore.diagnosis.size.judge import judged
-from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.sizing import size_defect
-from bearingcore.diagnosis.size.synthesis import Simulator, comparison_band
-from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.diagnosis.size.synthesis import Simulator
+from bearingcore.diagnosis.size.variants import STEADY, Tolerances, variant
 from bearingcore.files.table import read_table
 from bearingcore.scene.pit import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing import FAMILIES, as_given, size_all
+from tests.helpers.path_effects import PathEffects, recorded_through
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 from tests.helpers.simulated import simulated_recording
 
 sized_by = partial(size_defect, support_known=True)
 """Sizing where the scene's support is that of the machine."""
+
+SPACING = RIG.bearing.ball_spacing
 
 
 @pytest.fixture(scope="module")
@@ -82,40 +84,38 @@ def test_the_paper_s_two_defects_are_told_apart(paper, extent, turns):
     extents = [c.extent for c in sized.candidates]
     assert extents == sorted(extents)
     assert len(extents) >= 4
+    away, stated = sized.best.extent - math.radians(extent), sized.extent_uncertainty
+    assert abs(away) < 4.0 * stated < math.radians(1.2)
 
 
-def test_an_answer_that_leaves_much_unexplained_is_refused(paper):
+@pytest.mark.parametrize(
+    ("changes", "best", "status", "words"),
+    [
+        ({}, {"waveform_misfit": np.array([0.4, 0.6])}, SizingStatus.UNEXPLAINED, "leaves 50 %"),
+        ({"quality": {"strongest": 0.8, "harmonics": 1.5}}, {}, SizingStatus.ONE_TONE, "80 %"),
+        ({"chance": 0.2}, {}, SizingStatus.BY_CHANCE, "by chance"),
+        ({"apart": math.radians(3.0)}, {}, SizingStatus.WIDE, "from 10° to 16°"),
+        ({"apart": math.radians(2.0)}, {}, SizingStatus.SIZED, ""),
+        ({}, {"extent": LEAST_EXTENT}, AT_MOST, "at most: shorter ones cannot"),
+        ({}, {"extent": GREATEST_EXTENT}, AT_LEAST, "at least"),
+        # as a ball enters another leaves: a spall of a whole spacing knocks like a pit
+        ({}, {"extent": SPACING + math.radians(0.8)}, SizingStatus.LIKE_A_PIT, "a pit shorter"),
+        ({}, {"extent": SPACING - math.radians(0.8)}, SizingStatus.LIKE_A_PIT, "a pit shorter"),
+        ({}, {"extent": SPACING + math.radians(6.0)}, SizingStatus.SIZED, ""),
+    ],
+)
+def test_answers_are_refused_or_bounds_where_the_signal_does_not_say(
+    paper, changes, best, status, words
+):
     sized = paper[12.9]
-    poor = dataclasses.replace(sized.best, waveform_misfit=np.array([0.4, 0.6]))
+    if "quality" in changes:
+        changes = {"quality": dataclasses.replace(sized.quality, **changes["quality"])}
+    changed = dataclasses.replace(sized.best, **best)
     others = [c for c in sized.candidates if c is not sized.best]
-    status, words = judged(dataclasses.replace(sized, candidates=(poor, *others)))
-    assert status == SizingStatus.UNEXPLAINED
-    assert words.startswith("The size of the defect is not clear")
-    assert "leaves 50 % of the mean ball pass unexplained" in words
-
-
-def test_a_pass_that_lives_on_one_tone_or_is_explained_by_chance_is_refused(paper):
-    sized = paper[12.9]
-    tone = dataclasses.replace(sized.quality, strongest=0.8, harmonics=1.5)
-    status, words = judged(dataclasses.replace(sized, quality=tone))
-    assert status == SizingStatus.ONE_TONE
-    assert "one harmonic carries 80 %" in words
-    status, words = judged(dataclasses.replace(sized, chance=0.2))
-    assert status == SizingStatus.BY_CHANCE
-    assert "by chance" in words
-
-
-def test_an_extent_at_an_end_of_the_search_is_a_bound(paper):
-    sized = paper[12.9]
-    others = [c for c in sized.candidates if c is not sized.best]
-    for extent, bound, words in (
-        (LEAST_EXTENT, AT_MOST, "at most: shorter ones cannot"),
-        (GREATEST_EXTENT, AT_LEAST, "at least"),
-    ):
-        edge = dataclasses.replace(sized.best, extent=extent)
-        answer = judged(dataclasses.replace(sized, candidates=(edge, *others)))
-        assert answer.status == bound
-        assert words in answer.sentence
+    claim = dataclasses.replace(sized, candidates=(changed, *others), **changes)
+    answer = judged(claim)
+    assert answer.status == status
+    assert words in answer.sentence
 
 
 def test_no_size_is_looked_for_where_another_part_is_accused_or_none():
@@ -157,13 +157,6 @@ def test_event_times_are_those_of_the_balls_in_the_recording():
         assert len(times) in (48, 49)
 
 
-def test_one_direction_is_enough():
-    scene = RIG.replace(extent=math.radians(38.6))
-    signal = noisy(signal_of(scene), 30.0)[:, 1]
-    sized = sized_by(Recording(signal, RATE, ("y",)), scene)
-    assert math.degrees(sized.best.extent) == pytest.approx(38.6, abs=0.3)
-
-
 @pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
     rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
@@ -176,9 +169,9 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     assert "no lines stand out" in insisted.sentence
     still = Recording(noisy(signal_of(rig.healthy()), 20.0), RATE)
     elsewhere = rig.replace(shaft_speed=1.07 * rig.shaft_speed)
-    for fault in (None, "outer race"):
-        assert not sized_by(still, rig, fault=fault).conclusive
-        assert not sized_by(Recording(signal_of(rig), RATE), elsewhere, fault=fault).conclusive
+    assert not sized_by(still, rig, fault="outer race").conclusive
+    moved = Recording(signal_of(rig), RATE)
+    assert not sized_by(moved, elsewhere, fault="outer race").conclusive
 
 
 def test_progress_rises_and_may_end_the_work():
@@ -241,14 +234,6 @@ def test_averages_find_the_frequency_and_lose_the_noise():
     assert found.prominence > 10.0
 
 
-@pytest.mark.parametrize("rate", [16_016.0, 16_000.0 / 1.001, 12_345.678, 20_480.0])
-def test_any_rate_allows_what_it_allows(rate):
-    """0.4 of a rate times 2.5 is more than the rate for some, by rounding."""
-    signal = np.random.default_rng(1).standard_normal((round(rate), 1))
-    found = average_passes(signal, rate, 40.0, 0.01, 100.0, 1000.0, 0.4 * rate)
-    assert len(found.harmonics) == math.floor(0.4 * rate / found.frequency)
-
-
 def marched(scene, frequency, count, columns) -> BallPasses:
     """Ball passes by `simulate`, of a long motion with fine steps."""
     n, settle, passes = 600, 90, 30
@@ -260,45 +245,6 @@ def marched(scene, frequency, count, columns) -> BallPasses:
     each = coefficients(signal.reshape(passes, n, len(columns)), count)
     power = (np.abs(each) ** 2).mean(axis=0)
     return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
-
-
-def test_a_synthesised_pass_matches_itself_turned():
-    scene = RIG
-    band = comparison_band(scene, RATE)
-    frequency = scene.bearing.bpfo(scene.shaft_speed)
-    passes = marched(scene, frequency, 61, (0, 1))
-    target = Target(passes, band)
-    turn = np.exp(-1j * 1.234 * np.arange(1, 62))[:, None]
-    match = target.match((passes.harmonics * turn)[None], passes.power[None])
-    assert match.lag[0] == pytest.approx(1.234, abs=1e-3)
-    assert match.waveform_misfit.max() < 1e-4
-    assert match.spectrum_misfit.max() < 1e-4
-    other = marched(scene.replace(extent=math.radians(38.6)), frequency, 61, (0, 1))
-    assert target.match(other.harmonics[None], other.power[None]).waveform_misfit.min() > 0.3
-
-
-def test_refining_finds_a_scene_whose_numbers_are_off():
-    """Load 8 % and stiffness 3 % off, extent half a step of the library: all three are found."""
-    offsets = np.array([0.03, 0.0, 0.08, 0.0, 0.0])
-    truth = variant(RIG, math.radians(20.0), "published", offsets)
-    recording = Recording(signal_of(truth), RATE)
-    band = comparison_band(RIG, RATE)
-    nominal = RIG.bearing.bpfo(RIG.shaft_speed)
-    passes = average_passes(recording.acceleration, RATE, nominal, 0.01, *_edges(band))
-    search = Search(RIG, Target(passes, band), (0, 1), Tolerances())
-    guess = search.guess(math.radians(20.25), "published", np.zeros(5))
-    first = guess.score
-    for _ in range(9):
-        guess = search.refined(guess)
-    assert guess.score > first + 10.0
-    assert math.degrees(guess.extent) == pytest.approx(20.0, abs=0.1)
-    found = guess.offsets * Tolerances().spread
-    assert found[0] == pytest.approx(0.03, abs=0.01)
-    assert found[2] == pytest.approx(0.08, abs=0.03)
-
-
-def _edges(band):
-    return band.lowest, band.highest, band.highest
 
 
 @pytest.mark.proof
@@ -344,19 +290,6 @@ def test_a_simulator_varies_structs_as_scenes_are_varied():
         assert apart(marched(scene, frequency, 40, (0, 1)).harmonics, passes.harmonics) < 2e-3
 
 
-def test_a_motion_that_goes_on_from_its_neighbour_s_ends_in_the_same_pass():
-    frequency = RIG.bearing.bpfo(RIG.shaft_speed)
-    simulator = Simulator(RIG, frequency, 60, (0, 1))
-    nothing = np.zeros(5)
-    _, begin = simulator.passes(math.radians(20.0), "published", nothing)
-    settled, _ = simulator.passes(math.radians(20.5), "published", nothing)
-    soon, _ = simulator.passes(math.radians(20.5), "published", nothing, 0.005, begin)
-    assert soon.n_passes < settled.n_passes
-    assert apart(settled.harmonics, soon.harmonics) < 1e-3
-    other, _ = simulator.passes(math.radians(20.0), "published", nothing)
-    assert apart(settled.harmonics, other.harmonics) > 0.01
-
-
 def test_short_pits_are_stepped_finely_enough():
     """A pit of half a step of the usual ones against steps twelve times as many."""
     frequency = RIG.bearing.bpfo(RIG.shaft_speed)
@@ -367,18 +300,6 @@ def test_short_pits_are_stepped_finely_enough():
         for steps in (9.0, 400.0)
     ]
     assert apart(passes[1].harmonics, passes[0].harmonics) < 0.02
-
-
-def test_a_spall_of_whole_ball_spacings_is_not_told_from_a_pit(paper):
-    """As a ball enters another leaves: both knock as one."""
-    sized = paper[38.6]
-    spacing = sized.best.scene.bearing.ball_spacing
-    others = [c for c in sized.candidates if c is not sized.best]
-    for rest, told in ((0.8, False), (-0.8, False), (6.0, True)):
-        alike = dataclasses.replace(sized.best, extent=spacing + math.radians(rest))
-        status, words = judged(dataclasses.replace(sized, candidates=(alike, *others)))
-        assert status == (SizingStatus.SIZED if told else SizingStatus.LIKE_A_PIT)
-        assert told or "a pit shorter than" in words
 
 
 @pytest.mark.parametrize(("speed", "bounded"), [(9.0, False), (30.0, True)])
@@ -396,22 +317,14 @@ def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed
         assert sized.best.extent == pytest.approx(truth.extent, abs=math.radians(0.08))
 
 
-def test_extents_nearly_as_good_and_far_apart_are_no_answer(paper):
-    sized = paper[12.9]
-    status, words = judged(dataclasses.replace(sized, apart=math.radians(3.0)))
-    assert status == SizingStatus.WIDE
-    assert "extents from 10° to 16° explain it nearly as well" in words
-    assert judged(dataclasses.replace(sized, apart=math.radians(2.0))).status == SizingStatus.SIZED
-
-
-def test_every_status_has_a_sentence():
-    assert all(status.sentence.endswith(".") for status in SizingStatus)
-
-
-def test_stated_deviations_are_those_of_the_errors(paper):
-    """Neither far too small nor far too great, on the paper's defects at 20 dB."""
-    for extent, sized in paper.items():
-        away = abs(math.degrees(sized.best.extent) - extent)
-        stated = math.degrees(sized.extent_uncertainty)
-        assert away < 4.0 * stated
-        assert stated < 0.3
+def test_a_defect_is_sized_behind_a_wandering_cage_and_a_ringing_path() -> None:
+    scene = RIG.replace(extent=math.radians(44.4), fy=-160.0, shaft_speed=2.0 * math.pi * 12.0)
+    recording = recorded_through(scene, PathEffects(), seed=5)
+    told = scene.replace(extent=0.5)
+    sized = size_defect(recording, told, fault="outer race", support_known=True)
+    assert math.degrees(sized.best.extent) == pytest.approx(44.4, abs=1.0)
+    assert sized.best.turns == 1
+    assert sized.passes.begins is not None
+    lost = size_defect(recording, told, fault="outer race", support_known=True, path=STEADY)
+    assert lost.passes.begins is None
+    assert not lost.conclusive

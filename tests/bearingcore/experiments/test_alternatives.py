@@ -1,7 +1,5 @@
 """Other models of a scene against its own: physics known beforehand, and a bounded cost."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable
@@ -22,8 +20,6 @@ from bearingcore.experiments.alternatives import (
 from bearingcore.signals.spectrum_difference import BAND, spectrum_difference
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium
 from tests.helpers.random_scenes import random_scenes
-
-FAN_RIG = presets["fan-rig"]
 
 
 def rows_of(name: str) -> dict[tuple[str, str], Alternative]:
@@ -58,17 +54,6 @@ def test_an_angular_contact_bearing_needs_its_tilts() -> None:
     assert rows["directions x y", "stiffness"].error > 0.1
     assert rows["directions x y", SPECTRUM].error > 3.0
     assert rows["1441 cage angles", "stiffness"].error < 0.1
-
-
-def test_a_shaft_at_rest_has_curves_alone() -> None:
-    rows = alternatives(FAN_RIG.replace(shaft_speed=0.0)).rows
-    assert [row.quantity for row in rows[:-1]] == ["stiffness"] * (len(rows) - 1)
-    assert math.isnan(rows[-1].error)
-    assert rows[-1].note.startswith("none: ")
-
-
-def test_it_ends_when_it_is_cancelled() -> None:
-    assert len(alternatives(FAN_RIG, lambda: True).rows) == 1
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,8 @@
 """Ways to march balls with mass, held against each other."""
 
-from __future__ import annotations
-
-import numpy as np
 import pytest
 
 from bearingcore import presets
-from bearingcore.experiments import balls
 from bearingcore.experiments.balls import BALL_METHODS, NO_MASS, balls_experiment
 from tests.helpers.timing import measure_once
 
@@ -46,17 +42,6 @@ def test_massless_balls_are_held_against_heavy_ones_in_five_directions_too() -> 
     assert default.in_use
     assert default.errors["0.3-2.1 kHz"] < massless.errors["0.3-2.1 kHz"]
     assert finer.errors["5-10 kHz"] < default.errors["5-10 kHz"] < 3.0
-
-
-def test_the_march_in_pieces_is_that_in_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene, shares = FAN_RIG.replace(balls="with mass"), []
-    march = BALL_METHODS["RK4 in velocities"]
-    whole = march(scene, 4, 0.03, 65536.0, lambda part: None)
-    monkeypatch.setattr(balls, "PIECE", 1000)
-    pieces = march(scene, 4, 0.03, 65536.0, shares.append)
-    assert pieces.calls == whole.calls
-    assert len(shares) == 8
-    assert np.allclose(pieces.history, whole.history, rtol=1e-9, atol=1e-9)
 
 
 def test_what_has_no_heavy_balls_is_refused_in_words() -> None:

@@ -228,14 +228,3 @@ def test_where_nothing_can_be_written_each_start_compiles_and_says_so(
     finally:
         for folder in (package, home):
             folder.chmod(0o755)
-
-
-def test_the_fingerprint_is_of_contents(tmp_path: Path) -> None:
-    """Those of folders inside too."""
-    (tmp_path / "inside").mkdir()
-    found = []
-    for text in ("x", "y"):
-        (tmp_path / "inside" / "a.py").write_text(text)
-        compiling.sources.cache_clear()
-        found.append(compiling.sources(tmp_path))
-    assert "" != found[0] != found[1] != ""

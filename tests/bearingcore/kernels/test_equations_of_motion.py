@@ -1,7 +1,5 @@
 """The compiled equations of motion against the independent contact law, every kind of bearing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -655,3 +655,14 @@ def test_a_full_disk_is_said_in_one_sentence(
     said = capfd.readouterr()
     assert "Traceback" not in said.err + said.out
     assert "Compute Failed" not in said.err + said.out
+
+
+@pytest.mark.parametrize("over", [{"extent": [0.1, 0.2]}, {"fx": [0.0]}], ids=["row", "single"])
+def test_what_nothing_carries_has_no_numbers(over: dict[str, list[float]]) -> None:
+    two_balls = RIG.replace(n_balls=2)  # the ring slips off sideways
+    found = sweep(two_balls, over, STATIC, settings=COARSE)
+    assert (found["status"] == code("load_not_carried")).all()
+    assert (found["converged_share"] == 0.0).all()
+    for name in found.data_vars:
+        if name not in ("status", "converged_share"):
+            assert np.isnan(found[name]).all(), name

@@ -19,6 +19,7 @@ from playwright.sync_api import BrowserContext, Page, expect
 from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
+from tests.browser.explorer_page import rest
 from tests.browser.helpers import ROOT, Server, Watch, drag
 from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
@@ -171,12 +172,13 @@ def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(desk: Visitor) -> No
 
 def test_what_cannot_be_is_refused_and_what_is_drawn_stays(desk: Visitor) -> None:
     desk.begin("Load")
+    rest(desk.page)
     before = desk.figures()
     for text in ("400", "a lot"):
         desk.type("Extent", text)
         desk.reads(re.compile("from 0 to 360"), desk.scene)
         desk.box("Extent").press("Escape")
-    desk.steady()
+    rest(desk.page)
     assert desk.figures() == before
     desk.type("Force, up", "0")  # nothing presses the balls
     desk.reads("No answer", desk.page.get_by_role("contentinfo"))

@@ -1,5 +1,5 @@
-// What BokehJS does anew at each repaint of a figure, and need not. Its private names of
-// BokehJS stand here; those of Bokeh and Panel in serve/fast.py.
+// What BokehJS does anew at each repaint of a figure, and need not. All private names of BokehJS
+// that the page uses stand here; those of Bokeh and Panel in server/bokeh_private.py.
 //
 // A slider that is dragged repaints up to ten figures thirty times a second, each with a few lines
 // of some hundred points. Most of that time goes into what is the same each time or is never seen:
@@ -28,6 +28,7 @@
 
   const renderer = view_of("GlyphRenderer")
   const line = view_of("Line")
+  const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
 
   // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
@@ -77,6 +78,22 @@
     }
   })
 
+  // Words in a figure follow the numbers, and then ask for all that the numbers have asked for.
+  const update_data = method(renderer, "update_data")
+  part("one update for all that asks for it", [update_data], () => {
+    const coming = new WeakMap()
+    renderer.update_data = function (indices) {
+      if (indices != null) return update_data.call(this, indices)
+      if (!coming.has(this)) {
+        coming.set(this, Promise.resolve().then(() => {
+          coming.delete(this)
+          return update_data.call(this)
+        }))
+      }
+      return coming.get(this)
+    }
+  })
+
   // Where which point is, for a mouse that hits it: found out when that is asked.
   const index_data = method(line, "index_data")
   const index = getter(line, "index")
@@ -91,6 +108,93 @@
       get() {
         if (waits.delete(this)) index_data.call(this)
         return index.call(this)
+      },
+    })
+  })
+
+  // ... and for ranges that follow the lines, which none here does: all are set.
+  const followed = getter(figure, "auto_ranged_renderers")
+  part("bounds of lines", [followed], () => {
+    Object.defineProperty(owner(figure, "auto_ranged_renderers"), "auto_ranged_renderers", {
+      configurable: true,
+      get() {
+        const all = followed.call(this)
+        const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
+        const set = ranges.every(({ type }) => type === "Range1d")
+        return set && all.every(({ model }) => model.coordinates === null) ? [] : all
+      },
+    })
+  })
+
+  // ... and to leave out what lies outside of a frame, which is clipped: a few dots may be painted.
+  const mask = method(line, "mask_data")
+  part("dots outside of a frame", [mask], () => {
+    const FEW = 200
+    owner(line, "mask_data").mask_data = function () {
+      if (this.data_size > FEW) delete this._mask_data  // the class has it still
+      else this._mask_data = null
+      return mask.call(this)
+    }
+  })
+
+  // An axis works out its ticks and their words six times a repaint; they follow from its ranges.
+  const ticks = getter(axis, "tick_coords")
+  const extents = getter(axis, "extents")
+  const labels = method(axis, "compute_labels")
+  part("ticks of axes", [ticks, extents, labels], () => {
+    const kept = new WeakMap()
+    const ends = (range) => [range.start, range.end]
+    const key_of = (view) => {
+      const known = Object.values(view.model.formatter.args ?? {})
+      const shown = known.filter((one) => typeof one?.start === "number").flatMap(ends)
+      return [...view.ranges.flatMap(ends), view.loc, ...shown]
+    }
+    const known = (view) => {
+      const key = key_of(view)
+      let found = kept.get(view)
+      if (found === undefined) {
+        const { model } = view
+        const forget = () => { kept.set(view, { key: [] }) }
+        view.connect(model.change, forget)
+        view.connect(model.ticker.change, forget)
+        view.connect(model.formatter.change, forget)
+      }
+      if (!found || found.key.length !== key.length || found.key.some((v, i) => v !== key[i]))
+        kept.set(view, found = { key, labels: new Map() })
+      found.labels ??= new Map()
+      return found
+    }
+    const numeric = (view) => view.ranges.every((range) => typeof range.start === "number")
+    const keep = (name, compute) => Object.defineProperty(owner(axis, name), name, {
+      configurable: true,
+      get() {
+        return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
+      },
+    })
+    keep("tick_coords", ticks)
+    keep("extents", extents)
+    owner(axis, "compute_labels").compute_labels = function (ticks) {
+      if (!numeric(this) || this._major_label_views?.size) return labels.call(this, ticks)
+      const { labels: found } = known(this)
+      const name = ticks.join()
+      if (!found.has(name)) found.set(name, labels.call(this, ticks))
+      return found.get(name)
+    }
+  })
+
+  // The size of letters in "em", which no figure here has: asking for it works out all styles.
+  const size = getter(figure, "base_font_size")
+  part("size of letters", [size], () => {
+    const sizes = new WeakMap()
+    Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
+      configurable: true,
+      get() {
+        if (!sizes.has(this)) {
+          const found = size.call(this)
+          if (found === null) return found
+          sizes.set(this, found)
+        }
+        return sizes.get(this)
       },
     })
   })

@@ -293,7 +293,7 @@ class Explorer:
         if self._on_screen != self._shown:
             await self._open_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
-        views = self._views[self._on_screen]
+        views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & Results.slow]
         quick = [view for view in views if view not in slow]
         # where nothing else follows the slider there is nothing to delay
@@ -336,7 +336,10 @@ class Explorer:
         results, drawn = dataclasses.replace(inputs, rested=True).results(give_up), inputs.results()
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
-        finer = [v for v in on_screen if not v.needs or drawn.is_finer_at_rest(v.needs)]
+        waited = [view for view in on_screen if view.at_rest or not view.needs]
+        finer = waited + [
+            view for view in on_screen if view not in waited and drawn.is_finer_at_rest(view.needs)
+        ]
         return picture_of(results, finer, limits=True, on_screen=on_screen)
 
     async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:

@@ -146,6 +146,8 @@ class View:
     equal_aspect: ClassVar[bool] = False
     #: whether it is in a report; one without `needs` only with the result of its job
     in_report: ClassVar[bool] = True
+    #: whether it is drawn only once the slider rests: nobody follows it with the hand
+    at_rest: ClassVar[bool] = False
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
     #: "unseen": for screen readers alone; "large"

@@ -72,6 +72,7 @@ class SlowPassage(BearingDrawing):
     )
     needs = frozenset({"excerpt"})
     prefix = "slow"
+    at_rest = True
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:

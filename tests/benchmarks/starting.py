@@ -40,20 +40,31 @@ class Start:
 
 
 async def picture_of(server: Server, begun: float) -> Start:
-    """Wait for a server, and for its first picture of the Load tab."""
+    """Wait for a server, and for its first picture of the Load tab that it has computed itself.
+
+    What it draws before its kernels are compiled comes with the package, and no slider moves it.
+    """
     await asyncio.to_thread(server.wait, PATIENCE)
     ready = time.perf_counter() - begun
     client = PageClient(server.url)
     await client.open_page()
     await client.connect()
     await client.show("load")
-    await client.ask(set={"extent_deg": 21.0})
     while SHOWN not in client.sources and await client.until_drawn(seconds=PATIENCE):
         await client.news(1.0)
+    shipped = picture = _numbers(client)
+    while picture == shipped and not client.closed:
+        await client.ask(set={"fy_n": -150.0})
+        await client.until_drawn(seconds=PATIENCE)
+        await client.news(0.2)
+        picture = _numbers(client)
     drawn = time.perf_counter() - begun
     await client.close()
-    picture = {name: values.tobytes() for name, values in client.sources[SHOWN].items()}
     return Start(ready, drawn, picture, server.log)
+
+
+def _numbers(client: PageClient) -> dict[str, bytes]:
+    return {name: values.tobytes() for name, values in client.sources[SHOWN].items()}
 
 
 def start(count: int, folder: Path) -> list[Start]:

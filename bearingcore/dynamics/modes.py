@@ -150,9 +150,7 @@ def frequency_bands(
         where the support lacks a number, by its name.
     """
     if cage_angles is None:
-        turning = any(defect.race == "inner" for defect in scene.defects)
-        samples = ANGLES_A_PERIOD if turning else 3 * ANGLES_A_PERIOD - 2
-        cage_angles = default_cage_angles(scene, samples)
+        cage_angles = default_cage_angles(scene, 3 * ANGLES_A_PERIOD - 2)
     first = modes(scene, np.unique(np.asarray(cage_angles, float)), most_contacts=most_contacts)
     angles, frequency = first.cage_angles, first.frequency
     if not np.isfinite(frequency).any():

@@ -250,8 +250,7 @@ class Results:
         if self.moving:
             return self.modes.bands()
         first, last, _ = self.stretch
-        n, over = ANGLES_A_PERIOD, self._like or self
-        samples = default_cage_angles(over.scene, n if over.over_shaft else 3 * n - 2)
+        samples = default_cage_angles((self._like or self).scene, 3 * ANGLES_A_PERIOD - 2)
         return statics.bands(self.scene, first, last, samples.size)
 
     @property

@@ -146,7 +146,7 @@ class View:
     equal_aspect: ClassVar[bool] = False
     #: whether it is in a report; one without `needs` only with the result of its job
     in_report: ClassVar[bool] = True
-    #: whether it is drawn only once the slider rests: nobody follows it with the hand
+    #: whether it is drawn only once the slider rests, and does not follow a drag
     at_rest: ClassVar[bool] = False
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False

@@ -88,6 +88,11 @@ def hold_to_rules(page: Page, theme: str, where: str = "main") -> None:
     # what is hidden is looked at when it is shown, and would only be waded through here
     page.evaluate("[...deep(document, '.off-screen')].forEach(section => section.remove())")
     expect(page.locator("html")).to_have_attribute("data-theme", theme)
+    # a tab is dimmed until it is there
+    page.wait_for_function(
+        """() => [...document.querySelectorAll('main > div')]
+             .every(part => getComputedStyle(part).opacity === '1')"""
+    )
     assert findings(page, where) == []
     assert colors(page) <= PAPERS[theme]
     assert silent_figures(page) == []

@@ -201,10 +201,6 @@ def stiffness_maps(
     gone = _run_away(scene, angles, load, status[start:begun])
     status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
-    gone = _run_away(scene, angles, load, status)
-    status[:, gone] = np.where(
-        status[:, gone] == StaticStatus.NOT_CONVERGED, StaticStatus.NOT_CARRIED, status[:, gone]
-    )
     units = packing.length_units(scene)
     stiffness = answers.stiffness
     stiffness *= np.outer(units, units)[np.triu_indices(5)][:, None, None]

@@ -81,10 +81,10 @@ def test_mfpt_structs_tell_rate_speed_and_load() -> None:
 
 
 @pytest.mark.parametrize(
-    ("delimiter", "rounding", "begin"), [(",", 0, 65_664.0), (";", -1, 884_410.0)]
+    ("delimiter", "rounding", "begin"), [(",", 0, 65_664.0), (";", -1, 954_410.0)]
 )
 def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin: float) -> None:
-    """Hours, minutes, seconds, microseconds; some printed as 8.8441e+05. The end is midnight."""
+    """Hours, minutes, seconds, microseconds; some printed as 9.5441e+05. One passes midnight."""
     micro = np.round(begin + np.arange(2560) / 25_600.0 * 1e6, rounding)
     second = np.where(micro >= 1e6, 0.0, 59.0)
     clock = [np.where(second > 0.0, 23.0, 0.0), second, second, micro % 1e6]

@@ -17,6 +17,7 @@ from bearingcore import kernels
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
+from bearingcore.dynamics.status import MotionStatus
 
 
 @dataclass(frozen=True)
@@ -31,13 +32,16 @@ class March:
         [Hz] of the history.
     calls
         right-hand sides evaluated.
+    status
+        COMPLETED, or what ended it before.
     failure
-        empty, or the reason why the motion is not complete.
+        empty, or the reason why the motion is not complete, in the words of the method.
     """
 
     history: Array
     step_rate: float
     calls: int
+    status: MotionStatus = MotionStatus.COMPLETED
     failure: str = ""
 
 
@@ -90,8 +94,10 @@ def _runge_kutta(*, velocities: bool) -> Marcher:
         y = problem.start.copy()
         kernels.turn_smooth(y, 1.0, 0.0, system)
         done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
-        failure = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
-        return March(history, step_rate, 4 * n_steps, failure)
+        if done >= n_steps:
+            return March(history, step_rate, 4 * n_steps)
+        why = f"diverged after {done / step_rate:.2g} s"
+        return March(history, step_rate, 4 * n_steps, MotionStatus.DIVERGED, why)
 
     return march
 
@@ -119,10 +125,15 @@ def _of_scipy(name: str) -> Marcher:
             )
         except (_TooManyCallsError, ValueError, np.linalg.LinAlgError) as error:
             history = np.full((n + 1, 6, len(problem.dofs)), math.nan)
-            return March(history, sample_rate, limited.calls, str(error) or type(error).__name__)
+            gave_up = isinstance(error, _TooManyCallsError)
+            status = MotionStatus.TOO_MANY_STEPS if gave_up else MotionStatus.DIVERGED
+            why = str(error) or type(error).__name__
+            return March(history, sample_rate, limited.calls, status, why)
         history = history_of(problem, time[: answer.y.shape[1]], answer.y.T)
-        failure = "" if answer.success and len(history) == n + 1 else str(answer.message)
-        return March(history, sample_rate, limited.calls, failure)
+        if answer.success and len(history) == n + 1:
+            return March(history, sample_rate, limited.calls)
+        vanished = MotionStatus.STEP_VANISHED
+        return March(history, sample_rate, limited.calls, vanished, str(answer.message))
 
     return march
 
@@ -136,7 +147,7 @@ def _of_cvode(name: str) -> Marcher:
         n = intervals(sample_rate, duration)
         time = np.arange(n + 1) / sample_rate
         limited, scale = _Limited(problem), problem.scale
-        failure = ""
+        status, why = MotionStatus.COMPLETED, ""
         try:
             states = by_cvode(
                 lambda t, y: limited.rate(t, y * scale) / scale,
@@ -146,11 +157,13 @@ def _of_cvode(name: str) -> Marcher:
                 tolerance,
             )
         except _TooManyCallsError as error:
-            states, failure = np.full((1, problem.start.size), math.nan), str(error)
+            states = np.full((1, problem.start.size), math.nan)
+            status, why = MotionStatus.TOO_MANY_STEPS, str(error)
         history = history_of(problem, time[: len(states)], states * scale)
-        if not failure and len(history) < n + 1:
-            failure = f"no step is small enough after {time[len(history) - 1]:.2g} s"
-        return March(history, sample_rate, limited.calls, failure)
+        if not why and len(history) < n + 1:
+            status = MotionStatus.STEP_VANISHED
+            why = f"{status} after {time[len(history) - 1]:.2g} s"
+        return March(history, sample_rate, limited.calls, status, why)
 
     return march
 

@@ -48,9 +48,13 @@ SETTLING = 0.25
 _REFERENCES = (0.0, 0.25, 0.5, 0.75)
 """Parts of the work at which the references begin and end."""
 
+DIRECTIONS = {f"{count} DOF": DOF_NAMES[:count] for count in (2, 3, 5)}
+EDGED = {f"{edge} edges": edge for edge in EDGES}
+"""Models that differ in their directions, and in the edges of their defects."""
+
 AGAINST = {
-    **dict.fromkeys(("2 DOF", "3 DOF", "5 DOF", "quasi-static"), FULL),
-    **{f"{edge} edges": EXACT for edge in EDGES},
+    **dict.fromkeys((*DIRECTIONS, "quasi-static"), FULL),
+    **dict.fromkeys(EDGED, EXACT),
     **dict.fromkeys(("transient", "orbit"), SETTLED),
 }
 """Reference of each model."""
@@ -139,11 +143,10 @@ class _Models:
 
     def _point(self, model: str) -> Point:
         try:
-            if model.endswith("DOF"):
-                dofs = DOF_NAMES[: int(model[0])]
-                return self._marched(model, _with(self.scene, dofs))
-            if model.endswith("edges"):
-                return self._marched(model, _edged(self.scene, model.split()[0]))
+            if model in DIRECTIONS:
+                return self._marched(model, _with(self.scene, DIRECTIONS[model]))
+            if model in EDGED:
+                return self._marched(model, _edged(self.scene, EDGED[model]))
             if model == "quasi-static":
                 return self._quasi_static()
             return self._transient() if model == "transient" else self._orbit()

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
+from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import DOF_NAMES, Scene
@@ -65,6 +66,10 @@ UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 
 Region = tuple[slice, ...]
+
+
+class StillDirectionError(FieldError):
+    """An output along a direction in which no scene of the grid moves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,11 +276,8 @@ class Grid:
         for name in self.outputs:
             dof = OUTPUTS[name].dof
             if dof and dof not in self.dofs:
-                raise checks.refuse(
-                    "name in outputs",
-                    name,
-                    f"directions in which the scenes move: {', '.join(self.dofs)}",
-                )
+                moving = f"directions in which the scenes move: {', '.join(self.dofs)}"
+                raise StillDirectionError("name in outputs", name, moving)
         of_defect = [name for name in self.dims if name in _OF_DEFECTS]
         if of_defect:
             largest = {

@@ -28,8 +28,7 @@ from bearingcore import DOF_NAMES, Scene
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number
 from bearingcore.diagnosis.size.sizing_error import extent_error
-from bearingcore.errors import FieldError
-from bearingcore.sweep.grid import Axis, Grid
+from bearingcore.sweep.grid import Axis, Grid, StillDirectionError
 from bearingcore.sweep.outputs import (
     LIFE,
     MASS,
@@ -180,9 +179,7 @@ class Question:
         sides, name = dict([self.x.in_si, self.y.in_si]), self.output.in_sweep
         try:
             return Grid.of(self.scene, sides, [name], self.output.settings)
-        except FieldError as error:
-            if error.field != "name in outputs":
-                raise
+        except StillDirectionError as error:
             dof = OUTPUTS[name].dof
             way = "tilt about" if dof.startswith("r") else "move along"
             raise ValueError(f"The housing does not {way} {dof[-1]} in these scenes.") from error

@@ -48,7 +48,7 @@ from dataclasses import asdict, dataclass, replace
 from functools import cache, cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 from urllib.parse import parse_qsl, unquote, urlencode
 
 import msgspec
@@ -58,6 +58,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from msgspec import Meta
+from msgspec.structs import fields
 
 from bearing_explorer.assets import asset_path
 from bearing_explorer.state.address import FORMER_TABS
@@ -66,6 +67,8 @@ from bearing_explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOW
 from bearing_explorer.state.scene_editor import SceneEditor, Snapshot
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import presets
+
+_Entries = TypeVar("_Entries", bound=msgspec.Struct)
 
 Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 """Names of the tabs, each with the names of its views."""
@@ -155,7 +158,7 @@ class _Head(msgspec.Struct, forbid_unknown_fields=True):
     drag: tuple[str, ...] = ()
     watch: tuple[str, ...] = ()
     scene: dict[str, str | int | float] = {}
-    predict: _PredictEntry | None = None
+    predict: dict[str, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -345,16 +348,30 @@ class _Checks:
 
     def _decoded(self) -> _Head:
         try:
-            return msgspec.convert(tomli.loads("\n".join(self._lines)), _Head)
+            given = tomli.loads("\n".join(self._lines))
         except tomli.TOMLDecodeError as error:
             raise LessonError(error.lineno + 1, f"the head is not TOML: {error.msg}") from None
         except RecursionError:
             raise LessonError(1, "the head is not TOML: its lists are too deep") from None
-        except msgspec.ValidationError as error:
-            # “field `right`”, or a path such as “$.predict.right” at the end
-            named = re.search(r"field `(\w+)`|(\w+)[^.`]*`$", str(error))
-            name = (named[1] or named[2]) if named else ""
-            raise self.error(name, f"the head cannot be read: {error}") from None
+        return self._entries(given, _Head)
+
+    def _entries(self, given: dict[str, Any], kind: type[_Entries]) -> _Entries:
+        """A table of the head as `kind`; LessonError naming the entry that is wrong."""
+        known = {field.name: field for field in fields(kind)}
+        for name, field in known.items():
+            if field.required and name not in given:
+                raise self.error("", f"{name} is missing")
+        values = {}
+        for name, value in given.items():
+            if name not in known:
+                raise self.error(
+                    name, f"“{name[:40]}” is no entry here; {_near(name, list(known))}"
+                )
+            try:
+                values[name] = msgspec.convert(value, known[name].type)
+            except msgspec.ValidationError as error:
+                raise self.error(name, f"{name} cannot be read: {error}") from None
+        return kind(**values)
 
     def error(self, name: str, words: str) -> LessonError:
         """A fault of the entry `name`, with its line."""
@@ -374,9 +391,9 @@ class _Checks:
 
     def prediction(self) -> Prediction | None:
         """The prediction; LessonError where none of its choices is right."""
-        given = self.head.predict
-        if given is None:
+        if self.head.predict is None:
             return None
+        given = self._entries(self.head.predict, _PredictEntry)
         if not given.choose:
             return Prediction(given.ask, (), given.right, given.unit, given.within)
         if given.right not in range(1, len(given.choose) + 1):

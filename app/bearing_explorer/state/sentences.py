@@ -10,6 +10,8 @@ from bearingcore.units import UNITS
 _READ_UNITS = {"m": "mm", "rad": "°", "rad/s": "Hz", "Pa": "GPa"}
 """Shown units of SI numbers that belong to no field."""
 
+_GROOVES = ("inner_groove_radius", "outer_groove_radius")
+
 
 def sentence_of(error: ValueError) -> str:
     """The sentence of a refusal. What the page itself refuses is one already."""
@@ -29,7 +31,7 @@ def words_of(error: ValueError) -> str:
         return str(error).removesuffix(".")
     if error.field == "shaft_speed" and error.value == 0.0:
         return "the shaft speed is 0 Hz, so nothing turns"
-    if error.field.endswith("groove_radius") and error.value is None:
+    if error.field in _GROOVES and error.value is None:
         return "the groove radii are not known; the Bearing tab takes them"
     field = field_of(error)
     si = error.unit or (field.unit if field else "")

@@ -136,9 +136,8 @@ class LifeOfBearing(View):
             return "Enter the groove radii (Bearing tab) to compute life, pressure and film."
         if found.healthy is None:
             return found.no_life
-        bearings = "healthy bearings" if results.scene.defects else "bearings"
-        words = found.healthy.sentence.replace("bearings", bearings, 1)
-        return words
+        healthy = "Without the defect: " if results.scene.defects else ""
+        return f"{healthy}{found.healthy.sentence}"
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

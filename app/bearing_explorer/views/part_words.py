@@ -82,8 +82,8 @@ def counted(question: Question) -> str:
 def extent(found: MeasuredExtent) -> str:
     """The length of a spall in a few words."""
     if found.measured:
-        return f"{found.answer.rpartition(', ')[0]} long, or that and whole ball spacings"
-    return found.answer.partition(", ")[0] if math.isfinite(found.high) else LENGTH_HIDDEN
+        return f"{found.size} long, or that and whole ball spacings"
+    return found.size if math.isfinite(found.high) else LENGTH_HIDDEN
 
 
 def explained(one: ListedBearing) -> str:

@@ -136,18 +136,23 @@ class MeasuredExtent:
     @property
     def answer(self) -> str:
         """The answer in a few words: "5.0° (4.3-5.9°), 2.0 mm, outer race"."""
+        return f"{self.size}, {self.race} race" if self.size else NO_ANSWER
+
+    @property
+    def size(self) -> str:
+        """The answer without its race: "5.0° (4.3-5.9°), 2.0 mm"; empty where there is none."""
         extent, low, high = np.degrees([self.extent, self.low, self.high])
         if self.status == ExtentStatus.MEASURED:
-            long = f"{1e3 * self.length:.1f} mm, " if math.isfinite(self.length) else ""
-            return f"{extent:.1f}° ({low:.1f}-{high:.1f}°), {long}{self.race} race"
+            long = f", {1e3 * self.length:.1f} mm" if math.isfinite(self.length) else ""
+            return f"{extent:.1f}° ({low:.1f}-{high:.1f}°){long}"
         if self.status == ExtentStatus.EITHER:
             one, other = np.degrees(
                 [self.separation + self.offset, self.ball_spacing - self.separation + self.offset]
             )
-            return f"{one:.1f}° or {other:.1f}°, {self.race} race"
+            return f"{one:.1f}° or {other:.1f}°"
         if self.status == ExtentStatus.SHORTER:
-            return f"shorter than about {high:.0f}° or near whole ball spacings, {self.race} race"
-        return NO_ANSWER
+            return f"shorter than about {high:.0f}° or near whole ball spacings"
+        return ""
 
     @property
     def sentence(self) -> str:

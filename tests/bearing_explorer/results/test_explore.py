@@ -121,6 +121,8 @@ def test_what_has_no_answer_has_a_reason() -> None:
     crowded = coarse(question("k_yy_mean", x=("n_balls", "10", "30")))
     reasons = {str(why) for why in crowded.reasons[0] if why}
     assert any("number of balls" in why or "ball diameter" in why for why in reasons), reasons
+    with pytest.raises(ValueError, match="The housing does not move along z in these scenes"):
+        coarse(question("acceleration_rms_z"))
 
 
 def test_motions_that_take_too_many_steps_are_not_begun() -> None:

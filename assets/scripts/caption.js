@@ -24,18 +24,18 @@ export function render({ model }) {
   head.append(model.leads_to
     ? button(title, () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
     : title)
+  if (model.compact) {  // the figure says it itself; the rest is a tooltip
+    follow(model, ["line", "rest"], () => { head.title = `${model.line} ${model.rest}`.trim() })
+    root.className = "compact"
+    root.replaceChildren(head)
+    return root
+  }
   unfolds(part("more"), part("rest"))
   follow(model, ["line", "rest"], () => {
     part("line").textContent = model.line
     part("rest").textContent = model.rest
     part("more").hidden = !model.rest
-    if (model.compact) head.title = `${model.line} ${model.rest}`.trim()
   })
-  if (model.compact) {  // the figure says it itself; the rest is a tooltip
-    root.className = "compact"
-    root.replaceChildren(head)
-    return root
-  }
   for (const [id, label] of [["more", "More about"], ["opener", "Export"], ["exports", "Export"],
                              ["lines", "Python for"], ["reading", "Numbers of"], ["rows", "Numbers of"]])
     part(id).setAttribute("aria-label", `${label} “${title}”`)

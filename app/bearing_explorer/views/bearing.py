@@ -25,11 +25,11 @@ from bearingcore.common.table import table_of
 from bearingcore.scene.packing import ball_angles
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
-HALF_WIDTH = 1.62
+HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
 HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
-NUMBER_START = 0.09  # beyond a bar: the middle of its number
+NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
@@ -47,6 +47,12 @@ NO_VALUE = "#C9CED4"
 
 _LOAD_WORDS = """
 const {kind, value, angle} = row
+if (short) {
+  if (kind == 0) return value > 0 ? `${si(value, 'N')} at ${rounded(angle, 3)}°` : 'No radial load'
+  if (kind == 1) return `${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
+  if (kind == 4) return `Depth × ${value >= 1 ? value : rounded(value, 2)}`
+  return `M${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
+}
 if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(angle, 3)}°`
                                 : 'No radial load'
 if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
@@ -60,16 +66,23 @@ let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
 return row.most || room > 7*text.length ? text : ''
 """
+_BALL_WORDS = """
+let wide = Infinity  // two digits and the ring need 16 pixels
+try { wide = 2*row.radius*plot.inner_width/(plot.x_range.end - plot.x_range.start) } catch {}
+return wide > 16*larger ? row.number : ''
+"""
 _ROW_WORDS = """
 return `Row ${row.row} at z = ${rounded(1000*row.place, 3)} mm`
 """
-_EQUAL_ASPECT = """
+_EQUAL_ASPECT = f"""{style.LARGER}
 let w = 0, h = 0
-try { w = plot.inner_width; h = plot.inner_height } catch { return }  // not laid out yet
+try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not laid out yet
 if (!(w > 0 && h > 0)) return
-const unit = Math.min(w/shown.end, h/half), x = w/unit, y = h/unit
-plot.x_range.setv({start: -x, end: x, reset_start: -x, reset_end: x})
-plot.y_range.setv({start: -y, end: y, reset_start: -y, reset_end: y})
+// the names of several rows are below them
+const of_rows = shown.end > 1.01*half ? (h - 68*larger)/1.5 : Infinity
+const unit = Math.min(w/shown.end, h/half, of_rows), x = w/unit, y = h/unit
+plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
+plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
 """
 
 
@@ -83,10 +96,16 @@ _EDGE = "#6B7480"
 _MIDDLE = {"text_align": "center"}
 _NUMBER = {**_MIDDLE, "text_font_size": style.SMALL_TEXT_SIZE}
 _LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
+_UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 
 
-def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
-    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
+def layers(
+    prefix: str, colors: LinearColorMapper, inks: LinearColorMapper, *, short: bool = False
+) -> list[Layer]:
+    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours.
+
+    `short`: the words about the load are, as the drawing is small.
+    """
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = Glyph(
         Circle,
@@ -120,25 +139,37 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
             "x",
             "y",
             _BAR_WORDS,
-            ("load", "room", "most"),
+            ("load", "room", "most", "right", "down"),
             fitting=style.NARROW,
-            look=_MIDDLE,
+            look={
+                **_MIDDLE,
+                "x_offset": style.text_offset("right"),
+                "y_offset": style.text_offset("down"),
+            },
         ),
         ball,
         end,
-        words("balls", "return row.number", ("load", "number"), {**_NUMBER, "text_color": number}),
+        Words(
+            f"{prefix}_balls",
+            "x",
+            "y",
+            _BALL_WORDS,
+            ("load", "number", "radius"),
+            fitting=style.NARROW,
+            look={**_NUMBER, "text_color": number},
+        ),
         filled(f"{prefix}_arrow", style.INK),
         Words(
             f"{prefix}_load_words",
             0.0,
             1.0,
-            _LOAD_WORDS,
+            f"const short = {str(short).lower()}{_LOAD_WORDS}",
             ("kind", "value", "angle", "down"),
             x_share=True,
             y_share=True,
             look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
         ),
-        words("row_words", _ROW_WORDS, ("row", "place"), {**_LINE, **_MIDDLE}),
+        words("row_words", _ROW_WORDS, ("row", "place"), _UNDER_A_ROW),
     ]
 
 
@@ -156,6 +187,8 @@ class BearingDrawing(View):
     equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
+    #: whether the words about the load are
+    short: ClassVar[bool] = False
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
@@ -191,7 +224,7 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        draw(plot, packed, layers(self.prefix, colors, inks))
+        draw(plot, packed, layers(self.prefix, colors, inks, short=self.short))
         self._add_scale(plot, colors, load)
         return plot
 
@@ -223,7 +256,8 @@ class BearingDrawing(View):
         )
         top = load_range[1]
         rows = scene.bearing.all_rows
-        wide = HALF_WIDTH * len(rows)
+        half = OF_A_ROW if len(rows) > 1 else HALF_WIDTH
+        wide = half * len(rows)
         healthy = results.healthy.load_curves
         several: list[Sources] = []
         for row in range(len(rows)):
@@ -232,7 +266,7 @@ class BearingDrawing(View):
             drop = {race: drops[own] for race, drops in results.drop.items()}
             shapes = drawn.all(now.ball_load[0, own], drop, top)
             shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
-            several.append(moved(shapes, (2 * row + 1) * HALF_WIDTH - wide))
+            several.append(moved(shapes, (2 * row + 1) * half - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(
                 [one[name] for one in several], gaps=name in POLYGONS
@@ -332,8 +366,8 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     rows = scene.bearing.rows
     number = np.arange(float(len(rows)))
     return {
-        "x": (2.0 * number + 1.0) * HALF_WIDTH - wide,
-        "y": np.full(number.size, -HALF_WIDTH - 0.12),
+        "x": (2.0 * number + 1.0) * OF_A_ROW - wide,
+        "y": np.full(number.size, -1.5),
         "row": number + 1.0,
         "place": np.array([row.place for row in rows], dtype=float),
     }
@@ -459,7 +493,7 @@ class Shapes:
             "x": radius * np.cos(np.radians(degrees)),
             "y": radius * np.sin(np.radians(degrees)),
             "angle": degrees,
-            "turn": np.radians([0.0, 0.0, 90.0, 0.0]),  # the longest stands along the ring
+            "turn": np.radians([90.0, 0.0, 90.0, 0.0]),  # along the ring, which can be thin
         }
 
     def ball_angles(self) -> NDArray[np.float64]:
@@ -487,17 +521,20 @@ class Shapes:
     def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
         """A bar outside the ring for each ball, as long as its load; `top` has full length.
 
-        With the place of its number, the room for that, and whether its load is the greatest.
+        With the place of its number, the room for that, and whether its load is the greatest. The
+        number lies above or below the end of the bar and above its beginning: there it needs
+        little more room to the side than the bar, and leaves the ring free.
         """
         angle = self.ball_angles()
         start = self.rim + BAR_START
         end = start + BAR_LENGTH * load / top
         end[~(load > 0.0)] = np.nan  # a bar without length would still show its line's ends
-        number = end + NUMBER_START
         return {
-            "x": number * np.cos(angle),
-            "y": number * np.sin(angle),
-            "room": np.full(angle.size, 2.0 * math.pi * self.rim / angle.size),
+            "x": np.where(load > 0.0, start, np.nan) * np.cos(angle),
+            "y": end * np.sin(angle),
+            "right": NUMBER_RIGHT * np.cos(angle),
+            "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
+            "room": np.full(angle.size, 2.0 * math.pi * (start + 0.1) / angle.size),
             "most": load == np.max(load, initial=0.0, where=np.isfinite(load)),
             "x0": start * np.cos(angle),
             "y0": start * np.sin(angle),

@@ -44,6 +44,8 @@ GREATEST = 65534
 MOST_LEVELS_NAMED = 14
 """Steps of the scale of loaded balls up to which each gets its number."""
 HEIGHT = 760
+NARROWEST = 700
+"""[px] width below which the maps have no room for their values at the cross."""
 
 _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
 """The smaller sign's part of the greater one above which a map has two signs, below which one."""
@@ -105,7 +107,7 @@ class StiffnessMaps(View):
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
         )
         plot = matrix_cells.matrix_figure(
-            (-0.03, 5.23), (-5.1, 0.0), looks, height=HEIGHT, name="maps_drawing"
+            (-0.12, 5.23), (-5.1, 0.0), looks, height=HEIGHT, name="maps_drawing"
         )
         cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
@@ -379,9 +381,9 @@ def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
 
 
 _LEGEND = (
-    "Stiffness k of each displacement (column)",
-    "against each load (row), as in the matrix.",
-    "Cross: current extent and cage angle.",
+    "Stiffness k of each displacement",
+    "(column) against each load (row).",
+    "Cross: current extent, cage angle.",
     "Hatched: no answer.",
 )
 
@@ -397,7 +399,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     lines = range(len(_LEGEND))
-    legend = {"x": [0.26 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
+    legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
     write(plot, ColumnDataSource(legend), "text")
 
 
@@ -410,6 +412,7 @@ if (!unit || row.kind == 3 || isNaN(row.low)) return ''
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """
 _NOW = f"""{_UNIT}
+if (narrow && unit) return ''  // it would lie on the symbol
 if (isNaN(row.now)) return 'no value'
 if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
@@ -429,7 +432,8 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         at = {"x": "bar", "y": y, "x_offset": 4}
         write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
-    write(plot, cells, words_of(cells, _NOW), text_align="right", **above)
+    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
+    write(plot, cells, now, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
     write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)
 

@@ -62,7 +62,7 @@ class MassInTime(PassageView):
             other = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
             compared = compared_curves.curves("mass_motion", "time", dof)
             figures.append((quantity, 210, [event_lines("mass"), other, *compared, own]))
-        figures[0][2].append(event_names("mass", _EVENT_WORDS, ("kind",), style.NARROW))
+        figures[0][2].append(event_names("mass", _EVENT_WORDS, ("kind",)))
         return figures
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:

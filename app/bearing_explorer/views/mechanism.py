@@ -25,14 +25,25 @@ LEAST = -1.0
 HALF = 0.5
 """Share from which on most of the power comes from the balls' mass."""
 
-_BAR_WORDS = "return row.known ? `${rounded(100*row.share, 2)} %` : 'not known'"
+_BAR_WORDS = """
+if (!row.known) return narrow ? '?' : 'not known'
+return narrow ? minus(`${(100*row.share).toFixed(0)}%`) : `${rounded(100*row.share, 2)} %`
+"""
 _BAR_LOOK = {"fill_color": style.DEFECTIVE, "fill_alpha": "alpha", "line_color": None}
 _WORDS_LOOK = {"text_align": "center", "text_baseline": "bottom"}
 _SPREAD = ("middle", "low", "middle", "high")
 LAYERS: tuple[Layer, ...] = (
     Glyph(Quad, "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
     Glyph(Segment, "mechanism_bars", _SPREAD, {"line_color": style.INK}),
-    Words("mechanism_bars", "middle", "label_at", _BAR_WORDS, ("share", "known"), look=_WORDS_LOOK),
+    Words(
+        "mechanism_bars",
+        "middle",
+        "label_at",
+        _BAR_WORDS,
+        ("share", "known"),
+        fitting=style.NARROW,
+        look=_WORDS_LOOK,
+    ),
 )
 """Bars, their standard errors and their numbers."""
 

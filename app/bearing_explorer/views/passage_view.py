@@ -100,8 +100,8 @@ def event_lines(prefix: str) -> Layer:
     return uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
 
 
-def event_names(prefix: str, code: str, reads: tuple[str, ...], below: float) -> Layer:
-    """Their names by some code, shorter below a width [px] of the frame."""
+def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
+    """Their names by some code, which knows the width of the frame."""
     return Words(
         f"{prefix}_events",
         "label_from",
@@ -109,7 +109,7 @@ def event_names(prefix: str, code: str, reads: tuple[str, ...], below: float) ->
         code,
         reads=(*NAMED, *reads),
         y_share=True,
-        fitting=below,
+        fitting=style.NARROW,
         look={"x_offset": 4, **ON_PAPER},
     )
 

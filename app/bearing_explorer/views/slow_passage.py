@@ -72,6 +72,7 @@ class SlowPassage(BearingDrawing):
     )
     needs = frozenset({"excerpt"})
     prefix = "slow"
+    short = True
     at_rest = True
     in_report = False
 
@@ -139,7 +140,7 @@ class SlowPassage(BearingDrawing):
             },
             "slow_sound": {"value": loudest},
             "slow_motion": traces(shown.time, signals),
-            "slow_events": event_rows(shown.events, start, end, scene.bearing),
+            "slow_events": event_rows(shown.events, start, end, scene.bearing, 1.5),
             "slow_cursor": {"now": shown.static_time[[at]]},
         }
         peak = 1.4 * max(map(_peak, signals.values()))

@@ -82,12 +82,12 @@ def expected(dof: str) -> list[Layer]:
         Words(
             bands,
             "label_at",
-            0.965,
+            1.0,
             SHORT_BAND_WORDS,
             reads=("direction", "number"),
             y_share=True,
             fitting=style.NARROW,
-            look={**_ON_PICTURE, "padding": 2},
+            look={**_ON_PICTURE, "padding": 2, "y_offset": 16},
         ),
         curve("speed_run_harmonics", "frequency", "speed", style.LIGHT, 1.0, (5, 4), 0.75),
         Words(

@@ -36,7 +36,6 @@ def _cell(row: int, column: int) -> Cell:
     return Cell(column + LEFT, column + 0.97, -row - 0.86, -row - 0.27)
 
 
-_NARROWEST = ":host { min-width: 560px; }"
 _CELLS = [_cell(i, j) for i, j in PLACES]
 _BALLS = Cell(LEFT, 2.6, -4.86, -3.5)
 _FRAMES = [*_CELLS, _BALLS]
@@ -66,7 +65,7 @@ class Stiffness(View):
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.08, 0.0), _NARROWEST, height=524, name="stiffness_drawing"
+            (-0.05, 5.03), (-5.08, 0.0), height=524, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
@@ -266,7 +265,7 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     now = style.fitting_words(plot, cells, _NOW, NARROWEST)
     write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
     flat = style.fitting_words(plot, cells, _FLAT, NARROWEST)
-    write(plot, cells, flat, x="left", y="top", x_offset=3, y_offset=6, text_baseline="top")
+    write(plot, cells, flat, x="left", y="top", x_offset=3, y_offset=1, text_baseline="top")
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
     write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
     last = words_of(cells, _FOOT % "row.foot")

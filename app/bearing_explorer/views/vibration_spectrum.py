@@ -38,7 +38,7 @@ from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.modes import BAND_WORDS, bands_along, highest
+from bearing_explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.widgets.look import LookField, LookPanel
 from bearingcore import Scene
@@ -52,6 +52,8 @@ AXIS: LookField = {
 }
 """The switch above the figures."""
 
+NAMED_IN_FULL = 580.0
+"""[px] width of a frame from which the names of bands have room for their frequencies."""
 _PASS_WORDS = """
 const of = row.row ? ` row ${row.row}` : ''
 const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
@@ -70,9 +72,10 @@ def spectra(dof: str) -> list[Layer]:
             bands,
             "label_at",
             0.94,
-            BAND_WORDS,
+            SHORT_BAND_WORDS,
             reads=("direction", "number"),
             y_share=True,
+            fitting=NAMED_IN_FULL,
             look={"text_color": color, **CENTERED},
         ),
         curve("spectrum_healthy", "frequency", dof, style.HEALTHY, 1.5),

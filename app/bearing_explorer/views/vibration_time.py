@@ -15,6 +15,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.passage_view import (
     BALL,
+    LABEL_WIDTH,
     SLOTS,
     PassageView,
     ball_names,
@@ -27,11 +28,12 @@ from bearing_explorer.views.passage_view import (
 from bearingcore import Bearing
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
-NARROW = 270  # [px] of the frame: with larger type there is room for less
-
 EVENT_WORDS = f"""
 const does = row.enters ? 'enters' : 'leaves'
-return narrow ? `${{row.ball}} ${{does}}` : `{BALL} ${{does}}`
+const words = `{BALL} ${{does}}`
+let room = Infinity
+try {{ room = {LABEL_WIDTH}*plot.inner_width }} catch {{}}
+return words.length*5.8*larger < room ? words : `${{row.ball}} ${{does}}`
 """
 
 
@@ -125,7 +127,7 @@ def motion_layers(prefix: str) -> list[Layer]:
             curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
             for dof in reversed(SHOWN)
         ),
-        event_names(prefix, EVENT_WORDS, ("enters",), NARROW),
+        event_names(prefix, EVENT_WORDS, ("enters",)),
     ]
 
 
@@ -142,13 +144,13 @@ def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
 
 
 def event_rows(
-    events: tuple[Event, ...], start: float, end: float, bearing: Bearing
+    events: tuple[Event, ...], start: float, end: float, bearing: Bearing, apart: float = 1.0
 ) -> dict[str, np.ndarray]:
-    """Events as columns, with the places of their labels."""
+    """Events as columns, with the places of their labels, whose rows are `apart`."""
     times = [event.time for event in events]
     return {
         "time": np.array(times),
         **named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
         "enters": np.array([float(event.enters) for event in events]),
-        **places_of_labels(times, start, end),
+        **places_of_labels(times, start, end, apart=apart),
     }

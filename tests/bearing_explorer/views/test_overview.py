@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 import re
 
+import numpy as np
 import pytest
 from bearing_explorer.results.chain import Chain, Peak
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.overview.change import LastChange
+from bearing_explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
 from bearing_explorer.views.overview.stiffness import OverviewStiffness, free_terms
 from bearing_explorer.views.overview.words import story
 
@@ -124,3 +126,13 @@ def test_only_terms_that_matter_are_lively() -> None:
     assert all_of["overview_terms"]["lively"].sum() > 10
     held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
     assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
+
+
+@pytest.mark.parametrize("name", ["liew-lim", "3208"])
+def test_names_of_bands_in_a_line_are_apart(name: str) -> None:
+    top = 3500.0
+    named = named_bands(Results(presets[name], 0.0), top)
+    for line in np.unique(named["line"]):
+        own = named["line"] == line
+        assert np.all(np.diff(named["name_at"][own]) >= 0.999 * BAND_NAME_WIDTH * top)
+        assert np.all(np.abs(named["name_at"][own] - named["low"][own]) < 0.05 * top)

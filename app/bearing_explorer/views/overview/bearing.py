@@ -15,7 +15,7 @@ class OverviewBearing(BearingDrawing):
     name = "overview-bearing"
     prefix = "overview_bearing"
     title = "Load of the balls"
-    compact = True
+    compact = short = True
     sentence_looks = ("unseen",)
     leads_to = "load"
     in_report = False

@@ -21,7 +21,7 @@ from bearing_explorer.plots.levels import (
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
-from bearing_explorer.views.modes import BAND_NAME, BAND_SPAN, band_rows, highest
+from bearing_explorer.views.modes import BAND_NAME, BAND_SPAN, band_rows, highest, spread
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra, loudest_words
 from bearingcore.sweep.outputs import mode_symbol
 
@@ -36,14 +36,17 @@ NAME_ROOM = 0.06
 """Of the height of the frame: what the name of a curve needs."""
 NAME_WIDTH = 0.16
 """Of the width of the frame."""
+BAND_NAME_WIDTH = 0.05
+"""Of the width of the frame: what the short name of a band needs."""
 END = 0.8
 """Of the frequencies: beyond, a curve makes room for its name."""
 
 _BAND_WORDS = f"""
 const name = (() => {{ {BAND_NAME} return name }})()
 const whole = (() => {{ {BAND_SPAN} }})()
-let room = 0
-try {{ room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width/6.5 }} catch {{}}
+let pixels = 0  // of a hertz
+try {{ pixels = plot.inner_width/(plot.x_range.end - plot.x_range.start) }} catch {{}}
+const room = row.room*pixels/(6.5*larger)
 return whole.length < room ? whole : name.length < room ? name : ''
 """
 _CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect'][row.which]"
@@ -63,10 +66,10 @@ def layers() -> list[Layer]:
         curve("overview_lines", "frequency", "y", orange),
         Words(
             "overview_bands",
-            "low",
+            "name_at",
             1.0,
             _BAND_WORDS,
-            ("direction", "number", "high", "room", "line"),
+            ("direction", "number", "low", "high", "room", "line"),
             y_share=True,
             fitting=style.NARROW,
             look={"text_color": of_band, "y_offset": style.text_offset("line")},
@@ -144,17 +147,17 @@ class OverviewSpectrum(View):
 
 
 def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
-    """Bands by their frequency, with the room [Hz] up to the next name, in two lines of names."""
+    """Bands by their frequency, in two lines of names, with the room [Hz] up to the next name."""
     bands = band_rows(results.bands)
     order = np.argsort(bands["low"], kind="stable")
-    low = bands["low"][order]
-    line = np.arange(low.size) % 2
-    room = [
-        np.min(low[(line == own) & (low > at)], initial=top) - at
-        for own, at in zip(line, low, strict=True)
-    ]
     named = {name: column[order] for name, column in bands.items()}
-    return {**named, "room": np.array(room, dtype=float), "line": 8.0 + 17.0 * line}
+    line = np.arange(order.size) % 2
+    name_at, room = np.empty(order.size), np.empty(order.size)
+    for own in (line == 0, line == 1):
+        half = 0.5 * BAND_NAME_WIDTH * top
+        name_at[own] = spread(named["low"][own] + half, 2.0 * half, 0.0, top) - half
+        room[own] = np.diff(name_at[own], append=top)
+    return {**named, "name_at": name_at, "room": room, "line": 8.0 + 17.0 * line}
 
 
 def end_names(
@@ -174,7 +177,7 @@ def end_names(
         for dof, end in ends.items()
     }
     return [
-        (top, min(max(y, shown[0] + room), shown[1] - 2.0 * room), SHOWN.index(dof))
+        (top, min(max(y, shown[0] + room), shown[1] - 4.0 * room), SHOWN.index(dof))
         for dof, y in places.items()
     ]
 

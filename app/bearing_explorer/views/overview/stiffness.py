@@ -49,6 +49,7 @@ _CELLS = [
 _ROWS = math.ceil(len(_CELLS) / COLUMNS)
 _SIDES = sides_of(_CELLS)
 _UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
+_LETTERS = np.array([len(symbol[2:]) for symbol in SYMBOLS], dtype=float)
 _DIRECTIONS = np.array(PLACES)
 _WHY_WORDS = f"""
 const names = {[DOF_SYMBOLS[dof] for dof in DOF_NAMES]}
@@ -56,17 +57,21 @@ if (row.lively) return ''
 return row.held < 0 ? 'constant' : names[row.held] + (narrow ? '' : ' fixed')
 """
 _VALUE_WORDS = f"""
-if (narrow) return ''  // it would lie on the symbol
 const unit = {list(UNITS)}[row.unit]
-return row.lively ? (isNaN(row.now) ? 'no value' : si(row.now, unit)) : ''
+if (!row.lively) return ''
+if (isNaN(row.now)) return narrow ? '' : 'no value'
+let wide = Infinity
+try {{ wide = plot.inner_width*(row.right - row.left)/{COLUMNS} }} catch {{}}
+const most = (wide/larger - 20)/6.2 - row.letters  // letters right of the symbol
+return [3, 2].map(digits => si(row.now, unit, digits)).find(text => text.length < most) ?? ''
 """
 
 _VALUE_LOOK = {"text_align": "right", "text_baseline": "bottom", "y_offset": -3}
 _WHY_LOOK = {"text_align": "center", "text_color": style.FAINT_INK}
 _NOW_LOOK = {"size": 6, "color": style.DEFECTIVE, "line_color": "white"}
 LAYERS: tuple[Layer, ...] = (
-    Words("overview_terms", "right", "top", _VALUE_WORDS, ("now", "unit", "lively"),
-          fitting=style.NARROW, look=_VALUE_LOOK),
+    Words("overview_terms", "right", "top", _VALUE_WORDS,
+          ("now", "unit", "lively", "left", "letters"), fitting=style.NARROW, look=_VALUE_LOOK),
     Words("overview_terms", "middle", "center", _WHY_WORDS, ("lively", "held"),
           fitting=style.NARROW, look=_WHY_LOOK),
     *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
@@ -144,7 +149,9 @@ class OverviewStiffness(View):
             "overview_lively": drawn,
             "overview_healthy": reference,
             "overview_terms": {
+                "left": _SIDES["left"],
                 "right": _SIDES["right"],
+                "letters": _LETTERS,
                 "top": _SIDES["top"],
                 "now": values,
                 "unit": _UNIT,

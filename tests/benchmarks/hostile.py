@@ -1,11 +1,13 @@
-"""Hostile messages to a running server: ``python -m tests.benchmarks.hostile --messages 20000``.
+"""Hostile messages and damaged files: ``python -m tests.benchmarks.hostile --messages 20000``.
 
 A server is really started. From a process of their own several clients open the page and send what
-no page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are cut off.
+no page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are cut off; two
+sessions upload files of every format that were good before a mutation of `tests.fuzz.inputs`.
 Meanwhile a good session moves a slider and `/liveness` is asked over and over; and inside the
 server each turn of its event loop is timed. The exit code says whether the good session and
-`/liveness` were answered every time, whether no turn took more than a second of processor time, and
-whether the log is without a traceback.
+`/liveness` were answered every time and each file in a sentence, whether no turn took more than a
+second of processor time, whether the log is without a traceback, and whether nothing is left in the
+folder for temporary files.
 """
 
 from __future__ import annotations
@@ -13,10 +15,18 @@ from __future__ import annotations
 import argparse
 import asyncio
 import math
+import random
+import re
 import sys
+import tempfile
 import time
+from collections import Counter
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field
 from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,10 +35,29 @@ from tornado.httpclient import AsyncHTTPClient
 from tests.benchmarks.machine import pace
 from tests.browser.helpers import serving
 from tests.fuzz.attacker import PATIENCE, Tally, attack
+from tests.fuzz.targets import broken_files, unclear
 from tests.fuzz.watched_server import LONGEST_HOLD, WatchedServer, faults_of, words_of
+from tests.helpers.loops import run as run_coroutine
 from tests.helpers.page_client import PageClient
 
-CLIENTS = 6
+CLIENTS, SESSIONS = 6, 2
+"""Hostile clients, and sessions that upload files."""
+UNDER_WAY, REFUSED = "words busy", "words bad"
+"""Classes of the form's sentence on a file."""
+
+
+@dataclass
+class Outcome:
+    """What came of the messages and files, and of the good session [s]; infinite: no answer."""
+
+    tally: Tally = field(default_factory=Tally)
+    answered: Counter[str] = field(default_factory=Counter)
+    refused: Counter[str] = field(default_factory=Counter)
+    """files by their format"""
+    pictures: list[float] = field(default_factory=list)
+    alive: list[float] = field(default_factory=list)
+    turns: list[dict[str, Any]] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
 
 
 def send(url: str, messages: int, first: int) -> Tally:
@@ -42,75 +71,141 @@ def send(url: str, messages: int, first: int) -> Tally:
     return tally
 
 
-async def meanwhile(url: str, sending: asyncio.Future[Tally]) -> tuple[list[float], list[float]]:
-    """Waits for pictures of a good session and for `/liveness` [s]; infinite where none came."""
-    client, pictures, alive = PageClient(url), list[float](), list[float]()
+class Uploader(PageClient):
+    """A session on the Diagnosis tab, whose form says what became of a file."""
+
+    sentence = ""
+    name = ""
+    wanted: int | None = None
+    """number of the upload of which the server has asked for a piece"""
+
+    def _event(self, event: dict[str, Any], buffers: dict[str, bytes]) -> None:
+        super()._event(event, buffers)
+        if asked := re.search(r"'of'[:,] (\d+)", str(event.get("msg_data"))):
+            self.wanted = int(asked[1])
+        text = str(event.get("new")) if event.get("attr") == "text" else ""
+        # a refusal, or the line that a file which is taken folds to
+        if text and (REFUSED in text or self.name in text) and UNDER_WAY not in text:
+            self.sentence = text
+
+    async def upload(self, name: str, content: bytes) -> str:
+        """Send a file in one piece; return the sentence about it, empty where none comes."""
+        self.sentence, self.name, self.wanted = "", name, None
+        await self.say("FileUpload", {"type": "begin", "name": name, "size": len(content)})
+        end = time.perf_counter() + PATIENCE
+        while time.perf_counter() < end and not self.closed and not self.sentence:
+            if self.wanted is not None:
+                block = {"type": "bytes", "data": {"id": "b1"}}
+                piece = {"type": "piece", "content": block, "of": self.wanted}
+                self.wanted = None
+                await self.say("FileUpload", piece, b1=content)
+            await self.news(1.0)
+        return self.sentence
+
+
+async def upload_all(url: str, numbers: Sequence[int], outcome: Outcome) -> None:
+    """Upload the damaged files with these numbers, in one session."""
+    client = Uploader(url)
+    await client.open_page()
+    await client.connect()
+    await client.show("diagnosis", "FileUpload")
+    kinds = broken_files()
+    for number in numbers:
+        kind = list(kinds)[number % len(kinds)]
+        content = kinds[kind](random.Random(f"file {number}")) or b" "
+        sentence = await client.upload(f"file {number}.{kind}", content)
+        outcome.answered[kind] += bool(sentence)
+        outcome.refused[kind] += REFUSED in sentence
+        wrong = "no answer" if not sentence else unclear(sentence[:600])
+        if wrong:
+            outcome.faults.append(f"{kind} {number}: {wrong}: {sentence[:200]!r}")
+        if client.closed:
+            break
+    await client.close()
+
+
+async def use_meanwhile(url: str, others: asyncio.Future[Any], outcome: Outcome) -> None:
+    """Move a slider in a good session and ask `/liveness`, until all others are done."""
+    client = PageClient(url)
     await client.open_page()
     await client.connect()
     await client.until_drawn(seconds=PATIENCE)
-    while not sending.done() or not pictures:
+    while not others.done() or not outcome.pictures:
         began = time.perf_counter()
-        await client.ask(set={"extent_deg": 20.0 + 10.0 * math.sin(0.1 * len(pictures))})
+        await client.ask(set={"extent_deg": 20.0 + 10.0 * math.sin(0.1 * len(outcome.pictures))})
         drawn = not client.closed and await client.until_drawn(seconds=PATIENCE)
-        pictures.append(time.perf_counter() - began if drawn else math.inf)
+        outcome.pictures.append(time.perf_counter() - began if drawn else math.inf)
         began = time.perf_counter()
         answer = await AsyncHTTPClient().fetch(
             url + "liveness", raise_error=False, request_timeout=PATIENCE
         )
-        alive.append(time.perf_counter() - began if answer.code == 200 else math.inf)
+        outcome.alive.append(time.perf_counter() - began if answer.code == 200 else math.inf)
         await asyncio.sleep(0.3)
     await client.close()
-    return pictures, alive
 
 
-async def run(url: str, messages: int, first: int) -> tuple[Tally, list[float], list[float]]:
-    """Everything at once."""
+async def all_at_once(url: str, messages: int, files: int, first: int, outcome: Outcome) -> None:
+    """Messages, files and the good session."""
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as elsewhere:
         loop = asyncio.get_running_loop()
         sending = loop.run_in_executor(elsewhere, send, url, messages, first)
-        pictures, alive = await meanwhile(url, sending)
-        return await sending, pictures, alive
+        numbers = range(first, first + files)
+        uploads = (upload_all(url, numbers[k::SESSIONS], outcome) for k in range(SESSIONS))
+        others = asyncio.gather(sending, *uploads)
+        await use_meanwhile(url, others, outcome)
+        outcome.tally, *_ = await others
+
+
+def run(messages: int, files: int, first: int) -> Outcome:
+    """Start a server and send it so many; `first` is the number of the first client and file."""
+    outcome = Outcome()
+    with tempfile.TemporaryDirectory() as folder, serving(WatchedServer(TMPDIR=folder)) as server:
+        # browser tests keep a loop in the main thread
+        run_coroutine(all_at_once(server.url, messages, files, first, outcome))
+        outcome.turns = server.longest_turns()
+        server.stop()
+        outcome.faults += faults_of(outcome.turns, LONGEST_HOLD, server.log)
+        left = [str(path.relative_to(folder)) for path in Path(folder).rglob("*")]
+    outcome.faults += [f"left behind: {name}" for name in left]
+    errors, unanswered = outcome.tally.errors, outcome.tally.unanswered
+    outcome.faults += [f"the server answered with errors: {error}" for error in errors[:2]]
+    if unanswered:
+        outcome.faults.append(f"{unanswered} messages were never taken")
+    if missing := files - outcome.answered.total():
+        outcome.faults.append(f"{missing} files without an answer")
+    if math.isinf(max(outcome.pictures + outcome.alive)):
+        outcome.faults.append("the good session or /liveness was not answered every time")
+    return outcome
 
 
 def main() -> int:
     """Send, print a table, and say with the exit code whether anything was found."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--messages", type=int, default=20_000)
-    parser.add_argument("--first", type=int, default=0, help="number of the first client")
+    parser.add_argument("--files", type=int, default=1_000)
+    parser.add_argument("--first", type=int, default=0, help="number of the first client and file")
     chosen = parser.parse_args()
-    with serving(WatchedServer()) as server:
-        began = time.perf_counter()
-        tally, pictures, alive = asyncio.run(run(server.url, chosen.messages, chosen.first))
-        took = time.perf_counter() - began
-        turns = server.longest_turns()
-        server.stop()
-        log = server.log
+    began = time.perf_counter()
+    outcome = run(chosen.messages, chosen.files, chosen.first)
+    took, tally = time.perf_counter() - began, outcome.tally
     columns = {
         "messages": tally.sent,
         "cut off": tally.cut,
         "slowest until taken [s]": tally.slowest,
     }
     print(pd.DataFrame(columns).to_string())
+    print(f"files answered: {dict(outcome.answered)}, of them refused: {dict(outcome.refused)}")
     print(f"{tally.sent.total():,} messages in {took:.0f} s; the longest turns of the event loop:")
-    for turn in turns:
-        print(words_of(turn))
-    for what, waits in (("pictures", pictures), ("/liveness", alive)):
+    print(*map(words_of, outcome.turns), sep="\n")
+    for what, waits in (("pictures", outcome.pictures), ("/liveness", outcome.alive)):
         median, most, longest = np.quantile(waits, [0.5, 0.95, 1.0])
         print(
             f"{what}: {len(waits)}; median {median:.3f}, 95 % {most:.3f}, longest {longest:.2f} s"
         )
-    print(f"log: {len(log.splitlines()):,} lines")
     print(pace())
-    faults = faults_of(turns, LONGEST_HOLD, log)
-    faults += [f"the server answered with errors: {error}" for error in tally.errors[:2]]
-    if tally.unanswered:
-        faults.append(f"{tally.unanswered} messages were never taken")
-    for what, waits in (("pictures of the good session", pictures), ("/liveness", alive)):
-        if math.isinf(max(waits)):
-            faults.append(f"{what}: not every time")
-    for words in faults:
+    for words in outcome.faults:
         print(f"FOUND: {words}")
-    return int(bool(faults))
+    return int(bool(outcome.faults))
 
 
 if __name__ == "__main__":

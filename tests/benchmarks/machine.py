@@ -14,11 +14,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-import numpy as np
-
 from bearingcore import contact_damping, presets
-from bearingcore.dynamics.motion import static_start
-from tests.benchmarks.yardstick import CMotion, CStatics, compiler
+from tests.benchmarks.yardstick import CMotion, CStatics, compiler, start_state
 
 ANGLES, RATE, DURATION = 361, 65536.0, 1.4
 REPEATS = 7
@@ -62,10 +59,7 @@ def _loops() -> tuple[Callable[[], object], ...]:
     """Both loops, built once."""
     angular, rig = presets["liew-lim"], presets["fan-rig"]
     curve, march = CStatics(), CMotion()
-    start = static_start(rig, rig.active_dofs)
-    assert start is not None
-    # as the C has them: places of both bodies before their velocities
-    state = np.concatenate(start.reshape(4, -1)[[0, 2, 1, 3]])
+    state = start_state(rig)
     step, damping = angular.bearing.ball_spacing / (ANGLES - 1), contact_damping(rig)
     return (
         lambda: curve.curve(angular, ANGLES, step),

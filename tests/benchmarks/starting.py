@@ -1,90 +1,95 @@
-"""Servers that start at once with nothing compiled: ``python -m tests.benchmarks.starting``.
+"""Seconds from the command to the first picture: ``python -m tests.benchmarks.starting``.
 
-All of them share one empty folder for kernels, compile what they need, and leave it there; then
-each draws the loads of the balls, which must be the same, bit for bit. Afterwards one more starts
-with the folder as they left it. Printed are seconds until each is ready and has drawn.
+A first start, with an empty folder for machine code, and one more with what that has left; a real
+browser comes as soon as the port answers, and moves a slider once all is compiled. Next to the
+clock stands what server and browser have worked until then, which other work on the machine changes
+little, and its ratio to the C loop of statics.
 
 With ``--kills 20`` one server at a time is killed at every tenth of the work of a first start, each
-with the kernels that those before it have left, and every tenth on an empty folder.
+with the kernels that those before it have left, and every tenth on an empty folder; then comes a
+start with what the last of them has left. The exit code says whether a log held a traceback.
 """
 
 from __future__ import annotations
 
 import argparse
-import asyncio
 import shutil
+import socket
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
 from pathlib import Path
 
-from tests.benchmarks.processor import worked
-from tests.browser.helpers import Server, explorer_server
-from tests.helpers.page_client import PageClient
+from playwright.sync_api import BrowserContext, sync_playwright
 
-PATIENCE = 1800.0  # [s]
-SHOWN = "load_distribution_balls"
+from tests.benchmarks.latency import slider_of
+from tests.benchmarks.machine import Pace, pace
+from tests.benchmarks.processor import worked, worked_by_kind
+from tests.browser.explorer_page import settle
+from tests.browser.helpers import Server, chromium, drag, explorer_server
+
+PATIENCE = 600.0  # [s]
 LAST = "compiled: orbits"
 
 
-@dataclass(frozen=True)
-class Start:
-    """How one server began."""
-
-    ready: float  # [s] after all were started
-    drawn: float
-    picture: dict[str, bytes]
-    log: str
+def server_on(folder: Path) -> Server:
+    """A server that keeps its machine code in a folder."""
+    return explorer_server(environment={"NUMBA_CACHE_DIR": str(folder)})
 
 
-async def picture_of(server: Server, begun: float) -> Start:
-    """Wait for a server, and for its first picture of the Load tab that it has computed itself.
-
-    What it draws before its kernels are compiled comes with the package, and no slider moves it.
-    """
-    await asyncio.to_thread(server.wait, PATIENCE)
-    ready = time.perf_counter() - begun
-    client = PageClient(server.url)
-    await client.open_page()
-    await client.connect()
-    await client.show("load")
-    while SHOWN not in client.sources and await client.until_drawn(seconds=PATIENCE):
-        await client.news(1.0)
-    shipped = picture = _numbers(client)
-    while picture == shipped and not client.closed:
-        await client.ask(set={"fy_n": -150.0})
-        await client.until_drawn(seconds=PATIENCE)
-        await client.news(0.2)
-        picture = _numbers(client)
-    drawn = time.perf_counter() - begun
-    await client.close()
-    return Start(ready, drawn, picture, server.log)
+def wait_for_port(server: Server) -> None:
+    """Wait until the server listens."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        with suppress(OSError), socket.create_connection(("localhost", server.port), 1.0):
+            return
+        time.sleep(0.02)
+    raise TimeoutError(server.log)
 
 
-def _numbers(client: PageClient) -> dict[str, bytes]:
-    return {name: values.tobytes() for name, values in client.sources[SHOWN].items()}
+def work(server: Server) -> float:
+    """What server and browser have worked [s]."""
+    kinds = worked_by_kind(server.process.pid)
+    return kinds["server"] + kinds["browser"]
 
 
-def start(count: int, folder: Path) -> list[Start]:
-    """Start so many at once, all with one folder for kernels."""
+def start(browser: BrowserContext, folder: Path, now: Pace) -> str:
+    """Start a server, look at its page, print when it was there, use it; the server's log."""
+    page = browser.new_page()
+    page.set_default_timeout(1e3 * PATIENCE)
     begun = time.perf_counter()
-    servers = [explorer_server(environment={"NUMBA_CACHE_DIR": str(folder)}) for _ in range(count)]
+    server = server_on(folder)
+    before = work(server)
 
-    async def all_of_them() -> Sequence[Start]:
-        return await asyncio.gather(*(picture_of(server, begun) for server in servers))
+    def line(what: str) -> None:
+        clock, worked = time.perf_counter() - begun, work(server) - before
+        ratio = f"{worked / now.statics:,.0f} times the C loop of statics"
+        print(
+            f"  {what:<14}{clock:7.1f} s by the clock{worked:7.1f} s of work, {ratio}", flush=True
+        )
 
     try:
-        return list(asyncio.run(all_of_them()))
+        wait_for_port(server)
+        line("port")
+        page.goto(server.url, wait_until="commit")
+        line("page")
+        page.wait_for_function("window.__frames >= 1", polling=20)
+        line("first picture")
+        while LAST not in server.log:
+            time.sleep(0.1)
+        line("all compiled")
+        drag(page, slider_of(page, "extent_deg"), 0.2, 0.5)
+        settle(page)
     finally:
-        for server in servers:
-            server.stop()
+        server.stop()
+        page.close()
+    return server.log
 
 
 def work_until(seconds: float, folder: Path) -> tuple[float, str]:
     """Kill a server once it has worked so long or compiled all: what it worked [s], and its log."""
-    server = explorer_server(environment={"NUMBA_CACHE_DIR": str(folder)})
+    server = server_on(folder)
     while worked(server.process.pid) < seconds and LAST not in server.log:
         time.sleep(0.05)
     took = worked(server.process.pid)
@@ -112,32 +117,24 @@ def kill(count: int, folder: Path) -> list[str]:
 
 
 def main() -> int:
-    """Start, print, and say with the exit code whether all drew the same."""
+    """Start, print, and say with the exit code whether all went well."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--servers", type=int, default=4)
     parser.add_argument("--kills", type=int, default=0, help="first starts that are killed")
     chosen = parser.parse_args()
-    from tests.benchmarks.machine import pace
-
-    print(pace())
-    with tempfile.TemporaryDirectory(prefix="kernels-") as name:
+    with (
+        tempfile.TemporaryDirectory(prefix="kernels-") as name,
+        sync_playwright() as playwright,
+        chromium(playwright) as browser,
+    ):
         folder = Path(name)
-        killed = kill(chosen.kills, folder) if chosen.kills else []
-        first = start(chosen.servers, folder)
-        print(f"{'':<24}{'ready after':>14}{'drawn after':>14}")
-        for number, one in enumerate(first, 1):
-            print(
-                f"{f'server {number} of {len(first)}':<24}{one.ready:>12.1f} s{one.drawn:>12.1f} s"
-            )
-        size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
-        again = start(1, folder)[0]
-        print(f"{'another, afterwards':<24}{again.ready:>12.1f} s{again.drawn:>12.1f} s")
-    same = all(one.picture == again.picture for one in first) and bool(again.picture)
-    print(f"kernels: {size / 1e6:.1f} MB; pictures {'all the same' if same else 'DIFFER'}")
-    logs = [*killed, *(one.log for one in [*first, again])]
+        logs = kill(chosen.kills, folder) if chosen.kills else []
+        for which in ("after the kills",) if chosen.kills else ("first start", "later start"):
+            now = pace()
+            print(f"{which}; {now}")
+            logs.append(start(browser, folder, now))
     troubled = [log for log in logs if "Traceback" in log]
-    print(*troubled, pace(), sep="\n")
-    return int(not same or bool(troubled))
+    print(*troubled, sep="\n")
+    return int(bool(troubled))
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES, Scene
+from bearingcore.dynamics.motion import static_start
 from bearingcore.scene.packing import body_numbers
 
 SOURCES = Path(__file__).parent / "c_loops"
@@ -111,6 +112,13 @@ class CStatics:
         if evaluations < 0:
             raise RuntimeError("the C loop did not converge")
         return stiffness, loaded
+
+
+def start_state(scene: Scene) -> Array:
+    """Rest at the static state of cage angle 0, as `simulate` starts, in the order of the C."""
+    state = static_start(scene, scene.active_dofs)
+    assert state is not None
+    return np.concatenate(state.reshape(4, -1)[[0, 2, 1, 3]])
 
 
 class CMotion:

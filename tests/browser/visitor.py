@@ -6,17 +6,15 @@ Journeys go through this, so that they hold however the page is built.
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.explorer_page import wait
 from tests.browser.helpers import Server, unfold
 
 FAN_RIG = "?v=1&preset=fan-rig&tab="
-_SOON = 120.0
-"""How long a person who is very patient waits [s]."""
 
 #: of each visible figure, top to bottom: a hash of its pixels, and how many differ from the paper
 _FIGURES = """canvases => {
@@ -161,12 +159,9 @@ class Visitor:
         x, y = box["x"] + across * box["width"], box["y"] + down * box["height"]
         self.page.mouse.move(x, y, steps=4)
 
-    def wait(self, done: Callable[[], bool], seconds: float = _SOON) -> None:
+    def wait(self, done: Callable[[], bool]) -> None:
         """Wait until it is so."""
-        end = time.monotonic() + seconds
-        while not done():
-            assert time.monotonic() < end, "it did not happen"
-            self.page.wait_for_timeout(100)
+        wait(self.page, done)
 
     def steady(self) -> None:
         """Wait until sentences and figures have stopped changing."""

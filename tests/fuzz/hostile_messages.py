@@ -47,8 +47,6 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("ShareBar", {"report": "http://localhost/"}),
     ("LessonPanel", {"mark": 1, "lesson": "a", "words_only": True, "show": "load"}),
     ("LessonPanel", {"mark": 1, "simulate": {"noise": "20", "machine": "same", "pit": "scene"}}),
-    ("PlanChoice", {"curve_budget": "1", "cage_angles": "361", "own": True, "steady": "auto"}),
-    ("PlanChoice", {"vibration_budget": "1", "step_rate": "65536", "balls_up_to": "100"}),
     ("FileUpload", {"type": "begin", "name": "a.wav", "size": 64}),
     ("FileUpload", {"type": "piece", "of": 1, "content": "00"}),
 )

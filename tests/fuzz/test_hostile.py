@@ -1,4 +1,4 @@
-"""Small shares of the benchmarks `hostile` and `mutated_files`: other messages and files."""
+"""Small shares of the benchmark `hostile`: other messages and files."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from bearing_explorer.serve.serving import Limits
 
-from tests.benchmarks.mutated_files import run
+from tests.benchmarks.hostile import run
 from tests.fuzz.attacker import Tally, attack
-from tests.fuzz.hostile_messages import GOOD, SHAPES, component_event, patch
+from tests.fuzz.hostile_messages import SHAPES
 from tests.helpers.page_client import PageClient
 from tests.helpers.served import served
 
@@ -42,30 +42,11 @@ def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
     assert tally.cut.total() > 10
 
 
-def test_good_messages_of_the_page_are_taken(caplog: pytest.LogCaptureFixture) -> None:
-    """The schema that hostile messages are made from is that of messages that pass."""
-
-    async def send(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        await client.connect()
-        for component, data in GOOD:
-            if component in client.ids and "report" not in data:
-                await client.send_frames(*patch(component_event(client.ids[component], data)))
-        await client.ask(set={"extent_deg": 31.0})
-        assert await client.until_drawn()
-        assert not client.closed
-        await client.close()
-
-    with caplog.at_level(logging.WARNING):
-        served(send, Limits())
-    assert not any(record.exc_info for record in caplog.records)
-
-
 @pytest.mark.proof
-def test_each_mutated_file_has_an_answer_and_leaves_nothing_behind() -> None:
-    tally, turns, log = run(12, 1_000_001)
-    assert turns, "the loop was watched"
-    assert tally.faults == []
-    assert 0 < tally.refused.total() < 12, "some can still be read"
-    assert "Traceback" not in log
+def test_each_damaged_file_has_an_answer_and_leaves_nothing_behind() -> None:
+    outcome = run(messages=60, files=12, first=1_000_001)
+    assert outcome.turns, "the loop was watched"
+    assert outcome.faults == []
+    assert outcome.answered.total() == 12
+    assert 0 < outcome.refused.total() < 12, "some can still be read"
+    assert outcome.tally.sent.total() >= 60

@@ -2,7 +2,7 @@
 
 What follows the file's name is for the explorer. Each turn of the loop is timed where it happens,
 by the clock and by the processor time of the loop's own thread; once a second the longest turns are
-written to the file, as JSON; taking the file away begins anew.
+written to the file, as JSON.
 """
 
 from __future__ import annotations
@@ -38,15 +38,11 @@ def watch(report: Path) -> None:
             del longest[_KEPT:]
 
     def write() -> None:
-        written = False
         while True:
             time.sleep(1.0)
-            if written and not report.exists():
-                longest.clear()
             partial = report.with_suffix(".new")
             partial.write_text(json.dumps(list(longest)), encoding="utf-8")
             partial.replace(report)
-            written = True
 
     asyncio.events.Handle._run = timed  # type: ignore[method-assign]
     threading.Thread(target=write, daemon=True).start()
@@ -60,10 +56,6 @@ class WatchedServer(Server):
         port = free_port()
         command = [sys.executable, "-m", "tests.fuzz.watched_server", str(self._report)]
         super().__init__([*command, "--port", str(port), "--no-browser"], port, "/", environment)
-
-    def forget_turns(self) -> None:
-        """What was so far does not count."""
-        self._report.unlink()
 
     def longest_turns(self) -> list[dict[str, Any]]:
         """The longest turns, as soon as they are written."""

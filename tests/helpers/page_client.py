@@ -49,7 +49,6 @@ class PageClient:
         self._news = asyncio.Event()
         self._count = 0
         self._welcome = self._over = False
-        self._cookies: list[str] = []  # as a browser gives them back: balancers know people by them
 
     # Coming and going
 
@@ -60,8 +59,6 @@ class PageClient:
         found = _TOKEN.search(response.body or b"")
         self.token = found.group(1).decode() if found else ""
         self.body = response.body or b""
-        given = response.headers.get_list("Set-Cookie")
-        self._cookies = [cookie.split(";", 1)[0] for cookie in given]
         return int(response.code)
 
     async def connect(self) -> None:
@@ -76,8 +73,6 @@ class PageClient:
         self._welcome = self._over = False
         address = re.sub("^http", "ws", self.url) + "ws"
         headers = {"Origin": origin} if origin else {}
-        if self._cookies:
-            headers["Cookie"] = "; ".join(self._cookies)
         request = HTTPRequest(address, headers=headers)
         self._socket = await websocket_connect(
             request, subprotocols=["bokeh", self.token], max_message_size=LARGEST

@@ -1,4 +1,4 @@
-"""What operators have in front of the explorer, of a few lines: a reverse proxy, and its like."""
+"""A reverse proxy of a few lines, as operators have one in front of the explorer."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 
-class Relay:
-    """Stands between browsers and explorers: each connection is handed on by `relay`."""
+class Proxy:
+    """Hands on all below `under` to a port; with `strip` without that part of the path."""
 
-    def __init__(self, port: int = 0) -> None:
-        self.port = port
+    def __init__(self, port: int, under: str, strip: bool) -> None:
+        self._to, self._under, self._strip = port, under, strip
+        self.port = 0
         self._server: asyncio.Server | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Listen on `port`, or on a free one where that is 0."""
-        self._server = await asyncio.start_server(self._serve, "127.0.0.1", self.port)
+        """Listen on a free port."""
+        self._server = await asyncio.start_server(self._serve, "127.0.0.1", 0)
         self.port = self._server.sockets[0].getsockname()[1]
 
     async def stop(self) -> None:
@@ -35,26 +36,14 @@ class Relay:
         assert task is not None
         self._tasks.add(task)
         try:
-            await self.relay(reader, writer)
+            await self._relay(reader, writer)
         except (OSError, asyncio.IncompleteReadError, asyncio.CancelledError):
             pass
         finally:
             self._tasks.discard(task)
             writer.close()
 
-    async def relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Hand on one connection until it ends."""
-        raise NotImplementedError
-
-
-class Proxy(Relay):
-    """Hands on all below `under`; with `strip` without that part of the path."""
-
-    def __init__(self, port: int, under: str, strip: bool) -> None:
-        super().__init__()
-        self._to, self._under, self._strip = port, under, strip
-
-    async def relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def _relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         """One connection of a browser."""
         head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1")
         method, path, version = head.split("\r\n", 1)[0].split(" ")
@@ -73,16 +62,16 @@ class Proxy(Relay):
 
 
 @contextmanager
-def running(relay: Relay) -> Iterator[None]:
-    """A relay in a thread of this process."""
+def running(proxy: Proxy) -> Iterator[None]:
+    """A proxy in a thread of this process."""
     loop = asyncio.new_event_loop()
     thread = threading.Thread(target=loop.run_forever, daemon=True)
     thread.start()
-    asyncio.run_coroutine_threadsafe(relay.start(), loop).result(10)
+    asyncio.run_coroutine_threadsafe(proxy.start(), loop).result(10)
     try:
         yield
     finally:
-        asyncio.run_coroutine_threadsafe(relay.stop(), loop).result(10)
+        asyncio.run_coroutine_threadsafe(proxy.stop(), loop).result(10)
         loop.call_soon_threadsafe(loop.stop)
         thread.join(10)
 

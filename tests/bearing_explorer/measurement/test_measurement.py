@@ -139,32 +139,6 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     )
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "expected"),
-    [
-        ("a.csv", csv_of(NOISE, "time [s],ax [g],ay [g]"), ("1", "2", "g", "10000", "7 Hz")),
-        ("a.csv", csv_of(NOISE, "t,vertical (m/s^2),hor"), ("2", "1", "m/s²", "10000", "7 Hz")),
-        ("a.csv", csv_of(NOISE[:, :1], "time,sensor_g"), ("", "1", "g", "10000", "7 Hz")),
-        ("a.wav", wav_of(NOISE), ("0", "1", "", "8000", "7 Hz")),
-        ("a.wav", wav_of(NOISE[:, 0]), ("", "0", "", "8000", "7 Hz")),
-        (
-            "a.mat",
-            mat_of(X097_DE_time=NOISE[:, :1], X097RPM=np.array([[1797.0]]), fs=np.array([[12e3]])),
-            ("", "0", "g", "12000", "1797 rpm"),
-        ),
-        (
-            "a.mat",
-            mat_of(DE=NOISE[:, :1], FE=NOISE[:, 1:], BA=NOISE[:, :1], sr=np.array([[12e3]])),
-            ("", "", "", "12000", "7 Hz"),  # three places: asked
-        ),
-    ],
-)
-def test_guesses(name, content, expected):
-    form = guess(read_table(name, content), 7.0)
-    keys = ("x", "y", "unit", "sample_rate", "shaft_speed")
-    assert tuple(form[key] for key in keys) == expected
-
-
 def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
     made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())

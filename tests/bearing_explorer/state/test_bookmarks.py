@@ -4,7 +4,6 @@ import pytest
 from bearing_explorer.state.bookmarks import (
     LONGEST_NAME,
     Bookmarks,
-    OpenRequest,
     name_of,
     open_request_of,
     read_request,
@@ -126,14 +125,6 @@ def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
         assert taken == (words == "is open")
         assert taken or editor.snapshot() == before
     assert editor.preset == "6205", "the preset whose bearing it has"
-
-
-@pytest.mark.parametrize("text", ["", "v=9", "utm=1", "v=1&n_balls=0", "%%%", "v=1&floor=measured"])
-def test_what_no_scene_is_gets_a_sentence(text: str) -> None:
-    found = read_request(OpenRequest("open", "x", text))
-    assert isinstance(found, str)
-    assert found.startswith("x")
-    assert found.endswith(".")
 
 
 @pytest.mark.parametrize(

@@ -54,37 +54,3 @@ def test_peaks_of_the_signal_are_the_published_ones() -> None:
         x, y = np.abs(motion_of(case, RATE).outer_acceleration[round(0.1 * RATE) :]).max(axis=0)
         assert 0.5 * horizontal < x < 2.0 * horizontal
         assert 2.0 < y < 6.0
-
-
-def centroid(case: str, column: int, least: float, greatest: float) -> tuple[float, float]:
-    """Mean frequency [Hz] of a range weighted by density, and its power [(m/s²)²]."""
-    frequency, density = spectrum(motion_of(case, RATE).outer_acceleration[:, column], RATE)
-    inside = (frequency >= least) & (frequency <= greatest)
-    power = density[inside].sum()
-    return float((frequency[inside] * density[inside]).sum() / power), float(power * 32.0)
-
-
-@pytest.mark.parametrize(
-    ("column", "least", "greatest", "shift"),
-    [
-        (0, 350.0, 580.0, 10.0),
-        (0, 1650.0, 1780.0, 10.0),
-        (1, 500.0, 760.0, -40.0),
-        (1, 1740.0, 1900.0, -5.0),
-    ],
-    ids=["x1", "x2", "y1", "y2"],
-)
-def test_the_larger_defect_shifts_x_up_and_y_down(
-    column: int, least: float, greatest: float, shift: float
-) -> None:
-    """Section 4.4 and Fig. 10: by at least so many Hz, within the bands of each mode."""
-    small = centroid("12.9deg", column, least, greatest)[0]
-    large = centroid("38.6deg", column, least, greatest)[0]
-    assert (large - small) / shift > 1.0
-
-
-@pytest.mark.parametrize(("least", "greatest"), [(350.0, 580.0), (1650.0, 1780.0)])
-def test_the_larger_defect_raises_the_level_in_x(least: float, greatest: float) -> None:
-    """Fig. 10a: by more than 10 dB."""
-    small = centroid("12.9deg", 0, least, greatest)[1]
-    assert centroid("38.6deg", 0, least, greatest)[1] > 10.0 * small

@@ -205,26 +205,3 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
         for folder, mode in modes.items():
             folder.chmod(mode)
     assert before == {file: file.read_bytes() for file in package.rglob("*.kernel*")}
-
-
-def test_where_nothing_can_be_written_each_start_compiles_and_says_so(
-    package: Path, tmp_path: Path
-) -> None:
-    """Neither beside the sources nor at home: numba refuses to define a function there."""
-    home = tmp_path / "home"
-    home.mkdir()
-    own = {"XDG_CACHE_HOME": str(home), "HOME": str(home)}
-    for folder in (package, home):
-        folder.chmod(0o555)
-    try:
-        for _ in range(2):
-            assert told(start(package, None, obeying(), own))[:2] == (8.0, 0)
-        ask = "from mini import caller, compiling; print(compiling.kept_on_disk())"
-        environment = {**os.environ, **own, "PYTHONPATH": str(tmp_path)}
-        environment.pop("NUMBA_CACHE_DIR", None)
-        command = [*obeying(), sys.executable, "-c", ask]
-        said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-        assert said.stdout == "False\n"
-    finally:
-        for folder in (package, home):
-            folder.chmod(0o755)

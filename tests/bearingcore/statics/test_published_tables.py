@@ -235,18 +235,3 @@ def test_bands_of_the_fan_rig(extent_deg: float, ranges: dict[str, tuple[float, 
     for label, (least, greatest) in ranges.items():
         assert bands[label][0] == pytest.approx(least, abs=0.6), label
         assert bands[label][1] == pytest.approx(greatest, abs=0.6), label
-
-
-def test_the_larger_defect_raises_x_and_lowers_y() -> None:
-    """Section 4.3, of the mean natural frequencies."""
-    mean = {}
-    for extent_deg in (12.9, 38.6):
-        scene = presets["fan-rig"].replace(extent=math.radians(extent_deg))
-        found = modes(scene, table_angles(scene))
-        mean[extent_deg] = dict(
-            zip(found.label, found.frequency.mean(axis=0).tolist(), strict=True)
-        )
-    for label in ("x1", "x2"):
-        assert mean[38.6][label] > mean[12.9][label]
-    for label in ("y1", "y2"):
-        assert mean[38.6][label] < mean[12.9][label]

@@ -29,6 +29,7 @@ HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose nu
 HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
 NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
@@ -534,7 +535,7 @@ class Shapes:
             "y": end * np.sin(angle),
             "right": NUMBER_RIGHT * np.cos(angle),
             "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
-            "room": np.full(angle.size, 2.0 * math.pi * (start + 0.1) / angle.size),
+            "room": np.full(angle.size, min(2.0 * math.pi * (start + 0.1) / angle.size, SIDE_ROOM)),
             "most": load == np.max(load, initial=0.0, where=np.isfinite(load)),
             "x0": start * np.cos(angle),
             "y0": start * np.sin(angle),

@@ -304,20 +304,6 @@ def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
         assert bearing.n_balls * math.asin(bearing.ball_diameter / bearing.pitch_diameter) < math.pi
 
 
-def test_rule_finds_tapered_rollers_again() -> None:
-    """Rollers rated by the standards' formulas give their diameter back; the number if it fills."""
-    d, D, cosine = 0.030, 0.062, math.cos(math.radians(14.0))
-    for count, roller, length in ((17, 7.8e-3, 9.5e-3), (19, 6.9e-3, 12e-3)):
-        C = ratings.roller_dynamic_rating(count, roller, length, 0.046, cosine)
-        per_length = ratings.roller_static_rating_per_length(count, roller, 0.046, cosine)
-        found = tapered_rollers_from_ratings(
-            d, D, float(C), float(per_length * length), math.radians(14.0)
-        )
-        assert found.n_balls == count
-        assert found.ball_diameter == pytest.approx(roller, rel=1e-6)
-        assert found.roller_length == pytest.approx(length, rel=1e-6)
-
-
 def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
     """What is said of the rule's spread between two makers is what it is."""
     ratios, same = [], 0

@@ -154,17 +154,3 @@ def test_a_bearing_without_drawing_is_refused() -> None:
         film(presets["fan-rig"], **OIL)
     with pytest.raises(ValueError, match="state"):
         film(presets["6205"], **OIL, state=equilibrium(presets["6206"]))
-
-
-def test_how_it_scales() -> None:
-    scene = presets["6205"]
-    before = film(scene, **OIL).inner.thickness
-    faster = film(scene.replace(shaft_speed=2.0 * scene.shaft_speed), **OIL).inner.thickness
-    thicker = film(scene, viscosity=0.04, pressure_viscosity=2e-8).inner.thickness
-    stiffer_oil = film(scene, viscosity=0.02, pressure_viscosity=4e-8).inner.thickness
-    assert faster / before == pytest.approx(2.0**0.68)
-    assert thicker / before == pytest.approx(2.0**0.68)
-    assert stiffer_oil / before == pytest.approx(2.0**0.49)
-    heavier = film(scene.replace(fy=-2000.0), **OIL).inner
-    ratio = heavier.load / film(scene, **OIL).inner.load
-    assert heavier.thickness / before == pytest.approx(ratio**-0.073)

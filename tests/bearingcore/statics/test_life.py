@@ -52,15 +52,6 @@ def test_commercial_code(
     assert found.known
 
 
-def test_radial_integral_of_half_a_load_zone() -> None:
-    """Harris: F_r = Z Q_max J_r(0.5), J_r = 0.2288 for point contact; NSK prints 4.37 = 1/J_r."""
-    D = 4e-3
-    many = Bearing.from_drawing(40, D, 80e-3, 0.52 * D, 0.53 * D, contact_angle=0.0)
-    scene = presets["6205"].replace(bearing=many, defect=Defect.none(), load=Load(fx=500.0))
-    Q_max = equilibrium(scene, [0.0]).ball_load.max()
-    assert 500.0 / (40 * Q_max) == pytest.approx(0.2288, rel=2e-3)
-
-
 @pytest.mark.parametrize(
     ("contact", "exponent", "rows", "tolerance"),
     [

@@ -21,7 +21,7 @@ from bearing_explorer.requests import ForReport, Requests
 from bearing_explorer.results import compiling
 from bearing_explorer.results.drawing_loop import DrawingLoop
 from bearing_explorer.results.endurance import LifeInputs
-from bearing_explorer.results.executors import in_thread
+from bearing_explorer.results.executors import in_thread, in_turn
 from bearing_explorer.results.jobs import Jobs
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve import log as write
@@ -305,7 +305,7 @@ class Explorer:
 
         if quick or not slow:
             if self._quick_cost < _AT_ONCE:
-                inputs, picture = self._newest_picture(inputs, quick)
+                inputs, picture = await in_turn(self._newest_picture, inputs, quick)
             else:
                 inputs, picture = await in_thread(self._newest_picture, inputs, quick)
             self._quick_cost = picture.work

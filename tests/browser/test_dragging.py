@@ -126,3 +126,19 @@ def test_nothing_overtakes_a_position_that_waits(page: Page, explorer: Server) -
     page.wait_for_function("!location.search.includes('depth_um')")
     settle(page)
     assert value(page, "depth_um") == 50, "a drag is one step"
+
+
+def test_a_shorter_sentence_does_not_resize_the_drawing_above_it(
+    page: Page, explorer: Server
+) -> None:
+    page.set_viewport_size({"width": 1280, "height": 800})
+    open_page(page, explorer)
+    sentence = page.locator(".view-bearing p[role=status]")
+    heights, lengths = [], []
+    for extent in ("8", "30", "8"):  # no ball in the defect, two, none
+        slider(page, "extent_deg").fill(extent)
+        settle(page)
+        lengths.append(len(sentence.inner_text()))
+        heights.append(page.locator(".view-bearing canvas").first.bounding_box()["height"])
+    assert lengths[0] == lengths[2] < lengths[1]
+    assert heights[0] > heights[1] == heights[2]

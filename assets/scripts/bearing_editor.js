@@ -21,7 +21,7 @@ export function render({ model }) {
     about.append(named(sentence))
   }
   const panel = make_rows(model, { touched })
-  const picture = element("div")
+  const picture = element("div", { class: "drawing" })
   picture.addEventListener("click", (event) => {
     const name = event.target.closest(".dimension")?.dataset.name, row = panel.rows[name]
     if (row && !row.root.hidden) row.number.focus()

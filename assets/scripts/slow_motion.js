@@ -44,7 +44,12 @@ export function render({ model }) {
     if (data_of("roller_ends").x.length) write("roller_ends", balls)
     const ends = loads.map((one) => one > 0 ? start + per_load * one : NaN), most = Math.max(...loads)
     const from = polar(loads.map(() => start), turn), to = polar(ends, turn)
-    write("bars", { ...polar(ends.map((one) => one + 0.09), turn), x0: from.x, y0: from.y, x1: to.x, y1: to.y,
+    // their numbers as in views/bearing.py
+    const { number_right: [wide], number_up: [high] } = data_of("scale")
+    const sin = loads.map((_, j) => Math.sin(angle[j] + turn))
+    write("bars", { x0: from.x, y0: from.y, x1: to.x, y1: to.y, x: from.x, y: to.y,
+                    right: loads.map((_, j) => wide * Math.cos(angle[j] + turn)),
+                    down: sin.map((one) => one > -1e-9 ? -high : high),
                     load: loads, most: loads.map((one) => Number(one === most)) })
     for (const name of ["rings", "defect"]) {
       const { x, y, turns } = data_of(`base_${name}`), by = at(shaft)

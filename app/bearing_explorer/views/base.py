@@ -49,7 +49,7 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.python_lines import lines_of
 from bearing_explorer.widgets.controls import Rows
 from bearing_explorer.widgets.facts import sentence_html, table_to_read
-from bearing_explorer.widgets.form import stack
+from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, stack
 from bearingcore import Scene
 from bearingcore.common.table import as_csv
 
@@ -224,7 +224,7 @@ class View:
 
         A view of figures alone has them so by itself.
         """
-        self._pictures.append(stack(*parts, **params))
+        self._pictures.append(stack(*parts, stylesheets=[AS_HIGH_AS_SHOWN], **params))
         return self._pictures[-1]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

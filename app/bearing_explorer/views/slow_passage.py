@@ -23,6 +23,8 @@ from bearing_explorer.views.bearing import (
     BAR_LENGTH,
     BAR_START,
     HALF_WIDTH,
+    NUMBER_RIGHT,
+    NUMBER_UP,
     BearingDrawing,
     Shapes,
     load_words,
@@ -85,7 +87,7 @@ class SlowPassage(BearingDrawing):
             "start": ("angle",),
             "base_rings": ("x", "y", "turns"),
             "base_defect": ("x", "y", "turns"),
-            "scale": ("bar_start", "bar_length"),
+            "scale": ("bar_start", "bar_length", "number_right", "number_up"),
             "sound": ("value",),
         }.items():
             packed.source(f"slow_{name}", *columns)
@@ -137,6 +139,8 @@ class SlowPassage(BearingDrawing):
             "slow_scale": {
                 "bar_start": np.array([drawn.rim + BAR_START]),
                 "bar_length": np.array([BAR_LENGTH / top_range[1]]),
+                "number_right": np.array([NUMBER_RIGHT]),
+                "number_up": np.array([NUMBER_UP]),
             },
             "slow_sound": {"value": loudest},
             "slow_motion": traces(shown.time, signals),

@@ -265,7 +265,8 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     now = style.fitting_words(plot, cells, _NOW, NARROWEST)
     write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
     flat = style.fitting_words(plot, cells, _FLAT, NARROWEST)
-    write(plot, cells, flat, x="left", y="top", x_offset=3, y_offset=1, text_baseline="top")
+    # below the zero line, which runs through the middle
+    write(plot, cells, flat, x="left", y="bottom", x_offset=3, y_offset=-1, text_baseline="bottom")
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
     write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
     last = words_of(cells, _FOOT % "row.foot")

@@ -1,6 +1,6 @@
 """Which part is damaged: signals made without the project's model, diagnosed and counted.
 
-    python -m tests.benchmarks.confusion [--signals 400] [--healthy 1000] [--family 2031]
+    python -m tests.benchmarks.confusion [--signals 400] [--healthy 1000]
 
 For each part so many signals at 0 to 40 dB, and healthy ones, drawn by seed with
 `tests.bearingcore.diagnosis.signals_made`: any bearing, speed and sample rate, knocks that slip and
@@ -65,13 +65,12 @@ def main() -> None:
     )
     parser.add_argument("--signals", type=int, default=400)
     parser.add_argument("--healthy", type=int, default=1000)
-    parser.add_argument("--family", type=int, default=SCORED)
     chosen = parser.parse_args()
     found: list[Case] = []
     with ProcessPoolExecutor(2) as pool:
         for kind in (*PARTS, HEALTHY):
             count = chosen.healthy if kind == HEALTHY else chosen.signals
-            found += pool.map(partial(run, kind, chosen.family), range(count), chunksize=8)
+            found += pool.map(partial(run, kind, SCORED), range(count), chunksize=8)
     cases = pd.DataFrame(found)
     print(pd.crosstab(cases.truth, cases.fault, margins=True))
     damaged, told = cases[cases.truth != HEALTHY], cases[cases.fault != CANNOT_TELL]

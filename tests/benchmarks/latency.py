@@ -185,7 +185,6 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--steps", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=3.0, help="of each drag")
-    parser.add_argument("--preset", action="append", help="repeatable; fan-rig and liew-lim")
     parser.add_argument("--tab", action="append", help="only these; repeatable")
     chosen = parser.parse_args()
     failed = False
@@ -194,7 +193,7 @@ def main() -> int:
         sync_playwright() as playwright,
         chromium(playwright) as context,
     ):
-        for preset in chosen.preset or ("fan-rig", "liew-lim"):
+        for preset in ("fan-rig", "liew-lim"):
             page = context.new_page()
             page.goto(server.url)
             page.wait_for_function("window.__frames >= 1", timeout=60000)

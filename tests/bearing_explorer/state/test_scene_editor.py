@@ -25,24 +25,6 @@ def test_a_preset_is_taken_as_it_is_and_one_number_moves_nothing_else(name: str)
     assert editor.scene == presets[name].replace(outer_mass=3.25)
 
 
-@pytest.mark.parametrize(
-    ("control", "value", "field", "si"),
-    [
-        ("n_balls", 11, "n_balls", 11),
-        ("contact_angle_deg", 20, "contact_angle", math.radians(20)),
-        ("radial_clearance_um", 12, "radial_clearance", 12e-6),
-        ("load_deflection_factor", 9000, "load_deflection_factor", 9e9),
-    ],
-)
-def test_dimensions_reach_the_bearing(
-    editor: SceneEditor, control: str, value: float, field: str, si: float
-) -> None:
-    refused, _ = editor.set({control: value})
-    assert refused == {}
-    assert getattr(editor.scene.bearing, field) == pytest.approx(si, rel=1e-12)
-    assert editor.changed
-
-
 def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
     assert editor.choose({"numbers": "drawing"}) == {}
     drawn = editor.scene.bearing

@@ -5,7 +5,7 @@ import pytest
 from bearing_explorer.plots import style
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.modes import NaturalFrequencies, band_rows, spread
+from bearing_explorer.views.modes import NaturalFrequencies, spread
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,18 +35,6 @@ def test_each_band_holds_a_curve_that_is_drawn_and_little_more(name: str) -> Non
     low, high = ranges["modes_frequency"]
     assert low <= bands["low"].min()
     assert bands["high"].max() <= high
-
-
-def test_bands_are_those_of_the_paper() -> None:
-    bands = band_rows(Results(FAN_RIG).bands)
-    at = {
-        f"{style.DIRECTIONS[int(d)]}{int(n)}": (low, high)
-        for low, high, d, n in zip(*(bands[k] for k in bands), strict=True)
-    }
-    assert at["x1"] == pytest.approx((365.0, 480.0), abs=1.5)
-    assert at["y1"] == pytest.approx((615.0, 678.0), abs=1.5)
-    assert at["x2"] == pytest.approx((1684.0, 1722.0), abs=1.5)
-    assert at["y2"] == pytest.approx((1793.0, 1841.0), abs=1.5)
 
 
 @given(

@@ -22,6 +22,8 @@ WRITTEN: list[tuple[Callable[..., str], tuple[object, ...], str]] = [
     (numbers.with_prefix, (7.94e-24, "N/m"), "7.94·10⁻²⁴ N/m"),  # no prefix reaches so far
     (numbers.with_prefix, (3.2e21, "Hz"), "3.2·10²¹ Hz"),
     (numbers.with_prefix, (-3.2e-6, "m"), "−3.2 µm"),
+    (numbers.with_prefix, (0.0, "N"), "0 N"),
+    (numbers.with_prefix, (math.nan, "N"), "no value"),
     (numbers.percent, (0.1254,), "12.5 %"),
     (numbers.percent, (1e-6,), "below 0.01 %"),
     (numbers.percent_off, (0.0031,), "+0.3 %"),

@@ -185,7 +185,6 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--steps", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=3.0, help="of each drag")
-    parser.add_argument("--tab", action="append", help="only these; repeatable")
     chosen = parser.parse_args()
     failed = False
     with (
@@ -202,17 +201,16 @@ def main() -> int:
                 f"{'target':>9}{'paint':>9}{'drag':>9}{'tail':>9}{'work':>15}   C loops"
             )
             for case in CASES:
-                if not chosen.tab or case.tab in chosen.tab:
-                    # each begins with the same scene, whatever the one before has made of it
-                    page.goto(f"{server.url}?v=1&preset={preset}&tab={case.tab}")
-                    page.wait_for_function("window.__frames >= 1", timeout=60000)
-                    try:
-                        pid = server.process.pid
-                        line = measure(page, case, chosen.steps, chosen.seconds, pid)
-                    except RuntimeError as error:
-                        line = f"{case.tab:<11}{case.slider:<17}failed: {error}"
-                        failed = True
-                    print(line, flush=True)
+                # each begins with the same scene, whatever the one before has made of it
+                page.goto(f"{server.url}?v=1&preset={preset}&tab={case.tab}")
+                page.wait_for_function("window.__frames >= 1", timeout=60000)
+                try:
+                    pid = server.process.pid
+                    line = measure(page, case, chosen.steps, chosen.seconds, pid)
+                except RuntimeError as error:
+                    line = f"{case.tab:<11}{case.slider:<17}failed: {error}"
+                    failed = True
+                print(line, flush=True)
             page.close()
     return int(failed)
 

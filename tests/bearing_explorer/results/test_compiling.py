@@ -62,6 +62,13 @@ def test_parts_are_ready_one_after_the_other(
     assert compilation.progress() == {}
 
 
+async def until_drawn(explorer: Explorer) -> None:
+    async with asyncio.timeout(60.0):
+        while not explorer._loop.drawn:
+            await asyncio.sleep(0.01)
+    explorer.stop()
+
+
 def test_the_first_picture_comes_before(
     compilation: Compilation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -72,10 +79,7 @@ def test_the_first_picture_comes_before(
         explorer = Explorer(SECTIONS)
         assert not compilation.wait(0.2)
         explorer.draw()
-        async with asyncio.timeout(60.0):
-            while not explorer._loop.drawn:
-                await asyncio.sleep(0.01)
-        explorer.stop()
+        await until_drawn(explorer)
 
     compilation.begin()
     run(live())
@@ -118,10 +122,7 @@ def test_pictures_of_other_scenes_say_that_they_are_not_ready(compilation: Compi
         assert explorer.scene == before, "sliders do not move yet"
         explorer.editor.set({"extent_deg": 33.0})  # as a link does
         explorer.draw()
-        async with asyncio.timeout(60.0):
-            while not explorer._loop.drawn:
-                await asyncio.sleep(0.01)
-        explorer.stop()
+        await until_drawn(explorer)
         view = explorer._views["overview"][0]
         return explorer.status.line["words"], view._sentence.text
 

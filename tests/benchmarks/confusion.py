@@ -1,8 +1,8 @@
 """Which part is damaged: signals made without the project's model, diagnosed and counted.
 
-    python -m tests.benchmarks.confusion [--signals 400] [--healthy 1000]
+    python -m tests.benchmarks.confusion
 
-For each part so many signals at 0 to 40 dB, and healthy ones, drawn by seed with
+For each part 400 signals at 0 to 40 dB, and 1000 healthy ones, drawn by seed with
 `tests.bearingcore.diagnosis.signals_made`: any bearing, speed and sample rate, knocks that slip and
 wander, resonances, load zones, coloured noise, shaft lines, gear meshes, tones on and beside the
 lines. Prints the confusion matrix, by noise too, and how far the stated probability holds.
@@ -10,9 +10,7 @@ lines. Prints the confusion matrix, by noise too, and how far the stated probabi
 
 from __future__ import annotations
 
-import argparse
 from concurrent.futures import ProcessPoolExecutor
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +21,7 @@ from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
 from tests.bearingcore.diagnosis.signals_made import HEALTHY, PARTS, draw_signal
 
 SCORED = 2031
+SIGNALS = {**dict.fromkeys(PARTS, 400), HEALTHY: 1000}
 NOISE = (0.0, 40.0)
 STATED = (0.0, 0.8, 0.9, 0.95, 0.985, 1.001)
 
@@ -36,10 +35,9 @@ class Case(NamedTuple):
     probability: float
 
 
-def run(kind: str, family: int, number: int) -> Case:
+def run(kind: str, number: int) -> Case:
     """Draw and diagnose signal `number` of a kind."""
-    kinds = (*PARTS, HEALTHY)
-    rng = np.random.default_rng([family, kinds.index(kind), number])
+    rng = np.random.default_rng([SCORED, list(SIGNALS).index(kind), number])
     decibels = float(rng.uniform(*NOISE))
     machine, recording = draw_signal(kind, rng, decibels)
     found = diagnose(recording, machine.bearing, machine.shaft_speed * rng.uniform(0.998, 1.002))
@@ -60,17 +58,10 @@ def worth(cases: pd.DataFrame) -> pd.Series:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--signals", type=int, default=400)
-    parser.add_argument("--healthy", type=int, default=1000)
-    chosen = parser.parse_args()
     found: list[Case] = []
     with ProcessPoolExecutor(2) as pool:
-        for kind in (*PARTS, HEALTHY):
-            count = chosen.healthy if kind == HEALTHY else chosen.signals
-            found += pool.map(partial(run, kind, SCORED), range(count), chunksize=8)
+        for kind, count in SIGNALS.items():
+            found += pool.map(run, [kind] * count, range(count), chunksize=8)
     cases = pd.DataFrame(found)
     print(pd.crosstab(cases.truth, cases.fault, margins=True))
     damaged, told = cases[cases.truth != HEALTHY], cases[cases.fault != CANNOT_TELL]

@@ -1,4 +1,4 @@
-"""Memory over classes that come and go: ``python -m tests.benchmarks.memory [--classes 10]``.
+"""Memory over classes that come and go: ``python -m tests.benchmarks.memory``.
 
 A server is really started. Class after class opens the page and three tabs, drags, and leaves.
 Printed is what the process holds with each class there and after it has left, and how long the
@@ -8,7 +8,6 @@ what is left must be flat within 15 %.
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import sys
 import time
@@ -20,7 +19,7 @@ from tests.benchmarks.processor import resident
 from tests.browser.helpers import explorer_server, serving
 from tests.helpers.page_client import PageClient
 
-PEOPLE = 20
+CLASSES, PEOPLE = 10, 20
 TABS = ("load", "stiffness", "vibration")
 SETTLES = 30.0
 """After which sessions are dropped and a collection has been [s]."""
@@ -56,14 +55,11 @@ async def one_class(url: str, process: int, number: int) -> tuple[list[float], f
 
 def main() -> int:
     """Print a table, and say with the exit code whether memory was flat."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--classes", type=int, default=10)
-    chosen = parser.parse_args()
     left: list[float] = []
     with serving(explorer_server()) as server:
         process = server.process.pid
         print(f"{resident(process):.0f} MB before; then for each class of {PEOPLE}:")
-        for number in range(chosen.classes):
+        for number in range(CLASSES):
             firsts, most, after = asyncio.run(one_class(server.url, process, number))
             median, last = np.median(firsts), max(firsts)
             left.append(after)

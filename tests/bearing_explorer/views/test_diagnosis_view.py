@@ -269,9 +269,6 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
     assert "Unit" not in dict(panel_state(asked("inner race"), known)["facts"])
 
 
-# -- in the background -----------------------------------------------------------------------------
-
-
 # -- simulated measurements ------------------------------------------------------------------------
 
 

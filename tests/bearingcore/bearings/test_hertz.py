@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bearingcore import equilibrium, presets
-from bearingcore.bearings.hertz import in_series, race_contact
+from bearingcore.bearings.hertz import race_contact
 
 D_B, D_P = 11.5e-3, 43.5e-3
 STEEL = (210e9, 0.3)
@@ -89,12 +89,6 @@ def test_pressure_carries_the_load(race: str, conformity: float, D_p: float, ang
     volume = 2.0 / 3.0 * math.pi * a * b * contact.greatest_pressure(load)
     assert volume == pytest.approx(load, rel=1e-13)
     assert np.all(a >= b)
-
-
-def test_two_springs_in_series_share_one_load() -> None:
-    inner, outer, load = 3e10, 2e10, 700.0
-    approach = (load / inner) ** (2.0 / 3.0) + (load / outer) ** (2.0 / 3.0)
-    assert in_series(inner, outer) * approach**1.5 == pytest.approx(load, rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import math
 
 from bearingcore import presets, simulate
-from bearingcore.dynamics.ball_comparison import compare_balls, mass_share
+from bearingcore.dynamics.ball_comparison import compare_balls
 from bearingcore.dynamics.speed_run import speed_run
 from bearingcore.scene.pit import pit
 
@@ -23,11 +23,6 @@ def test_up_to_where_massless_balls_will_do() -> None:
     strict = compare_balls(FAN_RIG, budget=1e-6)
     assert math.isnan(strict.massless_up_to)
     assert "more than 1·10⁻⁶ dB off from 300 Hz on" in strict.sentence
-
-
-def test_share_of_the_power_that_mass_adds() -> None:
-    assert abs(mass_share(FAN_RIG, 300.0, 2100.0, 0.7, 65536.0)) < 0.1
-    assert mass_share(FAN_RIG, 10e3, 20e3, 0.7, 65536.0) > 0.8
 
 
 def test_bands_without_power_do_not_count() -> None:

@@ -14,7 +14,7 @@ from bearing_explorer.state.compared import MOST_COMPARED
 
 Other = TypeVar("Other")
 
-COLORS = ("#009E73", "#CC79A7", "#882255", "#56B4E9")
+COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
 DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
 _SLOT = "_compared_"
 _LONGEST_NAME = 28

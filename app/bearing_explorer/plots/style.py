@@ -51,9 +51,9 @@ STEEL_EDGE = "#A9B1BB"
 GRID = "#EDEFF2"
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
-DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9")
+DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377", "#56B4E9")
 """Colour of each direction of motion, in the order of `DIRECTIONS`."""
-BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377")
 """Colours of balls that are shown one by one, taken in turn."""
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"

@@ -74,7 +74,7 @@ VERDICT_LOOKS = dict(
         strict=True,
     )
 )  # fmt: skip
-LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#CC79A7",
+LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#AA3377",
                "fold": "#E69F00"}  # fmt: skip
 """Colour of an orbit by its loss of stability; none is stable."""
 

@@ -50,7 +50,7 @@ FAMILIES = (
         "#8A5A00",
         dash="dashed",
     ),
-    Family("bpfi", "BPFI", "balls pass a point of the inner race", "#CC79A7", "#94407A"),
+    Family("bpfi", "BPFI", "balls pass a point of the inner race", "#AA3377", "#94407A"),
     Family("bsf", "BSF", "a ball spins; a spot on it knocks twice a turn", "#009E73", "#00704F", 6),
     Family("ftf", "FTF", "the cage turns", "#56B4E9", "#1F6F9F", 3),
 )

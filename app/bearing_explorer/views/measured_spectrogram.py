@@ -55,7 +55,7 @@ FIELDS: list[LookField] = [
     {"name": "of", "label": "of",
      "options": [["signal", "the signal"], ["envelope", "its envelope"]]},
     {"kind": "number", "name": "last", "label": "Shaft speed at the end (Hz)",
-     "hint": "as at first"},
+     "hint": "the same"},
 ]  # fmt: skip
 _SPEED = curve("spectrogram_speed", "x", "y", "#FFFFFF", 1.6, (5, 4))
 

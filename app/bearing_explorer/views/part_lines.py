@@ -37,7 +37,7 @@ STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
 """Opacity of lines: of the leading part, of the others, of all where none leads."""
 
 NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
-COLORS = {"outer race": "#E69F00", "inner race": "#CC79A7", "ball": "#009E73"}
+COLORS = {"outer race": "#E69F00", "inner race": "#AA3377", "ball": "#009E73"}
 INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 

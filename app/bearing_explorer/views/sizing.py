@@ -49,7 +49,7 @@ FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
 
 KNOWN = "known"
 SUPPORTS = [
-    ["", "a guess: others are tried, in five times the time"],
+    ["", "a guess: tries others (slower)"],
     [KNOWN, "as in the scene"],
 ]
 """Knowledge of the machine's masses and springs: value and words."""

@@ -18,13 +18,13 @@ DARK_COLORS = {
     style.FAINT_INK: "#AAB4BF",
     style.DEFECTIVE: "#46AAEC",
     style.HEALTHY: "#8C959F",
-    style.DEFECT: "#E8A40C",
+    style.DEFECT: "#FFD34D",
     style.STEEL: "#2C3641",
     style.STEEL_EDGE: "#667280",
     style.GRID: "#29323C",
     "#D55E00": "#FF8B3E",
     "#009E73": "#2BC797",
-    "#CC79A7": "#E89BC6",
+    "#AA3377": "#EDA9C2",
     "#56B4E9": "#A9DBFA",
     "#6B7480": "#95A0AC",  # rim of a ball
     "#B87A00": "#E8B23E",  # rim of a defect
@@ -44,7 +44,7 @@ DARK_COLORS = {
     "#DDE0E3": "#333D47",
     "#8B929A": "#7A8591",
     "#B9BEC4": "#525D69",
-    "#882255": "#D8709F",  # the third compared scene
+    "#661100": "#B5524A",  # the third compared scene
 }
 """By the light colour, as upper-case hex."""
 

@@ -29,7 +29,7 @@ from bearingcore.experiments.integrators import METHODS
 HEIGHT, TALL = 260, 430
 """[px] of a chart, and of one that has a row for itself."""
 COLORS = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", style.INK,
+    "#0072B2", "#D55E00", "#009E73", "#AA3377", "#E69F00", "#56B4E9", style.INK,
 )  # fmt: skip
 """Okabe and Ito's, which colour-blind people can distinguish."""
 MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.assets import asset_text
-from bearing_explorer.plots import style
-from bearing_explorer.views import stability_map
+from bearing_explorer.plots import compared_curves, style
+from bearing_explorer.views import stability_map, work_precision
+from bearing_explorer.views.frequency_lines import FAMILIES
 from bearing_explorer.views.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
 FIGURES = [Path(style.__file__).parent, Path(stability_map.__file__).parent]
@@ -65,7 +66,7 @@ def test_lines_and_text_of_figures_are_seen(turned: object) -> None:
     for text in (style.INK, style.FAINT_INK):
         assert contrast(turned(text), paper) >= 4.5
     lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.HEALTHY}
-    for line in lines - {"#CC79A7"}:  # told by its label as well
+    for line in lines:
         assert contrast(turned(line), paper) >= 3.0, line
 
 
@@ -95,12 +96,20 @@ def seen_by(kind: str, color: str) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["trichromat", "protanope", "deuteranope"])
 def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
     assert callable(turned)
-    meanings = [*style.DIRECTION_COLORS[:3], style.HEALTHY]
     kinds = [one.color for one in stability_map.KINDS[1:]]
     assert all(color in DARK_COLORS for color in kinds), "a palette turns dark as a whole"
-    for pair in (*itertools.combinations(meanings, 2), *itertools.combinations(kinds, 2)):
-        a, b = (seen_by(kind, turned(color)) for color in pair)
-        assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen
+    one_figure = [
+        (*style.DIRECTION_COLORS, style.HEALTHY),
+        (style.DEFECTIVE, style.HEALTHY, *compared_curves.COLORS),
+        style.BALL_COLORS,
+        [family.color for family in FAMILIES if family.name != "half"],
+        work_precision.COLORS,
+        kinds,
+    ]
+    for colors in one_figure:
+        for pair in itertools.combinations(dict.fromkeys(colors), 2):
+            a, b = (seen_by(kind, turned(color)) for color in pair)
+            assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen
 
 
 def test_every_color_of_a_figure_has_its_dark_one() -> None:

@@ -57,9 +57,14 @@ FAMILIES = (
 """In the order of their rows."""
 
 _WORDS = """
-const of = row.of ? ` row ${row.of}` : ''
-const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
-if (row.order == %(first)s) return `%(title)s${of} ${rounded(row.first, 4)}${give} Hz`
+if (row.order == %(first)s) {
+  const name = '%(title)s' + (row.of ? ` row ${row.of}` : ''), first = rounded(row.first, 4)
+  const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
+  let room = Infinity  // letters up to the next name
+  try { room = %(room)s*plot.inner_width/(5.8*larger) } catch {}
+  const longer = [`${name} ${first}${give} Hz`, `${name} ${first} Hz`]
+  return longer.find(one => one.length < room) ?? name
+}
 const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
 return `${whole || ''}${half}×`
 """
@@ -133,7 +138,7 @@ class FrequencyLines:
             lines = packed.source(f"{prefix}_{family.name}", "frequency")
             names = packed.source(f"{prefix}_{family.name}_names", *NAME_COLUMNS)
             first = 0.5 if family.name == "half" else 1
-            words = _WORDS % {"first": first, "title": family.title}
+            words = _WORDS % {"first": first, "title": family.title, "room": NAME_WIDTH}
             for plot in plots:
                 plot.vspan(
                     "frequency", source=lines, line_color=family.color, line_alpha=0.6,

@@ -319,7 +319,7 @@ def _race_film(
     else:
         kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
     if h == 0.0:
-        standing = f"The shaft stands still and draws no oil between {element} and {race} race."
+        standing = f"The shaft is at rest and draws no oil between {element} and {race} race."
         return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
     sentence = (
         f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "

@@ -99,7 +99,7 @@ SETTLING = 0.3  # [s] before a simulated measurement begins
 FIRST_WORDS = (
     "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
     "current scene. Then the damaged part, the length of its spall, trend, indicators and spectra "
-    "stand here."
+    "appear here."
 )
 
 _WITHOUT_SIZE = (

@@ -110,7 +110,7 @@ RACE = Choice(
     "Race",
     "Defect",
     (
-        Option("outer", "Outer", "The outer ring stands still, and its defect too."),
+        Option("outer", "Outer", "The outer ring is at rest, and its defect too."),
         Option(
             "inner",
             "Inner, turns",

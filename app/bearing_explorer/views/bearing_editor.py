@@ -238,7 +238,7 @@ FACTS = {
     "diametral_play": Fact(
         "Diametral play",
         "s",
-        "From contact to contact across the shaft: what contact angle and clearance stand for.",
+        "From contact to contact across the shaft: it follows from contact angle and clearance.",
         _length("diametral_play"),
     ),
     "load_deflection_factor": Fact(

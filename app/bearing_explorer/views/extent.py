@@ -35,7 +35,7 @@ FIELDS: list[LookField] = [
         "name": "race",
         "label": "Damaged is",
         "options": [
-            ["", "what step 2 says"],
+            ["", "the part of step 2"],
             ["outer", "the outer race, as is known"],
             ["inner", "the inner race, as is known"],
         ],

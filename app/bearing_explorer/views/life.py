@@ -205,7 +205,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             hours_in_words(lasts.hours)
             if math.isfinite(lasts.hours)
             else "no hours: "
-            + ("the shaft stands still" if results.scene.shaft_speed == 0.0 else "unlimited"),
+            + ("the shaft is at rest" if results.scene.shaft_speed == 0.0 else "unlimited"),
             "The same in hours.",
         ),
         Fact(

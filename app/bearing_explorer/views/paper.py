@@ -93,7 +93,7 @@ class PaperFigures(View):
     def sentence(self, results: Results) -> str:
         figure = self._figure
         bearing = "Liew and Lim's bearing" if figure.preset == "liew-lim" else "the fan rig"
-        return f"Figure {figure.number} is of {bearing}, whatever the sliders say."
+        return f"Figure {figure.number} is of {bearing}, independent of the sliders."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -44,7 +44,7 @@ BEFORE = 0.14
 """Of a ball pass that is drawn before the entry."""
 
 OUTER, INNER = "outer race", "inner race"
-FAULTS = [["", "what step 2 says"], [OUTER, "the outer race, as is known"]]
+FAULTS = [["", "the part of step 2"], [OUTER, "the outer race, as is known"]]
 """Parts that may be chosen as damaged: value and words."""
 
 KNOWN = "known"
@@ -134,7 +134,7 @@ class DefectSize(JobView[Sized], MeasuredView):
         scene = measured.scene(focused(editor.scene, editor.selected))
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
-            raise ValueError(f"Not possible: damaged is {OUTER!r}, or what the diagnosis says.")
+            raise ValueError(f"Not possible: damaged is {OUTER!r}, or the diagnosed part.")
         known = given.get("support") == KNOWN
 
         def work(job: Work) -> str:
@@ -235,7 +235,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     def _not_yet(self, results: Results) -> str:
         """That nothing was looked for, and whether there is something to look for."""
-        words = "The size has not been looked for yet."
+        words = "The size has not been estimated yet."
         measurement = self.measurement
         found = None if measurement is None else measurement.diagnosis(results.scene.bearing)
         if found is None or found.fault == OUTER:

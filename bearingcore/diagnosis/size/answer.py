@@ -54,8 +54,8 @@ class SizingStatus(Status):
 _SENTENCES = {
     SizingStatus.SIZED: "One extent explains the signal, and no other does.",
     SizingStatus.AT_MOST: "The defect is shorter than what the compared band resolves.",
-    SizingStatus.AT_LEAST: "The defect is as long as the longest extent that is looked for.",
-    SizingStatus.OTHER_PART: "The outer race is not named as damaged, so no extent is looked for.",
+    SizingStatus.AT_LEAST: "The defect is as long as the longest extent considered.",
+    SizingStatus.OTHER_PART: "The outer race is not named as damaged, so no extent is estimated.",
     SizingStatus.TOO_MANY_STEPS: "The search would take more steps of integration than allowed.",
     SizingStatus.NO_LINES: (
         "No lines stand out at the ball-pass frequency of an outer-race defect."

@@ -261,7 +261,7 @@ def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
     assert "has changed" not in view.sentence(larger)  # the extent is not looked at
     assert "has changed" in view.sentence(Results(RIG.replace(fy=-300.0)))
     view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
-    assert view.sentence(RESULTS) == "The size has not been looked for yet."
+    assert view.sentence(RESULTS) == "The size has not been estimated yet."
     assert not view.all_data(RESULTS)[1]
 
 

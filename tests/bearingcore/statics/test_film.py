@@ -117,7 +117,7 @@ def test_ellipses_reach_across_the_rolling(conformity: float) -> None:
 def test_a_standing_shaft_has_no_film() -> None:
     found = film(presets["6205"].replace(shaft_speed=0.0), **OIL)
     assert found.inner.thickness == found.inner.film_parameter == 0.0
-    assert "stands still" in found.sentence
+    assert "at rest" in found.sentence
     assert found.limit.crossed
 
 

@@ -16,7 +16,6 @@ else is on them.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from dataclasses import dataclass
@@ -104,6 +103,8 @@ def steps(slider: Locator, count: int) -> list[tuple[float, float]]:
     return found
 
 
+STEPS, SECONDS = 20, 3.0
+"""Steps of each slider, and how long it is dragged [s]."""
 HAND = 60.0
 """Movements of the mouse a second."""
 WORK = 60.0
@@ -157,7 +158,7 @@ def drag(page: Page, slider: Locator, seconds: float, server: int) -> Drag:
     return Drag(len(drawn) / seconds, end - released, work["browser"], work["server"])
 
 
-def measure(page: Page, case: Case, count: int, seconds: float, server: int) -> str:
+def measure(page: Page, case: Case, server: int) -> str:
     """The line of one case."""
     page.locator(f".tab-{case.tab}").click()
     page.wait_for_function(f"window.__tab == '{case.tab}'", timeout=120_000)
@@ -166,8 +167,8 @@ def measure(page: Page, case: Case, count: int, seconds: float, server: int) -> 
     page.evaluate(WATCH)
     machine = pace()
     slider = slider_of(page, case.slider)
-    times, paints = np.transpose(steps(slider, 3 + count)[3:])
-    moved = drag(page, slider, seconds, server)
+    times, paints = np.transpose(steps(slider, 3 + STEPS)[3:])
+    moved = drag(page, slider, SECONDS, server)
     median, late = np.quantile(times, [0.5, 0.95])
     slow, busy = median > case.target, moved.browser + moved.server > WORK
     return (
@@ -182,10 +183,6 @@ def measure(page: Page, case: Case, count: int, seconds: float, server: int) -> 
 
 def main() -> int:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
-    parser.add_argument("--steps", type=int, default=20)
-    parser.add_argument("--seconds", type=float, default=3.0, help="of each drag")
-    chosen = parser.parse_args()
     failed = False
     with (
         serving(explorer_server()) as server,
@@ -205,8 +202,7 @@ def main() -> int:
                 page.goto(f"{server.url}?v=1&preset={preset}&tab={case.tab}")
                 page.wait_for_function("window.__frames >= 1", timeout=60000)
                 try:
-                    pid = server.process.pid
-                    line = measure(page, case, chosen.steps, chosen.seconds, pid)
+                    line = measure(page, case, server.process.pid)
                 except RuntimeError as error:
                     line = f"{case.tab:<11}{case.slider:<17}failed: {error}"
                     failed = True

@@ -1,6 +1,6 @@
 """Solve a great many scenes out of the whole box, judge every answer, and print what came of it.
 
-    python -m tests.benchmarks.million [--scenes 1000000] [--seed 1] [--processes 2]
+    python -m tests.benchmarks.million [--scenes 1000000] [--seed 1]
 
 Every scene is solved at four cage angles in order. Each answer is judged in extended precision by
 `helpers.judge`, which shares no code with the solver: a converged state must balance, be held
@@ -91,13 +91,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--scenes", type=int, default=1_000_000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--processes", type=int, default=2)
     wanted = parser.parse_args()
     warm(lambda _: None)
     sizes = [min(CHUNK, wanted.scenes - first) for first in range(0, wanted.scenes, CHUNK)]
     total = Tally()
     begin = time.perf_counter()
-    with ProcessPoolExecutor(wanted.processes) as pool:
+    with ProcessPoolExecutor(2) as pool:
         seeds = [wanted.seed] * len(sizes)
         parts = pool.map(solve_chunk, seeds, range(len(sizes)), sizes)
         for part in tqdm(parts, total=len(sizes), unit="chunk"):

@@ -42,7 +42,7 @@ async def in_turn(function: Callable[..., Result], *args: object) -> Result:
     """Run `function` on the event loop, where others wait after them.
 
     Between two of them what browsers have sent is taken: of the positions of a slider only the
-    newest is drawn. For 30 people that is twice as many of their changes a second.
+    newest is drawn. For 30 people that is half as many more of their changes a second.
     """
     async with _TURNS.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
         await asyncio.sleep(0.0)

@@ -251,18 +251,19 @@ class Explorer:
             self.draw()
 
     def _make(self, name: str) -> list[View]:
-        """The views of a section. For any thread: they are in no document yet."""
+        """The views of a section, which are in no document yet."""
         return [view(self.packed) for view in self._sections[name].views]
 
     async def _open_tab(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first opened.
 
         Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before its numbers arrive. On the event loop the section only comes
-        into the document: figures, models and the message are made in threads.
+        must know a figure before its numbers arrive. All of it holds the interpreter, and is done
+        on the event loop, one session after the other: where 30 come at once, threads that take it
+        from each other have the last picture come a sixth later.
         """
         if name not in self._views:
-            self._views[name] = await in_thread(self._make, name)
+            self._views[name] = await in_turn(self._make, name)
         if name not in self._containers:
             self._containers[name] = self._container(self._views[name])
         new = self._containers[name] not in self.main

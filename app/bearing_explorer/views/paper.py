@@ -25,7 +25,7 @@ from bearing_explorer.widgets.facts import facts_pane
 from bearing_explorer.widgets.form import button, row, stack
 from bearingcore import Scene
 
-_OF_COMPARED = tuple(zip(("Green", "Purple"), compared_curves.COLORS, strict=False))
+_OF_COMPARED = tuple(zip(("Green", "Pink"), compared_curves.COLORS, strict=False))
 _GRID = """
 :host {{
   display: grid;

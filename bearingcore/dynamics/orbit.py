@@ -296,15 +296,15 @@ def common_ball_passes(scene: Scene) -> int | None:
 
     The balls of a row are alike after one of its own passes: for each pass of the bearing's balls
     those of a row with a number or a cage of its own have made another part of one, and must have
-    come round by whole ones. So must a defect of the inner race and an unbalance, by whole turns:
-    the shaft has turned (2π/N_b)·ω_s/ω_c for each.
+    come round by whole ones. So must what turns with the shaft, a defect of
+    the inner race or a force, by whole turns: the shaft has turned (2π/N_b)·ω_s/ω_c for each.
     """
     bearing = scene.bearing
     rounds = {
         bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
         for k in range(len(bearing.all_rows))
     }
-    if scene.unbalance > 0.0 or any(defect.race == "inner" for defect in scene.defects):
+    if scene.turning_force > 0.0 or any(defect.race == "inner" for defect in scene.defects):
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
     for turned in rounds:

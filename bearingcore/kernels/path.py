@@ -251,14 +251,14 @@ def new_passage(instants, angle):
 
 
 @called
-def lay_out_unbalance(start, turn, count, rotor, passage):
-    """Force of the unbalance at `count` cage angles start + i·turn [rad], into a passage."""
-    if rotor.unbalance == 0.0:
+def lay_out_turning_force(start, turn, count, rotor, passage):
+    """The force that turns with the shaft at `count` cage angles start + i·turn [rad]."""
+    if rotor.turning_force == 0.0:
         return
     for i in range(count):
         shaft = rotor.shaft_pace * (start + i * turn)
-        passage.push[i, 0] = rotor.unbalance * math.cos(shaft)
-        passage.push[i, 1] = rotor.unbalance * math.sin(shaft)
+        passage.push[i, 0] = rotor.turning_force * math.cos(shaft)
+        passage.push[i, 1] = rotor.turning_force * math.sin(shaft)
 
 
 @called

@@ -104,7 +104,7 @@ class Passage(NamedTuple):
     c, s, d [m], d_rate [m/s] : (instants, n)
         cosine, sine, drop and its rate.
     push : (instants, 5) [N]
-        of the unbalance on the inner ring; zero in directions other than x and y.
+        that turns with the shaft, on the inner ring; zero in directions other than x and y.
     circle_c, circle_s : (n,)
         cosine and sine of the angle from the first ball.
     """
@@ -242,8 +242,8 @@ class Rotor(NamedTuple):
         `VELOCITIES`, `SMOOTH` or `PLANAR`: what is marched.
     tension
         whether the damper may draw a ball back, as published.
-    unbalance [N]
-        U ω_s², the force that turns with the shaft.
+    turning_force [N]
+        that turns with the shaft, along x at cage angle 0.
     shaft_pace
         how fast the shaft turns, over the cage.
     """
@@ -258,7 +258,7 @@ class Rotor(NamedTuple):
     contact_damping: float
     variables: int
     tension: bool
-    unbalance: float
+    turning_force: float
     shaft_pace: float
 
 

@@ -183,7 +183,7 @@ def rotor(
         contact_damping=float(contact_damping),
         variables=variables,
         tension=published,
-        unbalance=float(scene.unbalance * scene.shaft_speed**2),
+        turning_force=float(scene.turning_force),
         shaft_pace=1.0 / scene.bearing.cage_ratio,
     )
 

@@ -157,6 +157,11 @@ class Scene:
         """Cage speed ω_c [rad/s] of the bearing's own numbers (Eq. 3)."""
         return self.bearing.cage_speed(self.shaft_speed)
 
+    @property
+    def turning_force(self) -> float:
+        """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
+        return self.unbalance * self.shaft_speed**2
+
     def healthy(self) -> Scene:
         """The same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())

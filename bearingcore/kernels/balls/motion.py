@@ -44,7 +44,7 @@ from bearingcore.kernels.path import (
     BLOCK,
     lay_out_balls,
     lay_out_drops_and_rates,
-    lay_out_unbalance,
+    lay_out_turning_force,
     new_passage,
 )
 from bearingcore.kernels.runge_kutta import stepper, try_state
@@ -123,7 +123,7 @@ def lay_out(angle, turn, count, system, work):
     speed = system.rotor.cage_speed
     contacts = system.contacts
     lay_out_balls(angle, turn, count, speed, contacts, system.outer_path, work.passage)
-    lay_out_unbalance(angle, turn, count, system.rotor, work.passage)
+    lay_out_turning_force(angle, turn, count, system.rotor, work.passage)
     if system.inner_path.defects.shape[0] > 0:
         lay_out_drops_and_rates(angle, turn, count, speed, contacts, system.inner_path, work.inner)
 

@@ -37,7 +37,7 @@ from bearingcore.kernels.contact import (
 from bearingcore.kernels.motion.planar import planar_equations_of_motion, planar_forces
 from bearingcore.kernels.motion.rings import record, ring_accelerations
 from bearingcore.kernels.motion.tangent import march_tangent, new_slopes
-from bearingcore.kernels.path import BLOCK, lay_out_balls, lay_out_unbalance, new_passage
+from bearingcore.kernels.path import BLOCK, lay_out_balls, lay_out_turning_force, new_passage
 from bearingcore.kernels.runge_kutta import stepper, try_state
 from bearingcore.kernels.structs import PLANAR, SMOOTH, VELOCITIES, Forces, Place, Recorded, Steps
 
@@ -187,7 +187,7 @@ def lay_out(angle, turn, count, system, work):
     rotor = system.rotor
     passage = work.passage
     lay_out_balls(angle, turn, count, rotor.cage_speed, system.contacts, system.path, passage)
-    lay_out_unbalance(angle, turn, count, rotor, passage)
+    lay_out_turning_force(angle, turn, count, rotor, passage)
 
 
 @inlined

@@ -140,6 +140,7 @@ MEASURED_ANEW = {"accuracy": ("time_s",), "alternatives": ("time_s", "own_time_s
 """Columns that say how long something took."""
 
 
+@pytest.mark.proof
 def test_the_lines_give_the_numbers_of_the_view(tmp_path: Path) -> None:
     """One test for all cases: parallel processes would each run all of the lines.
 

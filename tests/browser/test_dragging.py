@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import (
-    open_page,
-    settle,
-    slider,
-    value,
-)
+from tests.browser.explorer_page import open_page, settle, slider, value
 from tests.browser.helpers import Server, Watch, drag, unfold
 
 

@@ -1,5 +1,6 @@
 """What is left out of BokehJS's repaints changes no pixel, and comes back when it is needed."""
 
+import pytest
 from playwright.sync_api import BrowserContext, Page
 
 from tests.browser.explorer_page import open_page, rest, settle, show, slider
@@ -18,6 +19,7 @@ _INSIDE = """canvases => canvases.map((canvas) => {
 _COMPARED = {"overview": ["overview-bearing", "overview-stiffness"], "load": ["load-distribution"]}
 
 
+@pytest.mark.proof
 def test_every_pixel_is_as_bokeh_paints_it(
     page: Page, browser: BrowserContext, explorer: Server
 ) -> None:

@@ -103,6 +103,7 @@ TABS = {
     "Accuracy": (2, 10, None, None),
     "Paper": (1, 3, None, None),
 }
+LONG = ("Explore", "Diagnosis", "Accuracy", "Paper")
 IN_DARK = list(TABS)[6:]
 """Tabs that are looked at in dark colours; `test_theme.py` has every colour in both."""
 
@@ -125,7 +126,9 @@ def test_the_tabs_are_those_that_there_have_been(walk: tuple[Visitor, Watch]) ->
     assert [name.strip() for name in names] == list(TABS)
 
 
-@pytest.mark.parametrize("tab", TABS)
+@pytest.mark.parametrize(
+    "tab", [pytest.param(tab, marks=[pytest.mark.proof] * (tab in LONG)) for tab in TABS]
+)
 def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch], tab: str) -> None:
     visitor, watching = walk
     cards, figures, known, moved = TABS[tab]
@@ -186,6 +189,7 @@ def test_what_cannot_be_is_refused_and_what_is_drawn_stays(desk: Visitor) -> Non
     expect(desk.box("Extent")).to_have_value("33.25")
 
 
+@pytest.mark.proof
 def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
     """On tabs that draw or say other things for it; `test_page.py` has every view."""
     visitor.open(FAN_RIG + "load")
@@ -219,6 +223,7 @@ def test_dimensions_wait_for_each_other_and_a_crossed_limit_is_said(visitor: Vis
     expect(chosen).to_have_value("Pump 3")
 
 
+@pytest.mark.proof
 def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
     visitor.open()
     for tab in ("Maps", "Vibration", "Maps", "Vibration"):
@@ -359,6 +364,7 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
         assert max(table[name][strike].max() for name in flying) > 0.9 * float(load)
 
 
+@pytest.mark.proof
 def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
     desk.begin("Orbits")
     desk.reads(re.compile("Stable orbit"))
@@ -379,6 +385,7 @@ def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
     expect(cancel).to_be_disabled()
 
 
+@pytest.mark.proof
 def test_a_run_up_is_drawn(desk: Visitor) -> None:
     desk.begin("Speed run")
     desk.choose("Speeds", "25")
@@ -441,6 +448,7 @@ def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) 
     return file.getvalue()
 
 
+@pytest.mark.proof
 def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visitor) -> None:
     desk.begin("Diagnosis")
     desk.bring(desk.main, "fan.wav", _recording(38.6))
@@ -461,6 +469,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     desk.wait(lambda: abs(desk.number("Extent") - 38.6) < 0.3)
 
 
+@pytest.mark.proof
 def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_on_one_sheet(
     visitor: Visitor, browser: BrowserContext, tmp_path: Path
 ) -> None:
@@ -498,6 +507,7 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     page.close()
 
 
+@pytest.mark.proof
 def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "diagnosis")
     visitor.bring(visitor.main, "three.wav", _recording(38.6, channels=3))
@@ -513,6 +523,7 @@ def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> Non
     visitor.reads(re.compile("outer race is (probably )?damaged"))
 
 
+@pytest.mark.proof
 def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer: Server) -> None:
     visitor.open("?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
     visitor.press("Simulate a signal")
@@ -526,6 +537,7 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor, explorer
     visitor.reads(re.compile("No damage seen"))
 
 
+@pytest.mark.proof
 def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     visitor: Visitor,
 ) -> None:
@@ -602,6 +614,7 @@ def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor) -> None:
     assert "39" not in lesson.inner_text()
 
 
+@pytest.mark.proof
 def test_two_people_do_not_disturb_each_other_and_share_a_link(
     visitor: Visitor, explorer: Server, browser: BrowserContext
 ) -> None:
@@ -642,6 +655,7 @@ def test_a_scene_is_kept_and_opened_again(visitor: Visitor) -> None:
     expect(visitor.box("Extent")).to_have_value("12.9")
 
 
+@pytest.mark.proof
 def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explorer: Server) -> None:
     visitor.open(FAN_RIG + "load")
     menu = visitor.menu("Compare")
@@ -755,6 +769,7 @@ def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:
     assert visitor.number("Extent") == 12.9
 
 
+@pytest.mark.proof
 def test_a_scene_is_saved_changed_opened_and_swept(visitor: Visitor, tmp_path: Path) -> None:
     visitor.open(FAN_RIG + "load&extent_deg=38.6")
     dialog = visitor.menu("Download")
@@ -799,6 +814,7 @@ def test_a_floor_is_brought_in_a_file(visitor: Visitor) -> None:
     visitor.reads(re.compile("line 2"), visitor.scene)
 
 
+@pytest.mark.proof
 def test_a_report_is_saved_and_read(
     visitor: Visitor, browser: BrowserContext, tmp_path: Path
 ) -> None:
@@ -822,6 +838,7 @@ def test_a_report_is_saved_and_read(
 _RUN_ALL = "import runpy, sys; [runpy.run_path(name) for name in sys.argv[1:]]"
 
 
+@pytest.mark.proof
 def test_figures_are_taken_along(visitor: Visitor, tmp_path: Path) -> None:
     visitor.open(FAN_RIG + "load")
     scripts = []

@@ -121,6 +121,7 @@ def ends_cleanly(server: Server, by: signal.Signals) -> None:
     assert "Traceback" not in server.log
 
 
+@pytest.mark.proof
 def test_the_page_works_without_the_speedups(page: Page) -> None:
     with serving(explorer_server(environment={"BEARING_EXPLORER_PLAIN": "1"})) as server:
         page.goto(server.url)

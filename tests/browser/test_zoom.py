@@ -1,19 +1,13 @@
-"""The first minute: the overview, the way in, captions, menus, zoom, and tabs that take a while."""
+"""Figures zoom by the wheel and by boxes, stay so while sliders move, and go back."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, ViewportSize
 
-from tests.browser.explorer_page import (
-    open_page,
-    painted,
-    place,
-    settle,
-    show,
-    slider,
-)
+from tests.browser.explorer_page import open_page, painted, place, settle, show, slider
 from tests.browser.helpers import Server, move
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
@@ -42,6 +36,7 @@ NAMES_OF_BANDS = """() => {
 }"""
 
 
+@pytest.mark.proof
 def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> None:
     page.set_viewport_size(LAPTOP)
     open_page(page, explorer, "modes")

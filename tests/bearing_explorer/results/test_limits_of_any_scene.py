@@ -13,6 +13,7 @@ SCENES = 1200
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.proof
 def test_limits_of_any_scene_are_numbers_or_not_known() -> None:
     chance = random.Random("limits")
     for _ in range(SCENES):

@@ -329,6 +329,7 @@ def test_bad_frames_end_the_connection_with_a_sentence(caplog: pytest.LogCapture
     assert "Traceback" not in caplog.text
 
 
+@pytest.mark.proof
 def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
     async def wait(url: str, server: Any) -> None:
         client = PageClient(url)

@@ -35,7 +35,3 @@ def test_a_long_table_begins_where_there_is_something() -> None:
         count == "Rows 700 to 999 of 1000; before them all values are zero; the CSV file has all."
     )
     assert cells(table, "td")[:6] == ["699", "0", "", "700", "5", ""]
-
-
-def test_before_the_first_picture_there_is_no_table() -> None:
-    assert table_to_read({}) == ("", "Nothing is drawn yet.")

@@ -122,6 +122,7 @@ def test_what_is_not_known_is_left_out_and_nothing_known_is_not_a_number() -> No
         ("inner race", 40_001, 2e-3),
     ],
 )
+@pytest.mark.proof
 def test_bands_hold_all_that_very_many_cage_angles_give_and_hardly_more(
     name: str, angles: int, far: float
 ) -> None:

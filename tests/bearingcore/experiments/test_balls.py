@@ -15,6 +15,7 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     measure_once(monkeypatch)
 
 
+@pytest.mark.proof
 def test_methods_for_balls_agree_and_too_long_steps_are_shown_as_failed() -> None:
     """RK4 in variables without jumps beats the same steps in velocities."""
     found = balls_experiment(FAN_RIG, duration=0.15, steps=(1, 4))

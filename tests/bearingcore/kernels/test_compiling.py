@@ -139,6 +139,7 @@ BROKEN: dict[str, Callable[[Path], object]] = {
 }
 
 
+@pytest.mark.proof
 def test_broken_files_are_dropped_and_made_anew(package: Path, tmp_path: Path) -> None:
     told(start(package, tmp_path))
     files = list(tmp_path.rglob("*.kernel"))

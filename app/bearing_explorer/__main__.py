@@ -80,7 +80,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         type=_positive,
         default=60,
         metavar="N",
-        help="after which a page that nobody touches is closed (60)",
+        help="after which a page that is not used is closed (60)",
     )
     parser.add_argument(
         "--log-level",

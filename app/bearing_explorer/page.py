@@ -131,7 +131,7 @@ def _for_teachers() -> str:
 
 
 def page(lessons: Path | None = None) -> PageTemplate:
-    """The page of a new session; `lessons` is a folder with somebody's own."""
+    """The page of a new session; `lessons` is a folder with other ones."""
     compiling.begin()
     known = lessons_in(lessons or own_folder(), TABS)
     explorer = Explorer(SECTIONS, address=address(), lessons=known)

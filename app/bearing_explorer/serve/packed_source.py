@@ -12,7 +12,7 @@ The array is, in float32:
     (range, start, end) for each range sent,
     the columns of the sources sent, one after the other.
 
-A range that somebody has zoomed into stays where it is; it only learns where to go back to.
+A range that is zoomed stays where it is; only the range that a reset goes back to is new.
 
 Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a gap in a line.
 A source whose numbers are those of last time is not sent again, so its figure is not repainted.

@@ -57,8 +57,8 @@ SUPPORTS = [
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
 
 
-class Given(Exception):  # noqa: N818
-    """Somebody wants the work to end."""
+class Cancelled(Exception):  # noqa: N818
+    """The work is cancelled."""
 
 
 class DefectSize(JobView[Sized], MeasuredView):
@@ -269,7 +269,7 @@ def compute(
     def progress(share: float) -> None:
         job.progress(share)
         if job.cancelled():
-            raise Given
+            raise Cancelled
 
     try:
         sizing = size_defect(
@@ -279,7 +279,7 @@ def compute(
             support_known=support_known,
             progress=progress,
         )
-    except Given:
+    except Cancelled:
         return "There is no answer yet."
     except ValueError as error:
         raise ValueError(sentence_of(error)) from error

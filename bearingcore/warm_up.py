@@ -69,4 +69,4 @@ PARTS: dict[str, Callable[[], None]] = {
     BALLS_WITH_MASS: _balls_with_mass,
     ORBITS: _orbits,
 }
-"""What can be compiled on its own: the first tab needs the first two, in this order."""
+"""Parts that are compiled on their own: the first tab needs the first two, in this order."""

@@ -1,4 +1,4 @@
-"""How the page is put together: which views stand on which tab, and the frame around them."""
+"""The page: the views of each tab, and the frame around them."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ What is not on the tab that is open is neither computed nor sent.
 
 
 def address() -> str:
-    """What stands behind the question mark in the address of this session's page."""
+    """The part of this page's address behind the question mark."""
     given = pn.state.session_args or {}
     return urlencode([(name, value) for name, values in given.items() for value in values])
 
@@ -119,7 +119,7 @@ def _frame() -> Any:
 
 
 PYTHON_INSTALL = "pip install ."
-"""What the page says of how to install it."""
+"""The page's note on how to install it."""
 
 TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
 """Names of the tabs and of their views, as lessons speak of them."""

@@ -176,7 +176,7 @@ class Measurement:
         self.sized: Sized | None = None
         self.state = MeasurementState()
         #: called with the new state, and with the first byte of the next piece of a file; the
-        #: number `of` comes back with the piece, which tells the files apart
+        #: number `of` comes back with the piece, by which files are kept apart
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.want: Callable[[int, int], None] = lambda begin, of: None
         #: called when the next of several files may come
@@ -298,7 +298,7 @@ class Measurement:
             self.want(0, self._uploads)
 
     def _at_work(self, doing: str, name: str) -> str:
-        """What is done to a file that comes."""
+        """A sentence on what is done to a file that comes."""
         arrival = self._arrival
         return f"{doing} {arrival.words if arrival else ''}{name} …"
 

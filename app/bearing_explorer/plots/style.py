@@ -365,7 +365,7 @@ _IN_VIEW = f"""{_ZOOMED}
 if (!zoomed) return true
 const at = row[column]
 if (!(at >= start && at <= end)) return false
-const room = (end - at)/(end - start)*plot.inner_width + beside
+const room = (end - at)/(end - start)*plot.inner_width + margin
 return room >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
 """
 _ZOOMS = f"""{_ZOOMED}
@@ -390,11 +390,11 @@ def words_in_view(
     """
     shown = plot.x_range if side == "x" else plot.y_range
     known = {"shown": shown, "column": column, "share": share}
-    beside = plot.min_border_right
+    margin = plot.min_border_right
     follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
     shown.js_on_change("start", follow)
     shown.js_on_change("end", follow)
-    return fitting_words(plot, source, code, NARROW, _IN_VIEW, beside=beside, **known)
+    return fitting_words(plot, source, code, NARROW, _IN_VIEW, margin=margin, **known)
 
 
 def in_degrees(angle: float, digits: int = 1) -> str:

@@ -80,7 +80,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 class Results:
-    """What the views read. Attributes are computed when first asked for, in any thread.
+    """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
     ----------

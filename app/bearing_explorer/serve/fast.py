@@ -1,4 +1,4 @@
-"""What makes the page quick where Bokeh and Panel are too slow for a class, and a switch for it.
+"""Quicker ways where Bokeh and Panel are too slow for a class, and a switch for them.
 
 Measured on two busy cores, with and without: opening three tabs holds the event loop for 253 ms
 instead of 1,231 (`find_models_quickly`); a drag of the Load tab is drawn in 52 ms instead of 82

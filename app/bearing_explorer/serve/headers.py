@@ -43,7 +43,7 @@ class Headers(OutputTransform):
 
 
 def policy(frame_ancestors: Sequence[str]) -> str:
-    """What the page may load and do, and who may show it in a frame."""
+    """All that the page may load and do, and the pages that may show it in a frame."""
     return "; ".join(
         [
             "default-src 'self'",

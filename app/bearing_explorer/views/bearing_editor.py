@@ -162,7 +162,7 @@ def _hertz(bearing: Bearing, name: str, speed: float) -> str:
 
 
 def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
-    """What `words` says of a bearing; of rows that are not alike, of one after the other."""
+    """The `words` of a bearing; of rows that are not alike, of one after the other."""
     return " and ".join(dict.fromkeys(words(own) for own, _ in bearing.unlike_rows))
 
 

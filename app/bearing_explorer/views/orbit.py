@@ -327,7 +327,7 @@ def _square(
 
 
 def _turning_part(results: Results) -> str:
-    """What makes a motion repeat later than with every ball pass, or never."""
+    """The cause why a motion repeats later than with every ball pass, or never."""
     if results.over_shaft:
         return "a defect on the inner race, which turns with the shaft,"
     if results.scene.unbalance > 0.0:

@@ -207,8 +207,8 @@ class PartLines:
             }
         }
         if lead.part != "outer race":  # which stands still in the load and makes none
-            beside = np.array([-lead.sideband_spacing, lead.sideband_spacing])
-            both = multiples[:, None] * lead.frequency + beside
+            sidebands = np.array([-lead.sideband_spacing, lead.sideband_spacing])
+            both = multiples[:, None] * lead.frequency + sidebands
             sources[_sidebands(lead.part)] = {"frequency": both.ravel()}
         return sources
 

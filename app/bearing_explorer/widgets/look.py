@@ -44,9 +44,9 @@ class LookPanel(pn.Column):
 
     def _widget(self, spec: LookField) -> pn.viewable.Viewable:
         name, label = spec["name"], spec["label"]
-        beside = {"css_classes": ["beside"]}
+        look = {"css_classes": ["beside"]}
         if "kind" not in spec:
-            return self._fields.add(name, select(label, spec["options"], **beside))
+            return self._fields.add(name, select(label, spec["options"], **look))
         if spec["kind"] == "number":
             hint = spec.get("hint", "")
             number = entry(label, placeholder=hint, css_classes=["beside", "number"])

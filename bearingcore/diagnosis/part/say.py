@@ -65,7 +65,7 @@ def damaged(own: PartEvidence) -> str:
 
 
 def perhaps_a_ball() -> str:
-    """What else may make a race's lines."""
+    """Another cause of a race's lines."""
     return " A damaged ball may have marked the race."
 
 

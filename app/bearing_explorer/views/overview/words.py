@@ -22,7 +22,7 @@ LEAST_LEVEL = 2.0
 ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
-_BESIDE = 1.5  # times the change of a stiffness that another one has to have to be named too
+_SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
 def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
@@ -111,7 +111,7 @@ def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     others = [term for term in now.stiffness if term != main]
     most = max(others, key=lambda term: abs(_change(now, before, term)), default=main)
     terms = [main] if own >= LEAST else []
-    if abs(_change(now, before, most)) >= max(_BESIDE * own, LEAST) and most != main:
+    if abs(_change(now, before, most)) >= max(_SECOND * own, LEAST) and most != main:
         terms.append(most)
     return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
 

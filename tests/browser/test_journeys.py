@@ -103,7 +103,7 @@ TABS = {
     "Accuracy": (2, 10, None, None),
     "Paper": (1, 3, None, None),
 }
-LONG = ("Explore", "Diagnosis", "Accuracy", "Paper")
+LONG = ("Explore", "Orbits", "Speed run", "Diagnosis", "Accuracy", "Paper")
 IN_DARK = list(TABS)[6:]
 """Tabs that are looked at in dark colours; `test_theme.py` has every colour in both."""
 
@@ -305,6 +305,7 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(desk: Visitor) ->
     desk.reads("must be a number, not “much”")
 
 
+@pytest.mark.proof
 def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "explore")
     visitor.wait(lambda: len(visitor.figures()) >= 4)
@@ -569,6 +570,7 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
 # --- lessons, classes, looks ----------------------------------------------------------------------
 
 
+@pytest.mark.proof
 def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: Visitor) -> None:
     visitor.open()
     visitor.press("Lessons")
@@ -717,6 +719,7 @@ def _keys(visitor: Visitor) -> list[str]:
     return found
 
 
+@pytest.mark.proof
 def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
     visitor.open()
     visitor.go_to("Load")

@@ -337,9 +337,10 @@ class Explorer:
         results, drawn = dataclasses.replace(inputs, rested=True).results(give_up), inputs.results()
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
-        waited = [view for view in on_screen if view.at_rest or not view.needs]
-        finer = waited + [
-            view for view in on_screen if view not in waited and drawn.is_finer_at_rest(view.needs)
+        finer = [
+            view
+            for view in on_screen
+            if view.at_rest or not view.needs or drawn.is_finer_at_rest(view.needs)
         ]
         return picture_of(results, finer, limits=True, on_screen=on_screen)
 

@@ -344,9 +344,8 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
     greatest = np.abs(at.stiffness.astype(float)[active]).max(axis=(1, 2))
-    grazed = ((at.load > 0.0) & (at.load < GRAZING * at.load.max(axis=1, keepdims=True))).any(
-        axis=1
-    )
+    faint = GRAZING * at.load.max(axis=1, keepdims=True)
+    grazed = ((at.load > 0.0) & (at.load < faint)).any(axis=1)
     unique = exact.solved & (least > 1e-10 * greatest)
     known = unique & ~grazed
     stiffness, load = at.stiffness.astype(float), at.load.astype(float)

@@ -6,16 +6,15 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar
-from weakref import WeakKeyDictionary
 
-from bearing_explorer.results.executors import in_thread
+from bearing_explorer.results.executors import LoopLocks, in_thread
 
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
 """[s] without newer inputs after the last picture after which a slider counts as at rest."""
 
-_ONE_BY_ONE = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+_ONE_BY_ONE = LoopLocks()
 """Fine pictures of all sessions wait for one another: their threads hold up moving sliders."""
 
 Inputs = TypeVar("Inputs")
@@ -142,7 +141,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     async def _fine(self, inputs: Inputs) -> Fine | None:
         """The fine picture, when those of other sessions are done; None where it is not wanted."""
-        async with _ONE_BY_ONE.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
+        async with _ONE_BY_ONE.here():
             if self._newest or self._stopped:
                 return None
             return await in_thread(self._refine, inputs, lambda: self.waiting)

@@ -35,15 +35,26 @@ async def in_thread(
     return await asyncio.get_running_loop().run_in_executor(pool, function, *args)
 
 
-_TURNS = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+class LoopLocks:
+    """A lock for each event loop: an asyncio lock belongs to one."""
+
+    def __init__(self) -> None:
+        self._locks = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+
+    def here(self) -> asyncio.Lock:
+        """The lock of the running loop."""
+        return self._locks.setdefault(asyncio.get_running_loop(), asyncio.Lock())
+
+
+_TURNS = LoopLocks()
 
 
 async def in_turn(function: Callable[..., Result], *args: object) -> Result:
-    """Run `function` on the event loop, where others wait after them.
+    """Run `function` on the event loop, one call after the other.
 
     Between two of them what browsers have sent is taken: of the positions of a slider only the
     newest is drawn. For 30 people that is half as many more of their changes a second.
     """
-    async with _TURNS.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
+    async with _TURNS.here():
         await asyncio.sleep(0.0)
         return function(*args)

@@ -139,7 +139,7 @@ Text = Annotated[str, Meta(min_length=1, max_length=200)]
 Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 
 
-class _PredictEntry(msgspec.Struct, forbid_unknown_fields=True):
+class _PredictEntry(msgspec.Struct):
     """A prediction as a head has it; `right` counts choices from 1."""
 
     ask: Text
@@ -149,7 +149,7 @@ class _PredictEntry(msgspec.Struct, forbid_unknown_fields=True):
     within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
 
 
-class _Head(msgspec.Struct, forbid_unknown_fields=True):
+class _Head(msgspec.Struct):
     """The head of a lesson, as it is in the file."""
 
     title: Annotated[str, Meta(min_length=1, max_length=90)]

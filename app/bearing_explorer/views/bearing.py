@@ -29,6 +29,7 @@ HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose nu
 HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+ROW_NAMES = 1.5  # below the middle of the rows: their names
 SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
 NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
 MOST_NAMED = 4  # balls in a defect; more are counted
@@ -80,7 +81,7 @@ let w = 0, h = 0
 try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not laid out yet
 if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
-const of_rows = shown.end > 1.01*half ? (h - 68*larger)/1.5 : Infinity
+const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 const unit = Math.min(w/shown.end, h/half, of_rows), x = w/unit, y = h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
@@ -105,7 +106,7 @@ def layers(
 ) -> list[Layer]:
     """From the lowest to the highest; `colors` of loads, and of the numbers on these colours.
 
-    `short`: the words about the load are, as the drawing is small.
+    `short`: whether words about the load are short, as in a small drawing.
     """
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = Glyph(
@@ -188,7 +189,7 @@ class BearingDrawing(View):
     equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
-    #: whether the words about the load are
+    #: whether words about the load are short
     short: ClassVar[bool] = False
 
     def build(self, packed: PackedSource) -> Any:
@@ -368,7 +369,7 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     number = np.arange(float(len(rows)))
     return {
         "x": (2.0 * number + 1.0) * OF_A_ROW - wide,
-        "y": np.full(number.size, -1.5),
+        "y": np.full(number.size, -ROW_NAMES),
         "row": number + 1.0,
         "place": np.array([row.place for row in rows], dtype=float),
     }

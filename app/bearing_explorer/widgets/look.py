@@ -44,9 +44,9 @@ class LookPanel(pn.Column):
 
     def _widget(self, spec: LookField) -> pn.viewable.Viewable:
         name, label = spec["name"], spec["label"]
-        look = {"css_classes": ["beside"]}
         if "kind" not in spec:
-            return self._fields.add(name, select(label, spec["options"], **look))
+            widget = select(label, spec["options"], css_classes=["beside"])
+            return self._fields.add(name, widget)
         if spec["kind"] == "number":
             hint = spec.get("hint", "")
             number = entry(label, placeholder=hint, css_classes=["beside", "number"])

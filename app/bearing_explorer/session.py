@@ -305,10 +305,8 @@ class Explorer:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
-            if self._quick_cost < _AT_ONCE:
-                inputs, picture = await in_turn(self._newest_picture, inputs, quick)
-            else:
-                inputs, picture = await in_thread(self._newest_picture, inputs, quick)
+            run = in_turn if self._quick_cost < _AT_ONCE else in_thread
+            inputs, picture = await run(self._newest_picture, inputs, quick)
             self._quick_cost = picture.work
             await self._assign(picture, None if slow else inputs.mark)
         if slow:

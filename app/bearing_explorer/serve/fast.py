@@ -31,6 +31,7 @@ from bokeh.model import util as model_util
 from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server import session as bokeh_session
+from bokeh.settings import settings
 from panel.models.esm import DataEvent
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
@@ -164,35 +165,29 @@ def find_models_quickly() -> None:
         log.warning("models are looked for everywhere: %s", "; ".join(gone))
         return
     model_util.visit_immediate_value_references = _visit
+    # each model looks for these in the environment; what is set once is found at once
+    settings.simple_ids = settings.simple_ids()
+    settings.serialize_include_defaults = settings.serialize_include_defaults()
     changed = HasProps.__dict__["_overridden_defaults"].__func__
     patched: Any = HasProps
     remembering: Any = cache(changed)
     patched._overridden_defaults = classmethod(remembering)
+    patched.themed_values = lambda self: vars(self).get("__themed_values__")
     patched.query_properties_with_values = _values_to_write
     descriptor: Any = PropertyDescriptor
     descriptor.has_unstable_default = _has_unstable_default
 
 
-_defaults: dict[tuple[type, PropertyDescriptor], tuple[bool, bool]] = {}
-
-
-def _default_of(descriptor: PropertyDescriptor, obj: HasProps) -> tuple[bool, bool]:
-    """Whether each model of a class has a default of its own, and whether that holds models."""
-    key = (type(obj), descriptor)
-    found = _defaults.get(key)
-    if found is None:
-        changed = type(obj)._overridden_defaults().get(descriptor.name)
-        made = descriptor.property._may_have_unstable_default() or descriptor.is_unstable(changed)
-        models: list[Any] = []
-        if made:
-            _walk(descriptor.instance_default(obj), models.append)
-        found = _defaults[key] = bool(made), bool(models)
-    return found
+@cache
+def _is_made(descriptor: PropertyDescriptor, kind: type[HasProps]) -> bool:
+    """Whether each model of a class has a default of its own."""
+    changed = kind._overridden_defaults().get(descriptor.name)
+    return bool(descriptor.property._may_have_unstable_default() or descriptor.is_unstable(changed))
 
 
 def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
-    """While a model is made its own defaults are, if they hold models; others once asked for."""
-    return _default_of(self, obj)[obj._initialized is False]
+    """Not while a model is made: what nobody asks for, the browser makes by itself."""
+    return obj._initialized is not False and _is_made(self, type(obj))
 
 
 _query = HasProps.query_properties_with_values

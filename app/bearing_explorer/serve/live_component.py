@@ -8,6 +8,7 @@ import param
 from bokeh.document import Document
 from panel.custom import JSComponent
 from panel.models.esm import DataEvent
+from param.parameterized import no_instance_params
 
 from bearing_explorer.serve.fast import PLAIN
 from bearing_explorer.serve.live import on_loop
@@ -23,6 +24,14 @@ class LiveComponent(JSComponent):
 
     margin = param.Parameter(default=0)
     sizing_mode = param.Selector(default="stretch_width")
+
+    #: scripts answer with messages: nothing comes back by a property
+    _linked_properties = ()
+    _bundle_path = None
+
+    def __init__(self, **params: Any) -> None:
+        no_instance_params(type(self))
+        super().__init__(**params)
 
     def put(self, **values: Any) -> None:
         """Give parameters new values. They show in the browser; before it is there they wait.

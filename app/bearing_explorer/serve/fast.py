@@ -44,8 +44,8 @@ _OF_THE_WALK: tuple[tuple[Any, str], ...] = (
     (HasProps, "_overridden_defaults"),
     (HasProps, "_initialized"),
     (HasProps, "query_properties_with_values"),
+    (HasProps, "themed_values"),
     (Property, "_may_have_unstable_default"),
-    (PropertyDescriptor, "instance_default"),
     (PropertyDescriptor, "is_unstable"),
     (PropertyDescriptor, "has_unstable_default"),
 )
@@ -153,11 +153,11 @@ def find_models_quickly() -> None:
     """Have Bokeh look for models only where models can be.
 
     It walks all models whenever one is added, and asks each for the value of every property that
-    might hold another, making up defaults that never hold one; so it does when a model is made, and
-    when it is written. That is most of what a session costs. Here defaults are made with a model
-    only where they hold another; only values that are written are asked for; and what Bokeh works
-    out about a class for each of its models is worked out once. Values are walked without an import
-    for each of them.
+    might hold another, making up defaults; so it does when a model is made, and when it is written.
+    That is most of what a session costs. Here a default is made when it is asked for: the others,
+    a third of all models, the browser makes by itself, with the same properties. Only values that
+    are written are asked for; what Bokeh works out about a class for each of its models is worked
+    out once, and values are walked without an import for each of them.
     """
     if PLAIN or getattr(model_util, "visit_immediate_value_references", None) is _visit:
         return

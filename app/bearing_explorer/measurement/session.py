@@ -261,10 +261,6 @@ class Measurement:
             return "Typed in"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
-    def redraw(self) -> None:
-        """Draw again with what the views know now."""
-        self._draw()
-
     # Files
 
     def begin_upload(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -21,9 +21,10 @@ from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views import part_words
 from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearing_explorer.widgets.part_panel import ListedBearings, PartPanel, evidence_html
 from bearingcore import Bearing, Diagnosis
 from bearingcore.common.numbers import probability
@@ -75,7 +76,7 @@ FOUND_IN_LIST = (
 NONE_IN_LIST = "No listed bearing explains it either."
 
 
-class PartDiagnosis(MeasuredView):
+class PartDiagnosis(LookView, MeasuredView):
     """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
 
     name = "diagnosis"
@@ -86,19 +87,17 @@ class PartDiagnosis(MeasuredView):
         "other parts. The strong ones were found within the slip, the faint ones follow from the "
         "geometry."
     )
-    needs = frozenset()
     without_size = True
     computes = True
+    look_fields = FIELDS
+    first_look: ClassVar[dict[str, Any]] = {"speed": "given", "zoom": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.speed, self.zoom = "given", Zoom()
         self.part = PartPanel()
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
             "", stylesheets=[asset_text("evidence.css")], sizing_mode="stretch_width", margin=0
         )
-        self.panel_of_look = LookPanel(self.look_changed, FIELDS)
-        self._show_look()
         self._seen = stack(
             self.lines.plot, self.evidence, visible=False, stylesheets=[AS_HIGH_AS_SHOWN]
         )
@@ -113,12 +112,12 @@ class PartDiagnosis(MeasuredView):
     def measure(self, measurement: Measurement) -> None:
         super().measure(measurement)
         if (newest := measurement.diagnoses.wanted) is not None:
-            self.speed = newest.speed
+            self.take_look({"speed": newest.speed})
 
     def question(self, bearing: Bearing) -> Question | None:
         """The question about a bearing; None where nothing is measured."""
         measured = self.measured
-        return None if measured is None else Question.about(measured, bearing, self.speed)
+        return None if measured is None else Question.about(measured, bearing, self.look["speed"])
 
     def answer(self, bearing: Bearing) -> Diagnosis | str | None:
         """The diagnosis, a sentence why there is none, or None: not yet."""
@@ -132,31 +131,11 @@ class PartDiagnosis(MeasuredView):
         answer = self.answer(bearing)
         return answer if isinstance(answer, Diagnosis) else None
 
-    def look_changed(self, name: str, value: str) -> None:
-        """Take how well the shaft speed is known, or the line to zoom to."""
-        if name == "speed":
-            self.speed = value
-        else:
-            part, _, harmonic = value.rpartition(" ")
-            self.zoom = Zoom(part, int(harmonic)) if part else Zoom()
-        if self.measurement is not None:
-            self.measurement.redraw()
-
-    def choices(self) -> dict[str, Any]:
-        zoom = f"{self.zoom.part} {self.zoom.harmonic}" if self.zoom.part else ""
-        chosen = {"speed": self.speed, "zoom": zoom}
-        return {name: v for name, v in chosen.items() if v not in ("given", "")}
-
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        for name, value in choices.items():
-            self.look_changed(name, value)
+        super().choose(choices, results)
         question = self.question(results.scene.bearing)
         if question is not None and self.measurement is not None:
             self.measurement.diagnoses.keep(question, answered(question))
-
-    def _show_look(self) -> None:
-        zoom = f"{self.zoom.part} {self.zoom.harmonic}" if self.zoom.part else ""
-        self.panel_of_look.show({"speed": self.speed, "zoom": zoom})
 
     # The picture
 
@@ -168,7 +147,7 @@ class PartDiagnosis(MeasuredView):
         found = self.diagnosis(results.scene.bearing)
         if found is None or found.spectrum is None:
             return {}, {}
-        return self.lines.data(found, self.zoom)
+        return self.lines.data(found, Zoom.of(self.look["zoom"]))
 
     def say(self, results: Results | None, sentence: str) -> None:
         shown = results or self._results
@@ -179,7 +158,6 @@ class PartDiagnosis(MeasuredView):
     def _show(self, bearing: Bearing) -> None:
         """Bring the panels up to date, and have the question answered if it is not."""
         question, answer = self.question(bearing), self.answer(bearing)
-        self._show_look()
         if question is None or self.measurement is None:
             self._seen.visible = False
             return

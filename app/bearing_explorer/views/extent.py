@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from bokeh.plotting import figure
@@ -14,9 +14,10 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, write_over
 from bearing_explorer.views.measurement import with_head
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Bearing, Diagnosis, MeasuredExtent
 
@@ -45,7 +46,7 @@ FIELDS: list[LookField] = [
 _EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
 
 
-class SpallExtent(MeasuredView):
+class SpallExtent(LookView, MeasuredView):
     """The answer of `bearingcore.measure_extent`, found once the damaged race is named."""
 
     name = "extent"
@@ -56,16 +57,14 @@ class SpallExtent(MeasuredView):
         "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
         "frequency band that shows both best. Faint: other bands."
     )
-    needs = frozenset()
     without_size = True
     in_report = True
     computes = True
+    look_fields = FIELDS
+    first_look: ClassVar[dict[str, Any]] = {"race": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.race = ""
         self._given: MeasuredExtent | None = None
-        self.panel_of_look = LookPanel(self.look_changed, FIELDS)
-        self.panel_of_look.show({"race": ""})
         self.status = StatusLine(sizing_mode="stretch_width", margin=0)
         self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self._size = StickyRange(0.0, 1.0)
@@ -110,8 +109,9 @@ class SpallExtent(MeasuredView):
     ) -> ExtentQuestion:
         whole = about.bearing
         return ExtentQuestion(
-            about.measured, whole, about.speed, about.geometry, whole, self.race, load, found
-        )
+            about.measured, whole, about.speed, about.geometry, whole, self.look["race"], load,
+            found,
+        )  # fmt: skip
 
     def answer(self, bearing: Bearing) -> MeasuredExtent | str | None:
         """The extent, a sentence why there is none, or None: not yet."""
@@ -132,17 +132,8 @@ class SpallExtent(MeasuredView):
     def found(self, given: MeasuredExtent) -> None:
         self._given = given
 
-    def look_changed(self, name: str, value: str) -> None:
-        """Take which race is known to be damaged."""
-        self.race = value
-        if self.measurement is not None:
-            self.measurement.redraw()
-
-    def choices(self) -> dict[str, Any]:
-        return {"race": self.race} if self.race else {}
-
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        self.race = choices.get("race", "")
+        super().choose(choices, results)
         if self.measurement is None or self.measured is None:
             return
         about = self.measurement.question(results.scene.bearing)
@@ -188,7 +179,6 @@ class SpallExtent(MeasuredView):
         question, answer = self.question(bearing), self.answer(bearing)
         if question is not None and answer is None and self.measurement is not None:
             self.measurement.extents.want(question)
-        self.panel_of_look.show({"race": self.race})
         self._seen.visible = isinstance(answer, MeasuredExtent)
         if isinstance(answer, MeasuredExtent):
             self.status.line = status(answer)

@@ -11,7 +11,6 @@ import numpy as np
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
 from bearing_explorer.plots.frequency_cursor import FrequencyCursor
@@ -28,9 +27,10 @@ from bearing_explorer.views.frequency_lines import (
     fundamentals,
     of_rows,
 )
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.widgets.form import stack
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure
@@ -78,32 +78,10 @@ MODEL: LookField = {
 """Choices above the figures."""
 
 
-@dataclass(frozen=True)
-class Look:
-    """Choices above a spectrum; without a `direction` it is the one that shows most."""
-
-    direction: str = ""
-    scale: str = "dB"
-    resolution: str = "32"
-    lines: tuple[str, ...] = ("bpfo",)
-    band: tuple[float | None, float | None] = (None, None)
-    axis: str = "Hz"
-    overlay: tuple[str, ...] = ()
-
-
-def look_values(look: Look) -> dict[str, Any]:
-    """A look as the fields above the figures have it."""
-    low, high = ("" if edge is None else f"{edge:g}" for edge in look.band)
-    return {
-        "direction": look.direction,
-        "scale": look.scale,
-        "resolution": look.resolution,
-        "lines": list(look.lines),
-        "low": low,
-        "high": high,
-        "axis": look.axis,
-        "overlay": list(look.overlay),
-    }
+FIRST_LOOK: Mapping[str, Any] = {
+    "direction": "", "scale": "dB", "axis": "Hz", "lines": [], "overlay": [],
+}  # fmt: skip
+"""Choices above a spectrum at first; without a direction it is the one that shows most."""
 
 
 @dataclass(frozen=True)
@@ -123,17 +101,14 @@ class Shown:
     share: float = 1.0
 
 
-class FrequencyView(MeasuredView):
+class FrequencyView(LookView, MeasuredView):
     """Common parts of spectra: figures in decibels and linear, lines, a cursor, and choices."""
 
     prefix: ClassVar[str]
-    fields: ClassVar[list[LookField]]
-    first_look: ClassVar[Look]
     needs = frozenset({"spectra"})
     without_size = True
 
     def build(self, packed: PackedSource) -> Any:
-        self.look = self.first_look
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
         p = self.prefix
@@ -157,9 +132,7 @@ class FrequencyView(MeasuredView):
         for scale, plot in self._plots.items():
             add_all(plot, sources, layers[scale])
         self._cursor = FrequencyCursor(packed, p, self._plots, sources[f"{p}_measured"])
-        self.panel_of_look = LookPanel(self.look_changed, self.fields)
         self.hidden = stack(self.panel_of_look, *plots, self._cursor.controls, visible=False)
-        self._show_look()
         return self.hidden
 
     def _layers(self, scale: str) -> list[Layer]:
@@ -186,7 +159,7 @@ class FrequencyView(MeasuredView):
 
     def with_model(self, shown: Shown, simulate: Any) -> Shown:
         """The model over the measured spectrum where it is switched on, with its scale."""
-        if not self.look.overlay:
+        if not self.look["overlay"]:
             return shown
         try:
             simulated = simulate()
@@ -199,73 +172,35 @@ class FrequencyView(MeasuredView):
 
     # The look
 
-    def look_changed(self, name: str, value: Any) -> None:
-        """Draw as it was chosen; a number that is refused changes nothing."""
-        try:
-            self.look = self._looked(name, value)
-        except ValueError as error:
-            self.panel_of_look.refuse(str(error))
-            return
-        self.panel_of_look.refuse("")
-        if self.measurement is not None:
-            self.measurement.redraw()
-
-    def _looked(self, name: str, value: Any) -> Look:
-        if name in ("direction", "scale", "resolution", "axis"):
-            return replace(self.look, **{name: value})
-        if name == "overlay":
-            return replace(self.look, overlay=tuple(value))
-        if name == "lines":
-            known = [family.name for family in FAMILIES]
-            return replace(self.look, lines=tuple(line for line in known if line in value))
-        words = f"The {'lower' if name == 'low' else 'upper'} end of the band"
-        bare = value.strip()
-        end = number_of(bare[:20], words, "Hz", 1e-3, 1e7) if bare else None
-        low, high = self.look.band
-        return replace(self.look, band=(end, high) if name == "low" else (low, end))
+    def direction(self, results: Results | None, measured: Measured) -> str:
+        """The direction that is shown."""
+        return self.direction_of(results, measured, self.look["direction"])
 
     def choices(self) -> dict[str, Any]:
-        first = look_values(self.first_look)
-        look = self.look
+        chosen = super().choices()
         if self.measured is not None:  # what the diagnosis chose is not known elsewhere
-            look = replace(
-                look, direction=self.direction_of(self._results, self.measured, look.direction)
-            )
-        return {k: v for k, v in look_values(look).items() if v != first[k]}
+            chosen["direction"] = self.direction(self._results, self.measured)
+        return chosen
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        for name, value in choices.items():
-            self.look = self._looked(name, value)
-
-    def _show_look(self) -> None:
+    def show_look(self) -> None:
         look, measured = self.look, self.measured
         directions = measured.directions if measured is not None else SHOWN
-        seen = (
-            directions[-1]
-            if measured is None
-            else self.direction_of(self._results, measured, look.direction)
-        )
+        seen = directions[-1] if measured is None else self.direction(self._results, measured)
         self.panel_of_look.show(
-            look_values(look) | {"direction": seen},
+            look | {"direction": seen},
             disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
         )
         unit = "" if measured is None else shown_unit(measured)[0]
         for scale, plot in self._plots.items():
-            plot.visible = scale == look.scale
+            plot.visible = scale == look["scale"]
             label = f"dB re 1 {unit}".replace("units", "unit") if scale == "dB" else unit
             plot.yaxis[0].axis_label = replace(AMPLITUDE, unit=label).label()
-            plot.xaxis[0].axis_label = (FREQUENCY if look.axis == "Hz" else ORDER).label()
-
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        self._show_look()
+            plot.xaxis[0].axis_label = (FREQUENCY if look["axis"] == "Hz" else ORDER).label()
 
     # The picture
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        p, measured, look = self.prefix, self.measured, self.look
-        if measured is None:
-            return {}, {}
+    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+        p, look = self.prefix, self.look
         shown = self.shown(results, measured)
         lines = of_rows(measured.scene(results.scene))
         top, resolution = shown.top, shown.resolution
@@ -281,19 +216,19 @@ class FrequencyView(MeasuredView):
             np.concatenate([part[scale][own] for part, own in zip(both, seen, strict=True)])
             for scale in SCALES
         )
-        room = self._lines.head_room(look.lines, len(lines))
+        room = self._lines.head_room(look["lines"], len(lines))
         loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
         lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
         head = (loudest - lowest) * room / (1.0 - room) + 3.0
         greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
         turn = measured.shaft_speed / (2.0 * math.pi)
-        per = turn if look.axis == "orders" else 1.0  # [Hz] that a 1 on the axis is
+        per = turn if look["axis"] == "orders" else 1.0  # [Hz] that a 1 on the axis is
         ranges = {
             f"{p}_frequency": (0.0, top / per),
             f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
             f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
         }
-        sources |= self._lines.columns(lines, look.lines, top)
+        sources |= self._lines.columns(lines, look["lines"], top)
         sources |= self.decoration(results, shown)
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
@@ -301,10 +236,7 @@ class FrequencyView(MeasuredView):
         cage = fundamentals(measured.scene(results.scene))["ftf"]
         return sources | self._cursor.columns(turn, cage, per), ranges
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        measured = self.measured
-        if measured is None:
-            return {}
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         shown = self.shown(results, measured)
         unit, size = shown_unit(measured)
         words = unit.replace("/", "_per_").replace("²", "2") if measured.in_si else "as_in_file"
@@ -322,7 +254,7 @@ class FrequencyView(MeasuredView):
 
     def words_on_model(self, results: Results, measured: Measured, shown: Shown) -> str:
         """The scale of the simulated spectrum, and its speed where the sliders have another."""
-        if not self.look.overlay:
+        if not self.look["overlay"]:
             return ""
         words = f" {shown.why_not}".rstrip()
         if shown.simulated is not None:

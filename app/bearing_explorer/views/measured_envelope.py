@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -11,11 +12,11 @@ from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import (
     ALONG,
     AXIS,
+    FIRST_LOOK,
     LINES,
     MODEL,
     SCALE,
     FrequencyView,
-    Look,
     Shown,
     amplitudes,
 )
@@ -24,6 +25,12 @@ from bearing_explorer.widgets.look import LookField
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
+
+
+def _edge(name: str, label: str, words: str) -> LookField:
+    """The field of an edge of the demodulation band."""
+    within = (words, "Hz", 1e-3, 1e7)
+    return {"kind": "number", "name": name, "label": label, "hint": "auto", "within": within}
 
 
 class MeasuredEnvelope(FrequencyView):
@@ -40,12 +47,18 @@ class MeasuredEnvelope(FrequencyView):
         "without one, where the kurtogram is highest; you can give another. A click puts a "
         "cursor on a line."
     )
-    first_look = Look(scale="linear", lines=("bpfo", "bpfi", "bsf", "ftf"))
-    fields: ClassVar[list[LookField]] = [
+    first_look: ClassVar[dict[str, Any]] = {
+        **FIRST_LOOK,
+        "scale": "linear",
+        "lines": ["bpfo", "bpfi", "bsf", "ftf"],
+        "low": "",
+        "high": "",
+    }
+    look_fields: ClassVar[list[LookField]] = [
         ALONG,
         SCALE,
-        {"kind": "number", "name": "low", "label": "Band from", "hint": "auto"},
-        {"kind": "number", "name": "high", "label": "to (Hz)", "hint": "auto"},
+        _edge("low", "Band from", "The lower end of the band"),
+        _edge("high", "to (Hz)", "The upper end of the band"),
         AXIS,
         LINES,
         MODEL,
@@ -53,7 +66,7 @@ class MeasuredEnvelope(FrequencyView):
 
     def shown(self, results: Results, measured: Measured) -> Shown:
         first = fundamentals(measured.scene(results.scene))
-        direction = self.direction_of(results, measured, self.look.direction)
+        direction = self.direction(results, measured)
         band = self.band(results, measured, direction).band
         nyquist = 0.5 * measured.recording.sample_rate
         top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
@@ -66,13 +79,13 @@ class MeasuredEnvelope(FrequencyView):
 
     def band(self, results: Results, measured: Measured, direction: str) -> Demodulation:
         """The demodulation band [Hz] as chosen; ends that are not given are found."""
-        low, high = self.look.band
-        if low is None and high is None:
+        low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
+        if math.isnan(low) and math.isnan(high):
             return self.demodulation(results, measured, direction)
-        low = 0.5 * high if low is None and high is not None else low
-        high = 2.0 * low if high is None and low is not None else high
-        assert low is not None
-        assert high is not None
+        if math.isnan(low):
+            low = 0.5 * high
+        if math.isnan(high):
+            high = 2.0 * low
         highest = HIGHEST_SHARE * measured.recording.sample_rate
         if not low < high:
             raise ValueError(
@@ -91,14 +104,10 @@ class MeasuredEnvelope(FrequencyView):
         if measured is None or results is None or self.diagnosed(results) is None:
             return chosen
         # elsewhere there is no diagnosis
-        direction = self.direction_of(results, measured, self.look.direction)
-        low, high = self.band(results, measured, direction).band
+        low, high = self.band(results, measured, chosen["direction"]).band
         return chosen | {"low": f"{low!r}", "high": f"{high!r}"}
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
+    def words_of(self, results: Results, measured: Measured) -> str:
         shown = self.shown(results, measured)
         sets = of_rows(measured.scene(results.scene))
         assert shown.band is not None

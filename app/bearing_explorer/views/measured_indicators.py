@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView, named_columns, shown_unit
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ MEANING = {
 """Meaning of the zones of ISO 20816-3."""
 
 
-class MeasuredIndicators(MeasuredView):
+class MeasuredIndicators(LookView, MeasuredView):
     """Root mean square, peak, crest factor, kurtosis, velocity and its zone."""
 
     name = "measured-indicators"
@@ -56,47 +56,28 @@ class MeasuredIndicators(MeasuredView):
         "misalignment and looseness. Its zones are those of ISO 20816-3, for machines above 15 kW "
         "and sensors on the bearing's housing."
     )
-    needs = frozenset()
     without_size = True
+    look_fields = (MACHINE,)
+    first_look: ClassVar[dict[str, Any]] = {"machine": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.machine = ""
         self._facts = facts_pane(sizing_mode="stretch_width")
-        self.panel_of_look = LookPanel(self.look_changed, [MACHINE])
         self.hidden = stack(self.panel_of_look, self._facts, visible=False)
         return self.hidden
-
-    def look_changed(self, name: str, value: str) -> None:
-        """Take the machine whose zones count."""
-        self.machine = value
-        if self.measurement is not None:
-            self.measurement.redraw()
-
-    def choices(self) -> dict[str, Any]:
-        return {"machine": self.machine} if self.machine else {}
-
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        self.machine = choices.get("machine", self.machine)
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if self.measured is not None:
-            self._facts.object = facts_html(facts(self.measured, self.machine))
+            self._facts.object = facts_html(facts(self.measured))
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
-        return severity(measured, self.machine)
+    def words_of(self, results: Results, measured: Measured) -> str:
+        return severity(measured, self.look["machine"])
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        measured = self.measured
-        if measured is None:
-            return {}
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         return named_columns(measured.indicators.table(), measured.in_si)
 
 
-def facts(measured: Measured, machine: str) -> list[Fact]:
+def facts(measured: Measured) -> list[Fact]:
     """The numbers of a signal, for all its directions."""
     found = measured.indicators
     unit, size = shown_unit(measured)

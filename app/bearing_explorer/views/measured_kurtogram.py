@@ -19,6 +19,7 @@ from bearing_explorer.widgets.form import stack
 from bearingcore.signals.filter_bank import PARTS
 
 if TYPE_CHECKING:
+    from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
     from bearingcore import Kurtogram
 
@@ -43,7 +44,6 @@ class MeasuredKurtogram(MeasuredView):
         "takes the band whose envelope shows the bearing's lines best, which need not be the most "
         "impulsive one."
     )
-    needs = frozenset()
     without_size = True
 
     def build(self, packed: PackedSource) -> Any:
@@ -66,10 +66,7 @@ class MeasuredKurtogram(MeasuredView):
         self.hidden = stack(plot, visible=False)
         return self.hidden
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        measured = self.measured
-        if measured is None:
-            return {}, {}
+    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
         direction = self.direction_of(results, measured)
         found = measured.kurtogram(direction)
         nyquist = 0.5 * measured.recording.sample_rate
@@ -88,10 +85,7 @@ class MeasuredKurtogram(MeasuredView):
             "kurtogram_kurtosis": (0.0, top),
         }
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
+    def words_of(self, results: Results, measured: Measured) -> str:
         direction = self.direction_of(results, measured)
         found = measured.kurtogram(direction)
         most = int(found.kurtosis.argmax())
@@ -102,10 +96,7 @@ class MeasuredKurtogram(MeasuredView):
             f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}."
         )
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        measured = self.measured
-        if measured is None:
-            return {}
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         return measured.kurtogram(self.direction_of(results, measured)).table().in_units().named()
 
 

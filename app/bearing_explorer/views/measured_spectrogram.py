@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from bokeh.models import LinearColorMapper
 from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
 
-from bearing_explorer.measurement.form import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
 from bearing_explorer.plots.layers import curve, draw
 from bearing_explorer.plots.levels import decibels
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearingcore.signals.spectrogram import (
     FEWEST_SEGMENTS,
     Spectrogram,
@@ -55,18 +54,9 @@ FIELDS: list[LookField] = [
     {"name": "of", "label": "of",
      "options": [["signal", "the signal"], ["envelope", "its envelope"]]},
     {"kind": "number", "name": "last", "label": "Shaft speed at the end (Hz)",
-     "hint": "the same"},
+     "hint": "the same", "within": ("The shaft speed at the end", "Hz", 0.1, 2000.0)},
 ]  # fmt: skip
 _SPEED = curve("spectrogram_speed", "x", "y", "#FFFFFF", 1.6, (5, 4))
-
-
-@dataclass(frozen=True)
-class Look:
-    """Choices above the map; `last`: shaft speed at the end [Hz], None: it does not change."""
-
-    map: str = "spectrogram"
-    of: str = "signal"
-    last: float | None = None
 
 
 @dataclass(frozen=True)
@@ -79,7 +69,7 @@ class Shown:
     top: float
 
 
-class MeasuredSpectrogram(MeasuredView):
+class MeasuredSpectrogram(LookView, MeasuredView):
     """Spectra over time, or over the turns of the shaft."""
 
     name = "measured-spectrogram"
@@ -90,11 +80,11 @@ class MeasuredSpectrogram(MeasuredView):
         "steady run-up or run-down give the shaft speed at the end, and check in the spectrogram "
         "that the dashed line lies on a line of the shaft."
     )
-    needs = frozenset()
     without_size = True
+    look_fields = FIELDS
+    first_look: ClassVar[dict[str, Any]] = {"map": "spectrogram", "of": "signal", "last": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.look = Look()
         self._known: tuple[Any, Shown] | None = None
         plot = style.make_figure(
             _SIDES["time"].quantity,
@@ -112,49 +102,20 @@ class MeasuredSpectrogram(MeasuredView):
         title = "dB below the highest"
         plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         draw(plot, packed, [_SPEED])
-        self.panel_of_look = LookPanel(self.look_changed, FIELDS)
         self.hidden = stack(self.panel_of_look, plot, visible=False)
         return self.hidden
-
-    # The look
-
-    def look_changed(self, name: str, value: str) -> None:
-        """Show another map, or by another speed; a number that is refused changes nothing."""
-        try:
-            self.choose({name: value})
-        except ValueError as error:
-            self.panel_of_look.refuse(str(error))
-            return
-        self.panel_of_look.refuse("")
-        if self.measurement is not None:
-            self.measurement.redraw()
-
-    def choices(self) -> dict[str, Any]:
-        first = Look()
-        return {k: v for k, v in vars(self.look).items() if v != getattr(first, k)}
-
-    def choose(self, choices: Mapping[str, Any], results: Results | None = None) -> None:
-        known = dict(choices)
-        if text := str(known.pop("last", "")).strip():
-            words = "The shaft speed at the end"
-            self.look = replace(self.look, last=number_of(text[:20], words, "Hz", 0.1, 2000.0))
-        elif "last" in choices:
-            self.look = replace(self.look, last=None)
-        self.look = replace(self.look, **known)
-
-    # The picture
 
     def speed(self, measured: Measured) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Times [s] and the shaft speed then [Hz]."""
         first = measured.shaft_speed / (2.0 * math.pi)
-        last = first if self.look.last is None else self.look.last
+        last = float(self.look["last"] or first)
         return np.array([0.0, measured.recording.duration]), np.array([first, last])
 
     def too_short(self, measured: Measured) -> str:
         """Why there is no map, or an empty text."""
         time, speed = self.speed(measured)
         turns, needed = float(speed.mean() * time[-1]), FEWEST_SEGMENTS / ORDER_STEP
-        if self.look.map == "spectrogram" or turns >= needed:
+        if self.look["map"] == "spectrogram" or turns >= needed:
             return ""
         return (
             f"An order map needs {needed:.0f} turns of the shaft, and the signal has "
@@ -165,9 +126,9 @@ class MeasuredSpectrogram(MeasuredView):
         """The map as the look has it."""
         direction = self.direction_of(results, measured)
         band = None
-        if self.look.of == "envelope":
+        if self.look["of"] == "envelope":
             band = self.demodulation(results, measured, direction).band
-        key = measured, self.look, direction, band
+        key = measured, self.look, direction, band  # a new look for each choice
         if self._known is None or self._known[0] != key:
             signal, rate = measured.column(direction), measured.recording.sample_rate
             if band is not None:
@@ -189,26 +150,26 @@ class MeasuredSpectrogram(MeasuredView):
     ) -> tuple[Spectrogram, float]:
         """The map, and the highest frequency [Hz] or order that is drawn of it."""
         time, speed = self.speed(measured)
-        if self.look.map == "orders":
+        if self.look["map"] == "orders":
             return order_map(signal, rate, time, speed, ORDER_STEP), TOP_ORDER
-        if self.look.of == "envelope":
+        if self.look["of"] == "envelope":
             step = max(5.0 / time[-1], 0.25 * speed[0])
             return spectrogram(signal, rate, step), min(TOP_ORDER * speed.max(), 0.5 * rate)
         least, most = SEGMENT_LENGTHS
         length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
         return spectrogram(signal, rate, rate / length), 0.5 * rate
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        measured = self.measured
-        if measured is None or self.too_short(measured):
+    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+        if self.too_short(measured):
             return {}, {}
         shown = self.shown(results, measured)
-        across, up = ("turns", "order") if self.look.map == "orders" else ("time", "frequency")
+        orders = self.look["map"] == "orders"
+        across, up = ("turns", "order") if orders else ("time", "frequency")
         cells = self._image.columns(
             (_SIDES[across], shown.x), (_SIDES[up], shown.y), [shown.level.T]
         )
         sources, top = {"spectrogram_cells": cells}, shown.top
-        if self.look.map == "spectrogram" and self.look.last is not None:
+        if not orders and self.look["last"]:
             time, speed = self.speed(measured)
             sources["spectrogram_speed"] = {"x": time, "y": speed}
             top = min(top, SPEED_TOP * float(speed.max()))
@@ -219,24 +180,21 @@ class MeasuredSpectrogram(MeasuredView):
         }
         return sources, ranges
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
+    def words_of(self, results: Results, measured: Measured) -> str:
         if why := self.too_short(measured):
             return why
         _, (first, last) = self.speed(measured)
         words = f"{style.number(first, 4)} Hz throughout"
-        if self.look.last is not None:
+        if self.look["last"]:
             words = f"from {style.number(first, 4)} Hz to {style.number(last, 4)} Hz"
         return f"Shaft speed {words}, as given."
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        measured = self.measured
-        if measured is None or self.too_short(measured):
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+        if self.too_short(measured):
             return {}
         shown = self.shown(results, measured)
-        across, up = ("turns", "order") if self.look.map == "orders" else ("time_s", "frequency_hz")
+        orders = self.look["map"] == "orders"
+        across, up = ("turns", "order") if orders else ("time_s", "frequency_hz")
         x, y = np.meshgrid(shown.x, shown.y, indexing="ij")
         return {across: x.ravel(), up: y.ravel(), "level_db": shown.level.ravel()}
 

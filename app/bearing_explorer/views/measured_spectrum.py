@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from bokeh.plotting import figure
@@ -15,12 +15,12 @@ from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
     ALONG,
     AXIS,
+    FIRST_LOOK,
     LINES,
     MODEL,
     RESOLUTIONS,
     SCALE,
     FrequencyView,
-    Look,
     Shown,
     amplitudes,
 )
@@ -45,8 +45,8 @@ class MeasuredSpectrum(FrequencyView):
         "with the bands of its natural frequencies shaded: where measured resonances lie in "
         "them, the scene is like the machine. A click puts a cursor on a line."
     )
-    first_look = Look(resolution="8", lines=())
-    fields: ClassVar[list[LookField]] = [
+    first_look: ClassVar[dict[str, Any]] = {**FIRST_LOOK, "resolution": "8"}
+    look_fields: ClassVar[list[LookField]] = [
         ALONG,
         SCALE,
         {
@@ -81,18 +81,15 @@ class MeasuredSpectrum(FrequencyView):
         return {f"{self.prefix}_bands_{shown.direction}": own}
 
     def shown(self, results: Results, measured: Measured) -> Shown:
-        direction = self.direction_of(results, measured, self.look.direction)
-        resolution = measured.finest(float(self.look.resolution))
+        direction = self.direction(results, measured)
+        resolution = measured.finest(float(self.look["resolution"]))
         top = 0.5 * measured.recording.sample_rate
         shown = Shown(direction, top, measured.spectrum(direction, resolution), None, resolution)
         return self.with_model(
             shown, lambda: Simulated(results, measured).spectrum(direction, resolution)
         )
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
+    def words_of(self, results: Results, measured: Measured) -> str:
         shown = self.shown(results, measured)
         unit, size = shown_unit(measured)
         words = f"Along {shown.direction} above 100 Hz the highest line is "

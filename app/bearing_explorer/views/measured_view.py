@@ -13,7 +13,7 @@ from bokeh.plotting import figure
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import SessionParts, View
+from bearing_explorer.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.views.python_lines import code_of, lines_of, short
 from bearingcore.files.units import ACCELERATIONS
 
@@ -85,10 +85,13 @@ WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 class MeasuredView(View):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
 
-    Until there is a signal only the first view, which has the form for it, is on the page.
+    A subclass provides `data_of`, `words_of` and `columns_of` of a signal, or `data`, `sentence`
+    and `table` themselves. Until there is a signal only the first view, which has the form for it,
+    is on the page.
     """
 
     in_report = False
+    needs = frozenset()
     hidden: Any = None
     #: whether it can be drawn of a signal of unknown unit
     without_size: ClassVar[bool] = False
@@ -115,6 +118,30 @@ class MeasuredView(View):
         if measured is not None and not (measured.in_si or self.without_size):
             return None
         return measured
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        measured = self.measured
+        return ({}, {}) if measured is None else self.data_of(results, measured)
+
+    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+        """`View.data` of the signal."""
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        measured = self.measured
+        return self.why_nothing if measured is None else self.words_of(results, measured)
+
+    def words_of(self, results: Results, measured: Measured) -> str:
+        """`View.sentence` of the signal."""
+        raise NotImplementedError
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        measured = self.measured
+        return {} if measured is None else self.columns_of(results, measured)
+
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+        """`View.table` of the signal."""
+        raise NotImplementedError
 
     @property
     def why_nothing(self) -> str:

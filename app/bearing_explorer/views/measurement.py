@@ -52,7 +52,6 @@ class MeasuredSignal(MeasuredView):
         "The vibration a sensor on the housing measures. It is compared with that of the scene: "
         "set the scene to your machine, with its bearing, load and support."
     )
-    needs = frozenset()
     without_size = True
     waits = False
 
@@ -116,10 +115,7 @@ class MeasuredSignal(MeasuredView):
             for axis in self._axes:
                 axis.axis_label = label
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        measured = self.measured
-        if measured is None:
-            return {}, {}
+    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
         first, last = close_view(measured, measured.scene(results.scene))
         rate = measured.recording.sample_rate
         signal = measured.recording.acceleration
@@ -154,10 +150,7 @@ class MeasuredSignal(MeasuredView):
             "named": (times[kept] < end - 0.11 * (end - begin)).astype(float),
         }
 
-    def sentence(self, results: Results) -> str:
-        measured = self.measured
-        if measured is None:
-            return self.why_nothing
+    def words_of(self, results: Results, measured: Measured) -> str:
         recording = measured.recording
         name, size = shown_unit(measured)
         unit = f" {name}" if measured.in_si else ""
@@ -171,10 +164,7 @@ class MeasuredSignal(MeasuredView):
         of = "the acceleration" if measured.in_si else "the numbers of the file"
         return f"Root mean square of {of}: {style.list_words(sizes)}."
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        measured = self.measured
-        if measured is None:
-            return {}
+    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         recording = measured.recording
         first, last = close_view(measured, measured.scene(results.scene))
         table = {"time_s": np.arange(first, last) / recording.sample_rate}

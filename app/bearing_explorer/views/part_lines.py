@@ -58,6 +58,12 @@ class Zoom:
     part: str = ""
     harmonic: int = 1
 
+    @classmethod
+    def of(cls, words: str) -> Zoom:
+        """The line that "inner race 2" says, the second harmonic; of no words all lines."""
+        part, _, harmonic = words.rpartition(" ")
+        return cls(part, int(harmonic)) if part else cls()
+
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
     """The part that stands out, be it enough to be named or not; None where none is seen."""

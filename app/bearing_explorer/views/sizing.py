@@ -71,7 +71,6 @@ class DefectSize(JobView[Sized], MeasuredView):
         "every extent on the outer race is simulated and rated by how well it explains the mean "
         "ball pass and the spectrum. Coloured: the candidate that is shown. Thin: measured."
     )
-    needs = frozenset()
     start = "Find the size"
     bounds = (
         "Takes some seconds. Bearing, load, support, depth and centre of the defect are taken from "

@@ -111,7 +111,6 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         "they are more than noise, all in the band of the last file; one there need not be the "
         "bearing's. An extent is there where a damaged race is named."
     )
-    needs = frozenset()
     without_size = True
     start = "Compute the trend"
     bounds = "Takes up to some seconds a file."

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from bokeh.models import LayoutDOM
@@ -37,10 +37,11 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import why_ended
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import Ranges, Sources, View
+from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
-from bearing_explorer.widgets.look import LookField, LookPanel
+from bearing_explorer.widgets.look import LookField
 from bearingcore import Scene
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.scene import WITH_MASS
@@ -101,7 +102,7 @@ PASSES: list[Layer] = [
 """Marks of the ball-pass frequencies."""
 
 
-class VibrationSpectra(View):
+class VibrationSpectra(LookView):
     """Power spectral density of the housing's acceleration along x and y."""
 
     name = "vibration-spectrum"
@@ -112,8 +113,8 @@ class VibrationSpectra(View):
         "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "healthy", "bands"})
-    #: whether it goes up to half the sample rate, on a logarithmic frequency axis
-    wide = False
+    look_fields = (AXIS,)
+    first_look: ClassVar[dict[str, Any]] = {"axis": "linear"}
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
@@ -131,46 +132,30 @@ class VibrationSpectra(View):
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [box, *plots]
         self._wide = WideSpectra(packed, "spectrum_wide", {})
-        self._axis = LookPanel(self.look_changed, [AXIS])
-        self._show_axis()
         high = {"min-height": "calc(var(--room) - 170px)"}
-        return self.only_with_numbers(self._axis, *self._narrow, *self._wide.plots, styles=high)
+        return self.only_with_numbers(
+            self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
+        )
 
     @property
     def is_empty(self) -> bool:
         """Where the motion ended before it had settled."""
         return self._results is not None and not self._results.late_spectra
 
-    def look_changed(self, _: str, value: str) -> None:
-        """Draw over the frequency axis that was chosen."""
-        self.wide = value == "logarithmic"
-        if self.parts is not None:
-            self.parts.draw()
-
-    def choices(self) -> dict[str, Any]:
-        return {"axis": "logarithmic"} if self.wide else {}
-
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        axes = [value for value, _ in AXIS["options"]]
-        axis = choices.get("axis", axes[0])
-        if axis not in axes:
-            raise ValueError(f"axis is {axis!r}; it can be {' or '.join(axes)}")
-        self.wide = axis == "logarithmic"
+    @property
+    def wide(self) -> bool:
+        """Whether it goes up to half the sample rate, on a logarithmic frequency axis."""
+        return bool(self.look["axis"] == "logarithmic")
 
     def still_figures(self) -> Sequence[LayoutDOM]:
         return self._wide.plots if self.wide else self._narrow[1:]
 
-    def _show_axis(self) -> None:
-        """Show the figures of the axis that was chosen."""
+    def show_look(self) -> None:
+        super().show_look()
         for part in self._narrow:
             part.visible = not self.wide
         for plot in self._wide.plots:
             plot.visible = self.wide
-        self._axis.show({"axis": "logarithmic" if self.wide else "linear"})
-
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        self._show_axis()
 
     def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
         """Up to half the sample rate, where that was chosen."""

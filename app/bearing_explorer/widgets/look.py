@@ -9,13 +9,15 @@ from typing import Any, Literal, TypedDict
 import panel as pn
 
 from bearing_explorer.assets import asset_text
+from bearing_explorer.measurement.form import number_of
 from bearing_explorer.widgets.form import Fields, choices, entry, row, select
 
 
 class LookField(TypedDict, total=False):
     """A choice, of "one" where there is no kind.
 
-    An option is [value, words], of "some" [value, words, colour].
+    An option is [value, words], of "some" [value, words, colour]. A number is typed, or left out:
+    `within` are its words in a sentence, its unit, and its least and greatest value.
     """
 
     kind: Literal["some", "number"]
@@ -23,6 +25,31 @@ class LookField(TypedDict, total=False):
     label: str
     options: Sequence[Sequence[str]]
     hint: str
+    within: tuple[str, str, float, float]
+
+
+def checked(fields: Sequence[LookField], name: str, value: Any) -> Any:
+    """The value of a choice; ValueError with a sentence where there is no such choice.
+
+    A string, or a list of strings where some of several can be chosen. A number has no unit.
+    """
+    field = next((field for field in fields if field["name"] == name), None)
+    if field is None:
+        raise ValueError(f"There is no choice {name!r}.")
+    options = [option[0] for option in field.get("options", ())]
+    if "kind" not in field:
+        if value not in options:
+            raise ValueError(f"{name} is {value!r}; it can be {' or '.join(options)}")
+        return value
+    if field["kind"] == "some":
+        return [option for option in options if option in value]
+    text = str(value)[:20].strip()
+    if not text:
+        return ""
+    words, unit, least, most = field["within"]
+    number = number_of(text, words, unit, least, most)
+    short = f"{number:g}"
+    return short if float(short) == number else repr(number)
 
 
 class LookPanel(pn.Column):

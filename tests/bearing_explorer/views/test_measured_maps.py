@@ -52,7 +52,7 @@ def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
     assert np.ptp(rows_of_the_line(view)) > 3.0
     view.look_changed("last", f"{LAST}")
     assert rows_of_the_line(view) == pytest.approx(3.58, abs=0.1)
-    assert view.choices() == {"map": "orders", "last": LAST}
+    assert view.choices() == {"map": "orders", "last": f"{LAST:g}"}
     assert "from 15 Hz to 35 Hz" in view.sentence(RESULTS)
     view.look_changed("map", "spectrogram")
     assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])

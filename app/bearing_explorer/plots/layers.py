@@ -189,6 +189,27 @@ CENTERED = {"text_align": "center"}
 """Look of words that lie to both sides of their place."""
 
 
+def names_over(
+    source: str,
+    code: str,
+    x: str,
+    row: str | float,
+    color: str,
+    reads: tuple[str, ...] = (),
+    **look: Any,
+) -> Words:
+    """Names over curves, by `code`, see `Words`; those that are zoomed out of view go.
+
+    `row` is where, as a share of the frame's height. `x_offset` may be a column of pixels, for
+    names on either side of their places.
+    """
+    share = {"center": 0.5}.get(look.get("text_align", ""), 1.0)
+    if isinstance(shift := look.get("x_offset"), str):
+        share, look["x_offset"], reads = 0.0, style.text_offset(shift), (*reads, shift)
+    look = {"text_color": color, "level": "annotation", **ON_PAPER, **look}
+    return Words(source, x, row, code, reads, y_share=True, in_view="x", share=share, look=look)
+
+
 def sources_of(packed: PackedSource, layers: Iterable[Layer]) -> dict[str, ColumnDataSource]:
     """The sources that layers name, each declared once with all the columns that they read."""
     columns: dict[str, dict[str, None]] = {}

@@ -11,11 +11,12 @@ from bokeh.plotting import figure
 
 from bearing_explorer.measurement.diagnoses import BUSY, ExtentQuestion, Question, extent_of
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Layer, curve, draw, names_over, uprights
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
-from bearing_explorer.views.measured_view import MEASURED, MeasuredView, write_over
+from bearing_explorer.views.measured_view import MEASURED, MeasuredView
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.look import LookField
 from bearing_explorer.widgets.status import StatusLine
@@ -43,7 +44,14 @@ FIELDS: list[LookField] = [
     }
 ]
 
-_EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+LAYERS: tuple[Layer, ...] = (
+    uprights("extent_edges", "angle", style.DEFECT, 1.4, 1.0),
+    names_over("extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"),
+    *(curve(f"extent_pass_{number}", "angle", "envelope", MEASURED, 1.0, alpha=0.35)
+      for number in reversed(range(1, BANDS))),
+    curve("extent_pass_0", "angle", "envelope", MEASURED, 1.6),
+)  # fmt: skip
 
 
 class SpallExtent(LookView, MeasuredView):
@@ -82,16 +90,7 @@ class SpallExtent(LookView, MeasuredView):
             height=HEIGHT,
             title="Mean ball pass",
         )
-        edges = packed.source("extent_edges", "angle", "exit", "row", "shift")
-        plot.vspan("angle", source=edges, line_color=style.DEFECT, line_width=1.4)
-        write_over(plot, edges, _EDGE_WORDS, "angle", "row", style.INK, x_offset="shift")
-        for number in reversed(range(BANDS)):
-            source = packed.source(f"extent_pass_{number}", "angle", "envelope")
-            width, alpha = (1.6, 1.0) if number == 0 else (1.0, 0.35)
-            plot.line(
-                "angle", "envelope", source=source, line_color=MEASURED, line_width=width,
-                line_alpha=alpha,
-            )  # fmt: skip
+        draw(plot, packed, LAYERS)
         return plot
 
     # What it is about

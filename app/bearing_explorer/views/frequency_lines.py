@@ -11,11 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.measured_view import write_over
+from bearing_explorer.plots.layers import Layer, names_over, uprights
 from bearingcore import Scene
 
 NAME_WIDTH = 0.13
@@ -126,54 +124,52 @@ def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[n
     return multiples[kept]
 
 
-class FrequencyLines:
-    """The lines and names of all families in some figures, which share the sources."""
+def layers(prefix: str) -> list[Layer]:
+    """The lines of all families and their names, of sources with that prefix."""
+    drawn: list[Layer] = []
+    for family in FAMILIES:
+        source = f"{prefix}_{family.name}"
+        first = 0.5 if family.name == "half" else 1
+        words = _WORDS % {"first": first, "title": family.title, "room": NAME_WIDTH}
+        line = {"line_dash": family.dash, "level": "underlay"}
+        drawn += [
+            uprights(source, "frequency", family.color, 1.1, 0.6, **line),
+            names_over(f"{source}_names", words, "frequency", "row", family.ink, NAME_COLUMNS,
+                       x_offset=3),
+        ]  # fmt: skip
+    return drawn
 
-    def __init__(
-        self, packed: PackedSource, prefix: str, plots: Sequence[figure], height: float
-    ) -> None:
-        self._prefix = prefix
-        self._row = ROW_PIXELS / height
-        for family in FAMILIES:
-            lines = packed.source(f"{prefix}_{family.name}", "frequency")
-            names = packed.source(f"{prefix}_{family.name}_names", *NAME_COLUMNS)
-            first = 0.5 if family.name == "half" else 1
-            words = _WORDS % {"first": first, "title": family.title, "room": NAME_WIDTH}
-            for plot in plots:
-                plot.vspan(
-                    "frequency", source=lines, line_color=family.color, line_alpha=0.6,
-                    line_dash=family.dash, line_width=1.1, level="underlay",
-                )  # fmt: skip
-                write_over(plot, names, words, "frequency", "row", family.ink, x_offset=3)
 
-    def head_room(self, shown: Sequence[str], sets: int = 1) -> float:
-        """Share of the frame's height that the names take, with so many sets of lines."""
-        return self._row * (sets * len(shown) + 0.6)
+def head_room(shown: Sequence[str], sets: int, height: float) -> float:
+    """Share of the frame's height [px] that the names take, with so many sets of lines."""
+    return ROW_PIXELS / height * (sets * len(shown) + 0.6)
 
-    def columns(
-        self, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float
-    ) -> dict[str, dict[str, NDArray[np.float64]]]:
-        """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
 
-        `sets` are what `of_rows` gives: of several each has names of its own.
-        """
-        sources: dict[str, dict[str, NDArray[np.float64]]] = {}
-        row = 0
-        for family in FAMILIES:
-            lines, names = [np.zeros(0)], [np.zeros((len(NAME_COLUMNS), 0))]
-            for number, first in enumerate(sets if family.name in shown else ()):
-                fundamental = first[family.name]
-                multiples = orders(family, fundamental, top)
-                row += 1
-                labels = named(multiples, fundamental, top)
-                lines.append(multiples * fundamental)
-                at = np.full(labels.size, 1.0 - self._row * (row - 0.2))
-                of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
-                spread = np.full(labels.size, first.get(f"{family.name}_spread", 0.0))
-                where = labels * fundamental
-                names.append(np.stack([where, labels, where, at, of, spread]))
-            sources[f"{self._prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
-            sources[f"{self._prefix}_{family.name}_names"] = dict(
-                zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)
-            )
-        return sources
+def columns(
+    prefix: str, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float, height: float
+) -> dict[str, dict[str, NDArray[np.float64]]]:
+    """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
+
+    `sets` are what `of_rows` gives: of several each has names of its own. `height` is that of the
+    frame [px].
+    """
+    sources: dict[str, dict[str, NDArray[np.float64]]] = {}
+    row = 0
+    for family in FAMILIES:
+        lines, names = [np.zeros(0)], [np.zeros((len(NAME_COLUMNS), 0))]
+        for number, first in enumerate(sets if family.name in shown else ()):
+            fundamental = first[family.name]
+            multiples = orders(family, fundamental, top)
+            row += 1
+            labels = named(multiples, fundamental, top)
+            lines.append(multiples * fundamental)
+            at = np.full(labels.size, 1.0 - ROW_PIXELS / height * (row - 0.2))
+            of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
+            spread = np.full(labels.size, first.get(f"{family.name}_spread", 0.0))
+            where = labels * fundamental
+            names.append(np.stack([where, labels, where, at, of, spread]))
+        sources[f"{prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
+        sources[f"{prefix}_{family.name}_names"] = dict(
+            zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)
+        )
+    return sources

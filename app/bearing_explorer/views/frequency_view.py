@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.measurement.signal import Measured
@@ -20,13 +19,9 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.sentences import sentence_of
+from bearing_explorer.views import frequency_lines
 from bearing_explorer.views.base import Ranges, Sources
-from bearing_explorer.views.frequency_lines import (
-    FAMILIES,
-    FrequencyLines,
-    fundamentals,
-    of_rows,
-)
+from bearing_explorer.views.frequency_lines import FAMILIES, fundamentals, of_rows
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.widgets.form import stack
@@ -113,7 +108,8 @@ class FrequencyView(LookView, MeasuredView):
         self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
         p = self.prefix
         frequency = packed.range(f"{p}_frequency", 0.0, HIGHEST)
-        layers = {scale: self._layers(scale) for scale in SCALES}
+        beneath = [*frequency_lines.layers(p), *self.beneath()]
+        layers = {scale: [*beneath, *self._layers(scale)] for scale in SCALES}
         sources = sources_of(packed, [layer for own in layers.values() for layer in own])
         self._plots = {
             scale: style.make_figure(
@@ -127,8 +123,6 @@ class FrequencyView(LookView, MeasuredView):
             for scale, (name, first) in AXES.items()
         }
         plots = list(self._plots.values())
-        self._lines = FrequencyLines(packed, p, plots, FRAME)
-        self.decorate(packed, plots)
         for scale, plot in self._plots.items():
             add_all(plot, sources, layers[scale])
         self._cursor = FrequencyCursor(packed, p, self._plots, sources[f"{p}_measured"])
@@ -146,8 +140,9 @@ class FrequencyView(LookView, MeasuredView):
             curve(f"{p}_measured", "frequency", scale, MEASURED, 1.2, alpha=0.9),
         ]
 
-    def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
-        """Draw layers beneath the spectra."""
+    def beneath(self) -> list[Layer]:
+        """Layers beneath the spectra."""
+        return []
 
     def decoration(self, results: Results, shown: Shown) -> Sources:
         """The numbers of that."""
@@ -216,7 +211,7 @@ class FrequencyView(LookView, MeasuredView):
             np.concatenate([part[scale][own] for part, own in zip(both, seen, strict=True)])
             for scale in SCALES
         )
-        room = self._lines.head_room(look["lines"], len(lines))
+        room = frequency_lines.head_room(look["lines"], len(lines), FRAME)
         loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
         lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
         head = (loudest - lowest) * room / (1.0 - room) + 3.0
@@ -228,7 +223,7 @@ class FrequencyView(LookView, MeasuredView):
             f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
             f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
         }
-        sources |= self._lines.columns(lines, look["lines"], top)
+        sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
         sources |= self.decoration(results, shown)
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):

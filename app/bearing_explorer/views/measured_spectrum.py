@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from bokeh.plotting import figure
+from bokeh.models import VStrip
 
 from bearing_explorer.measurement.signal import Measured, Simulated
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Glyph, Layer, names_over
 from bearing_explorer.plots.levels import SHOWN
-from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Sources
 from bearing_explorer.views.frequency_view import (
     ALONG,
@@ -24,7 +24,7 @@ from bearing_explorer.views.frequency_view import (
     Shown,
     amplitudes,
 )
-from bearing_explorer.views.measured_view import shown_unit, write_over
+from bearing_explorer.views.measured_view import shown_unit
 from bearing_explorer.views.modes import BAND_WORDS, bands_along
 from bearing_explorer.widgets.look import LookField
 
@@ -59,18 +59,17 @@ class MeasuredSpectrum(FrequencyView):
         MODEL,
     ]
 
-    def decorate(self, packed: PackedSource, plots: list[figure]) -> None:
+    def beneath(self) -> list[Layer]:
+        drawn: list[Layer] = []
         for dof in SHOWN:
-            bands = packed.source(
-                f"{self.prefix}_bands_{dof}", "low", "high", "direction", "number", "label_at"
-            )
-            color = style.color_along(dof)
-            for plot in plots:
-                plot.vstrip(
-                    "low", "high", source=bands, fill_color=color, fill_alpha=0.14, line_color=None,
-                    level="underlay",
-                )  # fmt: skip
-                write_over(plot, bands, BAND_WORDS, "label_at", 0.05, color, text_align="center")
+            bands, color = f"{self.prefix}_bands_{dof}", style.color_along(dof)
+            look = {"fill_color": color, "fill_alpha": 0.14, "line_color": None}
+            drawn += [
+                Glyph(VStrip, bands, ("low", "high"), {**look, "level": "underlay"}),
+                names_over(bands, BAND_WORDS, "label_at", 0.05, color, ("direction", "number"),
+                           text_align="center"),
+            ]  # fmt: skip
+        return drawn
 
     def decoration(self, results: Results, shown: Shown) -> Sources:
         measured = self.measured

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d
-from bokeh.plotting import figure
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
@@ -29,32 +27,6 @@ HIGHEST_SHARE = 0.49
 
 MEASURED = style.INK
 """Colour of measured curves in figures with simulated ones."""
-
-
-def write_over(
-    plot: figure,
-    source: ColumnDataSource,
-    code: str,
-    x: str,
-    row: str | float,
-    color: str,
-    **look: Any,
-) -> None:
-    """Write names into a figure, by the code for `words_of`; those that are zoomed out of view go.
-
-    `row` is where, as a share of the frame's height.
-    """
-    share = {"center": 0.5}.get(look.get("text_align", ""), 1.0)
-    if isinstance(shift := look.get("x_offset"), str):
-        share, look["x_offset"] = 0.0, style.text_offset(shift)  # on either side
-    words = style.words_in_view(plot, source, code, x, share=share)
-    plot.extra_y_ranges.setdefault("rows", Range1d(0.0, 1.0, syncable=False))
-    plot.text(
-        x, row, y_range_name="rows", source=source, text=words, text_color=color,
-        text_baseline="middle", text_font={"value": style.FONT},
-        text_font_size=style.SMALL_TEXT_SIZE, background_fill_color=style.PAPER,
-        background_fill_alpha=0.85, level="annotation", **look,
-    )  # fmt: skip
 
 
 def shown_unit(measured: Measured) -> tuple[str, float]:

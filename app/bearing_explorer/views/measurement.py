@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import curve, draw, names_over, uprights
 from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
@@ -21,7 +22,6 @@ from bearing_explorer.views.measured_view import (
     MeasuredView,
     column_name,
     shown_unit,
-    write_over,
 )
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 
@@ -39,8 +39,13 @@ DRAWN_PARTS = 700
 PASSES = 4.0
 """Ball passes of the close view."""
 
-_EVENT_COLUMNS = ("time", "exit", "row", "named")
 _EDGE_WORDS = "return row.named ? (row.exit ? 'leaves' : 'enters') : ''"
+EVENTS = (
+    uprights("measurement_events", "time", style.INK, 1.0, 0.55),
+    names_over("measurement_events", _EDGE_WORDS, "time", "row", style.INK, ("exit", "named"),
+               x_offset=3),
+)  # fmt: skip
+"""When balls enter and leave, in the close view."""
 
 
 class MeasuredSignal(MeasuredView):
@@ -60,7 +65,7 @@ class MeasuredSignal(MeasuredView):
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._axes = [plot.yaxis[0] for plot in plots]
-        self._mark_events(packed, plots[1])
+        draw(plots[1], packed, EVENTS)
         self.hidden = row(*plots, visible=False, stylesheets=[style.WRAPPED])
         return stack(self.form, self.hidden)
 
@@ -75,16 +80,10 @@ class MeasuredSignal(MeasuredView):
             title="All of it" if part == "all" else f"{PASSES:.0f} ball passes",
         )
         # the weaker direction is drawn over the stronger one
-        source = packed.source(f"measurement_{part}", "time", *SHOWN)
-        for dof in reversed(SHOWN):
-            color = style.color_along(dof)
-            plot.line("time", dof, source=source, line_color=color, line_width=1.2)
+        name = f"measurement_{part}"
+        curves = [curve(name, "time", dof, style.color_along(dof), 1.2) for dof in reversed(SHOWN)]
+        draw(plot, packed, curves)
         return plot
-
-    def _mark_events(self, packed: PackedSource, plot: figure) -> None:
-        events = packed.source("measurement_events", *_EVENT_COLUMNS)
-        plot.vspan("time", source=events, line_color=style.INK, line_alpha=0.55, line_width=1.0)
-        write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset=3)
 
     def measure(self, measurement: Measurement) -> None:
         super().measure(measurement)
@@ -137,7 +136,7 @@ class MeasuredSignal(MeasuredView):
         """When balls enter and leave between two times [s], once the signal is sized."""
         sized = self.measurement.sized if self.measurement is not None else None
         if sized is None or sized.measured is not measured:
-            return dict.fromkeys(_EVENT_COLUMNS, np.zeros(0))
+            return self._empty["measurement_events"]
         entries, exits = sized.sizing.event_times(sized.sizing.best)
         times = np.concatenate([entries, exits])
         leaves = np.concatenate([np.zeros(entries.size), np.ones(exits.size)])

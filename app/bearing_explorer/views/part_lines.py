@@ -11,16 +11,16 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from bokeh.models import LinearAxis
+from bokeh.models import LinearAxis, Scatter, VSpan
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import Glyph, Layer, curve, draw, names_over
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import ROW_PIXELS
-from bearing_explorer.views.measured_view import write_over
 from bearingcore import Diagnosis
 from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
 from bearingcore.diagnosis.part.parts import PARTS
@@ -42,7 +42,6 @@ INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
 _ROW = ROW_PIXELS / FRAME
-_NAME_COLUMNS = ("frequency", "order", "row", "alpha", "labelled")
 _NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
 """Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
 _WORDS = """
@@ -112,6 +111,27 @@ def named(multiples: NDArray[np.float64], first: float, low: float, high: float)
     return np.array(kept)
 
 
+def layers() -> list[Layer]:
+    """From the lowest to the highest: lines of the parts, the spectrum, marks on harmonics."""
+    beneath: list[Layer] = []
+    marks: list[Layer] = []
+    for part in PARTS:
+        color, names = COLORS[part], f"{_lines(part)}_names"
+        line = {"line_color": color, "level": "underlay"}
+        found = {**line, "line_alpha": "alpha", "line_width": "width"}
+        dotted = {**line, "line_alpha": 0.7, "line_dash": "dotted"}
+        mark = {"size": 8, "fill_color": color, "line_color": style.INK}
+        beneath += [
+            Glyph(VSpan, _lines(part), ("frequency",), found, ("alpha", "width")),
+            Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
+            names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
+                       ("order", "alpha", "labelled"), x_offset=3, text_alpha="alpha"),
+        ]  # fmt: skip
+        marks.append(Glyph(Scatter, _points(part), ("frequency", "level"), mark))
+    spectrum = curve("diagnosis_spectrum", "frequency", "level", style.INK, 1.2, alpha=0.9)
+    return [*beneath, spectrum, *marks]
+
+
 class PartLines:
     """The figure, and what it shows."""
 
@@ -122,17 +142,7 @@ class PartLines:
         level = packed.range("diagnosis_level", LOWEST, 30.0)
         self.plot = style.make_figure(FREQUENCY, LEVEL, shown, level, height=HEIGHT)
         self._add_orders(self.plot, orders)
-        for part in PARTS:
-            self._add_lines(packed, part)
-        self.plot.line(
-            "frequency", "level", source=packed.source("diagnosis_spectrum", "frequency", "level"),
-            line_color=style.INK, line_width=1.2, line_alpha=0.9,
-        )  # fmt: skip
-        for part in PARTS:
-            self.plot.scatter(
-                "frequency", "level", source=packed.source(_points(part), "frequency", "level"),
-                size=8, fill_color=COLORS[part], line_color=style.INK, line_width=1.0,
-            )  # fmt: skip
+        draw(self.plot, packed, layers())
 
     def _add_orders(self, plot: figure, orders: object) -> None:
         plot.extra_x_ranges["order"] = orders
@@ -141,24 +151,6 @@ class PartLines:
         style.write_units(axis, ORDER, orders)  # type: ignore[arg-type]
         plot.add_layout(axis, "above")
         self._order_axis = axis
-
-    def _add_lines(self, packed: PackedSource, part: str) -> None:
-        color = COLORS[part]
-        lines = packed.source(_lines(part), "frequency", "alpha", "width")
-        self.plot.vspan(
-            "frequency", source=lines, line_color=color, line_alpha="alpha", line_width="width",
-            level="underlay",
-        )  # fmt: skip
-        sidebands = packed.source(_sidebands(part), "frequency")
-        self.plot.vspan(
-            "frequency", source=sidebands, line_color=color, line_alpha=0.7, line_width=1.0,
-            line_dash="dotted", level="underlay",
-        )  # fmt: skip
-        names = packed.source(f"{_lines(part)}_names", *_NAME_COLUMNS)
-        write_over(
-            self.plot, names, _WORDS % NAMES[part], "frequency", "row", INKS[part], x_offset=3,
-            text_alpha="alpha",
-        )  # fmt: skip
 
     def show_orders(self, known: bool) -> None:
         """The axis of orders, where the shaft's speed is known."""

@@ -16,6 +16,14 @@ from numpy.typing import NDArray
 from bearing_explorer.measurement.session import Sized
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import (
+    Layer,
+    add_all,
+    curve,
+    names_over,
+    sources_of,
+    uprights,
+)
 from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.jobs import Work
@@ -24,8 +32,9 @@ from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.value_range import focused
 from bearing_explorer.views.base import Ranges, Sources
+from bearing_explorer.views.extent import BEFORE, EDGE_WORDS
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView, write_over
+from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
 from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
@@ -40,9 +49,6 @@ if TYPE_CHECKING:
 HEIGHT = 236
 SAMPLES = 600
 """Of a mean ball pass that is drawn."""
-BEFORE = 0.14
-"""Of a ball pass that is drawn before the entry."""
-
 OUTER, INNER = "outer race", "inner race"
 FAULTS = [["", "the part of step 2"], [OUTER, "the outer race, as is known"]]
 """Parts that may be chosen as damaged: value and words."""
@@ -54,7 +60,21 @@ SUPPORTS = [
 ]
 """Knowledge of the machine's masses and springs: value and words."""
 
-_EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+
+EDGES = (
+    uprights("sizing_events", "time", style.INK, 1.0, 0.7),
+    names_over("sizing_events", EDGE_WORDS, "time", "row", style.INK, ("exit",), x_offset="shift"),
+)
+
+
+def layers(dof: str) -> list[Layer]:
+    """The mean ball pass along a direction: of a candidate, the measured one over it."""
+    candidate, measured = (f"sizing_pass_{who}_{dof}" for who in ("candidate", "measured"))
+    return [
+        *EDGES,
+        curve(candidate, "time", "size", style.color_along(dof), 3.2),
+        curve(measured, "time", "size", MEASURED, 1.1),
+    ]
 
 
 class Cancelled(Exception):  # noqa: N818
@@ -84,10 +104,12 @@ class DefectSize(JobView[Sized], MeasuredView):
         self._looked: int | None = None
         self._passes = {dof: StickyRange(-1.0, 1.0) for dof in SHOWN}
         seconds = packed.range("sizing_time", 0.0, 0.03)
-        events = packed.source("sizing_events", "time", "exit", "row", "shift")
+        sources = sources_of(packed, [layer for dof in SHOWN for layer in layers(dof)])
         self._rows = {}
         for dof in SHOWN:
-            self._rows[dof] = stack(self._pass_plot(packed, dof, seconds, events))
+            plot = self._pass_plot(packed, dof, seconds)
+            add_all(plot, sources, layers(dof))
+            self._rows[dof] = stack(plot)
         self._answer_part = stack(
             self.status,
             self.candidates,
@@ -98,8 +120,8 @@ class DefectSize(JobView[Sized], MeasuredView):
         self.hidden = stack(self.job, self._answer_part, visible=False)
         return self.hidden
 
-    def _pass_plot(self, packed: PackedSource, dof: str, seconds: Range1d, events: Any) -> figure:
-        plot = style.make_figure(
+    def _pass_plot(self, packed: PackedSource, dof: str, seconds: Range1d) -> figure:
+        return style.make_figure(
             style.AxisQuantity("Time in a ball pass", "t", "s", prefixed=True),
             style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True),
             seconds,
@@ -107,13 +129,6 @@ class DefectSize(JobView[Sized], MeasuredView):
             height=HEIGHT,
             title=f"Mean ball pass along {dof}",
         )
-        plot.vspan("time", source=events, line_color=style.INK, line_width=1.0, line_alpha=0.7)
-        write_over(plot, events, _EDGE_WORDS, "time", "row", style.INK, x_offset="shift")
-        color = style.color_along(dof)
-        for who, line, width in (("candidate", color, 3.2), ("measured", MEASURED, 1.1)):
-            source = packed.source(f"sizing_pass_{who}_{dof}", "time", "size")
-            plot.line("time", "size", source=source, line_color=line, line_width=width)
-        return plot
 
     # The job
 

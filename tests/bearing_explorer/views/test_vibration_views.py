@@ -7,7 +7,8 @@ import pytest
 from bearing_explorer.results.excerpt import Event
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.frequency_lines import FrequencyLines, of_rows
+from bearing_explorer.views import frequency_lines
+from bearing_explorer.views.frequency_lines import of_rows
 from bearing_explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
 from bearing_explorer.views.vibration_spectrum import VibrationSpectra, pass_frequencies, passed
 from bearing_explorer.views.vibration_time import VibrationInTime, event_rows
@@ -68,9 +69,7 @@ def test_lines_of_an_estimated_inside_have_their_error() -> None:
     assert spread[0] == pytest.approx(bearing.bpfo(scene.shaft_speed) * 0.0140, rel=0.02)
     inner = bearing.bpfi(scene.shaft_speed) * bearing.frequency_spread("bpfi")
     assert of_rows(scene)[0]["bpfi_spread"] == pytest.approx(inner)
-    columns = FrequencyLines(PackedSource(), "lines", (), 200.0).columns(
-        of_rows(scene), ("bpfi",), 1000.0
-    )
+    columns = frequency_lines.columns("lines", of_rows(scene), ("bpfi",), 1000.0, 200.0)
     assert columns["lines_bpfi_names"]["spread"][0] == pytest.approx(inner)
 
 
@@ -83,8 +82,8 @@ def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
     rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
     assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
     assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
-    lines = FrequencyLines(PackedSource(), "own", (), 400.0)
-    names = lines.columns(of_rows(scene), ("bpfo",), 3000.0)["own_bpfo_names"]
+    columns = frequency_lines.columns("own", of_rows(scene), ("bpfo",), 3000.0, 400.0)
+    names = columns["own_bpfo_names"]
     assert set(names["of"]) == {1.0, 2.0}
     assert np.unique(names["row"]).size == 2, "each row has its names at a height of their own"
 

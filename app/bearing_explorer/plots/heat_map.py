@@ -29,6 +29,7 @@ from bokeh.models import (
     Range1d,
     Scatter,
 )
+from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -207,6 +208,26 @@ BAR_LOOK: dict[str, Any] = {
 def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
     """The colour scale of a map."""
     return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
+
+
+def bright_image(
+    plot: figure,
+    packed: PackedSource,
+    name: str,
+    shown: Range1d,
+    sides: Sequence[Side],
+    say: str,
+    title: str,
+) -> GridImage:
+    """Numbers on a grid from dark to bright, with their scale, whose ends are those of `shown`.
+
+    `name`, `sides` and `say` are those of `GridImage`; `title` is that of the scale.
+    """
+    plot.grid.visible = False
+    mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
+    scale_by(shown, mapper)
+    plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
+    return GridImage(plot, packed, name, [mapper], sides, say)
 
 
 def ring_at(source: str) -> list[Glyph]:

@@ -13,13 +13,21 @@ from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
 from bokeh.plotting import figure
 
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import by_number
 from bearing_explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
 from bearing_explorer.results.jobs import Work
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.work_precision import REST, WorkPrecision, paragraph, prose
+from bearing_explorer.views.work_precision import (
+    REST,
+    WorkPrecision,
+    column_source,
+    columns_of,
+    paragraph,
+    prose,
+)
 from bearing_explorer.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
@@ -266,12 +274,11 @@ class Stability:
         style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
         names = list(FIXED_STEP)
         plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
-        self._verdicts = {
-            verdict: plot.scatter(
-                [], [], marker=marker, size=13, fill_color=color, line_color=color, line_width=2.0
-            ).data_source
-            for verdict, (color, marker) in VERDICT_LOOKS.items()
-        }
+        colors = by_number("which", [color for color, _ in VERDICT_LOOKS.values()])
+        self._trials = column_source("x", "y", "which", "marker")
+        plot.scatter(
+            "x", "y", source=self._trials, marker="marker", size=13, color=colors, line_width=2.0
+        )
         limits = plot.segment([], [], [], [], line_color=style.INK, line_width=2.5)
         self._limits = limits.data_source
         return plot
@@ -282,22 +289,20 @@ class Stability:
         self._now = Span(dimension="height", line_color=style.INK, line_dash=[4, 4])
         plot.add_layout(self._now)
         self._path = plot.line([], [], line_color=style.STEEL_EDGE).data_source
-        self._losses = {}
-        for loss, color in LOSS_COLORS.items():
-            dots = plot.scatter([], [], size=8, fill_color=color, line_color=color)
-            self._losses[loss] = dots.data_source
-            tips = [("speed", "@x{0.0} Hz"), ("|μ|", "@y{0.000}"), ("loss", loss or "none")]
-            plot.add_tools(HoverTool(renderers=[dots], visible=False, tooltips=tips))
+        self._orbits = column_source("x", "y", "which", "loss")
+        colors = by_number("which", list(LOSS_COLORS.values()))
+        dots = plot.scatter("x", "y", source=self._orbits, size=8, color=colors)
+        tips = [("speed", "@x{0.0} Hz"), ("|μ|", "@y{0.000}"), ("loss", "@loss")]
+        plot.add_tools(HoverTool(renderers=[dots], visible=False, tooltips=tips))
         return plot
 
     def _circle_figure(self) -> figure:
         plot = _figure("Multipliers at all speeds, real part", "Imaginary part", height=300)
         plot.sizing_mode, plot.width = "fixed", 310
         plot.circle([0.0], [0.0], radius=1.0, fill_color="#E6F3EE", line_color="#00704F")
-        self._multipliers = {
-            loss: plot.scatter([], [], size=7, fill_color=color, line_color=color).data_source
-            for loss, color in LOSS_COLORS.items()
-        }
+        self._multipliers = column_source("x", "y", "which")
+        colors = by_number("which", list(LOSS_COLORS.values()))
+        plot.scatter("x", "y", source=self._multipliers, size=7, color=colors)
         return plot
 
     def draw(self, own: Measurements | None, base: Measurements | None, speed: float) -> None:
@@ -317,12 +322,13 @@ class Stability:
         self._orbit_words.object = _LOSS_LEGEND + paragraph(orbits_sentence(orbits))
 
     def _draw_steps(self, chart: StabilityChart) -> None:
-        for verdict, source in self._verdicts.items():
-            found = [t for t in chart.trials if t.verdict == verdict]
-            source.data = {
-                "x": [t.step_rate / chart.highest_frequency for t in found],
-                "y": [FIXED_STEP.index(t.method) for t in found],
-            }
+        verdicts = list(VERDICT_LOOKS)
+        self._trials.data = {
+            "x": [t.step_rate / chart.highest_frequency for t in chart.trials],
+            "y": [FIXED_STEP.index(t.method) for t in chart.trials],
+            "which": [verdicts.index(t.verdict) for t in chart.trials],
+            "marker": [VERDICT_LOOKS[t.verdict][1] for t in chart.trials],
+        }
         limits = {k: chart.linear_limit[name] for k, name in enumerate(FIXED_STEP)}
         rows = [k for k, limit in limits.items() if 0.0 < limit < math.inf]
         steps = [limits[k] / chart.highest_frequency for k in rows]
@@ -332,17 +338,18 @@ class Stability:
     def _draw_orbits(self, orbits: tuple[OrbitAtSpeed, ...], speed: float) -> None:
         found = [one for one in orbits if one.multipliers]
         self._now.location = speed / (2.0 * math.pi)
-        self._path.data = _speeds(found)
-        for loss in LOSS_COLORS:
-            lost = [one for one in found if one.loss == loss]
-            self._losses[loss].data = _speeds(lost)
-            self._multipliers[loss].data = {
-                "x": [re for one in lost for re, _ in one.multipliers],
-                "y": [im for one in lost for _, im in one.multipliers],
-            }
+        losses = list(LOSS_COLORS)
+        speeds = [one.shaft_speed / (2.0 * math.pi) for one in found]
+        self._path.data = path = {"x": speeds, "y": [one.size for one in found]}
+        self._orbits.data = {
+            **path,
+            "which": [losses.index(one.loss) for one in found],
+            "loss": [one.loss or "none" for one in found],
+        }
+        multipliers = [(*at, losses.index(one.loss)) for one in found for at in one.multipliers]
+        self._multipliers.data = columns_of(("x", "y", "which"), multipliers)
         if found:
-            ends = [one.shaft_speed / (2.0 * math.pi) for one in (found[0], found[-1])]
-            self._speeds.x_range.update(start=0.95 * ends[0], end=1.02 * ends[1])
+            self._speeds.x_range.update(start=0.95 * speeds[0], end=1.02 * speeds[-1])
             top = max(1.2, *(min(one.size, 3.0) for one in found))
             self._speeds.y_range.update(start=0.0, end=1.1 * top)
             for side in (self._circle.x_range, self._circle.y_range):
@@ -353,11 +360,6 @@ def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
     sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
     ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
     return style.make_figure(*sides, *ranges, height=height, sizing_mode="stretch_width", **more)
-
-
-def _speeds(found: list[OrbitAtSpeed]) -> dict[str, list[float]]:
-    speeds = [one.shaft_speed / (2.0 * math.pi) for one in found]
-    return {"x": speeds, "y": [one.size for one in found]}
 
 
 def steps_sentence(chart: StabilityChart | None) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import math
 from collections.abc import Callable
 from functools import partial
@@ -26,6 +27,7 @@ from bearing_explorer.views.control_view import ControlView
 from bearing_explorer.widgets.controls import Rows, spec_of
 from bearingcore.bearings.catalogue import COLUMNS, NEEDED
 from bearingcore.common.numbers import with_deviation
+from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -213,6 +215,12 @@ class Fact(NamedTuple):
     of_all: Callable[[Bearing], str] | None = None
 
 
+def _of_field(name: str, words: Callable[[Bearing], str]) -> Fact:
+    """A number that other bearings are given by, and that follows here."""
+    field = FIELD_OF[name]
+    return Fact(field.label, field.symbol_html, html.escape(field.meaning), words)
+
+
 _GROOVE_OVER_BALL = "Groove radius in ball diameters; makers use 0.505 to 0.54."
 
 FACTS = {
@@ -241,27 +249,17 @@ FACTS = {
         "From contact to contact across the shaft: it follows from contact angle and clearance.",
         _length("diametral_play"),
     ),
-    "load_deflection_factor": Fact(
-        "Load-deflection factor", "K", "Stiffness of both contacts of a ball in series.", _factor
-    ),
+    "load_deflection_factor": _of_field("load_deflection_factor", _factor),
     "line_load_deflection_factor": Fact(
         "Load-deflection factor",
         "K",
         "Stiffness of both line contacts of a roller in series, by Palmgren's formula.",
         _factor,
     ),
-    "groove_center_distance": Fact(
-        "Groove centre distance",
-        "A<sub>0</sub>",
-        "Both groove radii together less a ball diameter.",
-        _length("groove_center_distance", 4),
+    "groove_center_distance": _of_field(
+        "groove_center_distance", _length("groove_center_distance", 4)
     ),
-    "groove_center_radius": Fact(
-        "Groove centre radius",
-        "r<sub>d</sub>",
-        "The lever with which a tilt moves a contact.",
-        _length("groove_center_radius", 5),
-    ),
+    "groove_center_radius": _of_field("groove_center_radius", _length("groove_center_radius", 5)),
     "raceway_radii": Fact(
         "Raceway radii",
         "R<sub>o</sub>, R<sub>i</sub>",

@@ -24,7 +24,7 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView
 from bearing_explorer.views.part_lines import COLORS, PartLines, Zoom
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.part_panel import ListedBearings, PartPanel, evidence_html
 from bearingcore import Bearing, Diagnosis
 from bearingcore.common.numbers import probability
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, stack
 
-FIELDS: list[LookField] = [
+FIELDS: list[FieldSpec] = [
     {
         "name": "speed",
         "label": "Shaft speed is",

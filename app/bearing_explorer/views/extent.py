@@ -18,7 +18,7 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView
 from bearing_explorer.views.measurement import with_head
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.status import StatusLine
 from bearingcore import Bearing, Diagnosis, MeasuredExtent
 
@@ -32,7 +32,7 @@ BANDS = 3
 BEFORE = 0.14
 """Of a ball pass that is drawn before the entry."""
 
-FIELDS: list[LookField] = [
+FIELDS: list[FieldSpec] = [
     {
         "name": "race",
         "label": "Damaged is",
@@ -45,13 +45,19 @@ FIELDS: list[LookField] = [
 ]
 
 EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
-LAYERS: tuple[Layer, ...] = (
-    uprights("extent_edges", "angle", style.DEFECT, 1.4, 1.0),
-    names_over("extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"),
-    *(curve(f"extent_pass_{number}", "angle", "envelope", MEASURED, 1.0, alpha=0.35)
-      for number in reversed(range(1, BANDS))),
-    curve("extent_pass_0", "angle", "envelope", MEASURED, 1.6),
-)  # fmt: skip
+
+
+def layers() -> list[Layer]:
+    """From the lowest to the highest: edges, and mean passes of which the best is strong."""
+    names = names_over(
+        "extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"
+    )
+    faint = [
+        curve(f"extent_pass_{number}", "angle", "envelope", MEASURED, 1.0, alpha=0.35)
+        for number in reversed(range(1, BANDS))
+    ]
+    best = curve("extent_pass_0", "angle", "envelope", MEASURED, 1.6)
+    return [uprights("extent_edges", "angle", style.DEFECT, 1.4, 1.0), names, *faint, best]
 
 
 class SpallExtent(LookView, MeasuredView):
@@ -90,7 +96,7 @@ class SpallExtent(LookView, MeasuredView):
             height=HEIGHT,
             title="Mean ball pass",
         )
-        draw(plot, packed, LAYERS)
+        draw(plot, packed, layers())
         return plot
 
     # What it is about

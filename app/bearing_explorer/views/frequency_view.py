@@ -24,8 +24,7 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.frequency_lines import FAMILIES, fundamentals, of_rows
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MEASURED, MeasuredView, shown_unit
-from bearing_explorer.widgets.form import stack
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec, stack
 from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure
@@ -43,29 +42,29 @@ HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
 
 
-ALONG: LookField = {
+ALONG: FieldSpec = {
     "name": "direction",
     "label": "Along",
     "options": [["x", "x"], ["y", "y"]],
 }
-SCALE: LookField = {
+SCALE: FieldSpec = {
     "name": "scale",
     "label": "Scale",
     "options": [["dB", "dB"], ["linear", "linear"]],
 }
-AXIS: LookField = {
+AXIS: FieldSpec = {
     "name": "axis",
     "label": "Axis",
     "options": [["Hz", "Hz"], ["orders", "orders"]],
 }
-LINES: LookField = {
-    "kind": "some",
+LINES: FieldSpec = {
+    "some": True,
     "name": "lines",
     "label": "Lines",
     "options": [[family.name, family.title, family.color] for family in FAMILIES],
 }
-MODEL: LookField = {
-    "kind": "some",
+MODEL: FieldSpec = {
+    "some": True,
     "name": "overlay",
     "label": "Simulated",
     "options": [["model", "the scene, scaled", style.color_along("y")]],

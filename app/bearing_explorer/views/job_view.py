@@ -22,9 +22,8 @@ from bearing_explorer.widgets.form import (
     FieldSpec,
     SearchedSelect,
     button,
-    entry,
     row,
-    select,
+    widget_of,
 )
 from bearingcore import Scene
 
@@ -94,13 +93,11 @@ class JobForm(pn.Column):
         )
 
     def _widget(self, spec: FieldSpec) -> pn.viewable.Viewable:
-        options = spec.get("options")
-        if options is None:
-            text = entry(spec["label"], css_classes=["number"])
-            text.param.watch(lambda _: self._start(), "enter_pressed")
-            return self._fields.add(spec["name"], text)
-        chosen = self._fields.add(spec["name"], select(spec["label"], options))
-        return SearchedSelect(chosen, options) if len(options) > SEARCHED else chosen
+        widget = self._fields.add(spec["name"], widget_of(spec))
+        options = spec.get("options", ())
+        if not options:
+            widget.param.watch(lambda _: self._start(), "enter_pressed")
+        return SearchedSelect(widget, options) if len(options) > SEARCHED else widget
 
     @property
     def values(self) -> Mapping[str, str]:

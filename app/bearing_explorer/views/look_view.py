@@ -8,13 +8,14 @@ from typing import Any, ClassVar
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import View
-from bearing_explorer.widgets.look import LookField, LookPanel, checked
+from bearing_explorer.widgets.form import FieldSpec
+from bearing_explorer.widgets.look import LookPanel, checked
 
 
 class LookView(View):
     """A view with choices above its figures; `build` puts `self.panel_of_look` among its parts."""
 
-    look_fields: ClassVar[Sequence[LookField]]
+    look_fields: ClassVar[Sequence[FieldSpec]]
     first_look: ClassVar[Mapping[str, Any]]
     """First values of the choices, by name."""
 

@@ -20,6 +20,7 @@ from bearing_explorer.views.passage_view import (
     LABEL_WIDTH,
     SLOTS,
     PassageView,
+    along_both,
     ball_names,
     event_lines,
     event_names,
@@ -79,8 +80,9 @@ class MassInTime(PassageView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
         missing = np.full(shown.time.size, np.nan)
-        signals = signals_of(shown)
-        signals |= {f"{dof}_massless": shown.massless.get(dof, missing) for dof in SHOWN}
+        signals = along_both(shown.time, shown.with_mass)
+        massless = along_both(shown.time, shown.massless)
+        signals |= {f"{dof}_massless": one for dof, one in massless.items()}
         balls = shown.balls[:SLOTS]
         loads = {f"{race}{i}": missing for race in RACES_OF_LOADS for i in range(SLOTS)}
         for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
@@ -92,7 +94,9 @@ class MassInTime(PassageView):
             "mass_motion",
             ("time", *SHOWN),
             results.of_compared,
-            lambda other: traces(other.ball_mass.time, signals_of(other.ball_mass)),
+            lambda other: traces(
+                other.ball_mass.time, along_both(other.ball_mass.time, other.ball_mass.with_mass)
+            ),
         )
         sources: Sources = {
             **compared,
@@ -124,12 +128,6 @@ class MassInTime(PassageView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.table().named()
-
-
-def signals_of(shown: BallMass) -> dict[str, np.ndarray]:
-    """Acceleration along x and y with mass; NaN where the housing cannot move."""
-    missing = np.full(shown.time.size, np.nan)
-    return {dof: shown.with_mass.get(dof, missing) for dof in SHOWN}
 
 
 def way_of_the_ball(shown: BallMass) -> str:

@@ -21,16 +21,16 @@ from bearing_explorer.views.frequency_view import (
     amplitudes,
 )
 from bearing_explorer.views.measured_view import HIGHEST_SHARE, Demodulation, shown_unit
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
 
 
-def _edge(name: str, label: str, words: str) -> LookField:
+def _edge(name: str, label: str, words: str) -> FieldSpec:
     """The field of an edge of the demodulation band."""
     within = (words, "Hz", 1e-3, 1e7)
-    return {"kind": "number", "name": name, "label": label, "hint": "auto", "within": within}
+    return {"name": name, "label": label, "hint": "auto", "within": within}
 
 
 class MeasuredEnvelope(FrequencyView):
@@ -54,7 +54,7 @@ class MeasuredEnvelope(FrequencyView):
         "low": "",
         "high": "",
     }
-    look_fields: ClassVar[list[LookField]] = [
+    look_fields: ClassVar[list[FieldSpec]] = [
         ALONG,
         SCALE,
         _edge("low", "Band from", "The lower end of the band"),

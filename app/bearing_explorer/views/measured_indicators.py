@@ -12,7 +12,7 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView, named_columns, shown_unit
 from bearing_explorer.widgets.facts import Fact, facts_html, facts_pane
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ _WORDS = {
     "rigid": "rigid",
     "flexible": "flexible",
 }
-MACHINE: LookField = {
+MACHINE: FieldSpec = {
     "name": "machine",
     "label": "Machine and its support",
     "options": [

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from bokeh.models import FixedTicker, LinearColorMapper
-from bokeh.palettes import Viridis256
+from bokeh.models import FixedTicker
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
+from bearing_explorer.plots.heat_map import Side, bright_image, ends
 from bearing_explorer.plots.layers import draw, strips
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
@@ -55,13 +54,10 @@ class MeasuredKurtogram(MeasuredView):
             height=260,
             name="kurtogram_drawing",
         )
-        plot.grid.visible = False
         plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(PARTS))), minor_ticks=[])
         plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(PARTS)}
-        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-        scale_by(packed.range("kurtogram_kurtosis", 0.0, 1.0), mapper)
-        self._image = GridImage(plot, packed, "kurtogram_cells", [mapper], _SIDES, _SAY)
-        plot.add_layout(color_bar(mapper, "Kurtosis", bar_line_color=None), "right")
+        shown = packed.range("kurtogram_kurtosis", 0.0, 1.0)
+        self._image = bright_image(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
         draw(plot, packed, [_BAND])
         self.hidden = stack(plot, visible=False)
         return self.hidden

@@ -7,19 +7,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from bokeh.models import LinearColorMapper
-from bokeh.palettes import Viridis256
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
+from bearing_explorer.plots.heat_map import Side, bright_image, ends
 from bearing_explorer.plots.layers import curve, draw
 from bearing_explorer.plots.levels import decibels
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.measured_view import MeasuredView
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 from bearingcore.signals.spectrogram import (
     FEWEST_SEGMENTS,
     Spectrogram,
@@ -48,12 +46,12 @@ _SIDES = {
     "order": Side("", "Order", "", ""),
 }
 _SAY = "return `${rounded(cell[0], 3)} dB`"
-FIELDS: list[LookField] = [
+FIELDS: list[FieldSpec] = [
     {"name": "map", "label": "Show",
      "options": [["spectrogram", "spectrogram"], ["orders", "order map"]]},
     {"name": "of", "label": "of",
      "options": [["signal", "the signal"], ["envelope", "its envelope"]]},
-    {"kind": "number", "name": "last", "label": "Shaft speed at the end (Hz)",
+    {"name": "last", "label": "Shaft speed at the end (Hz)",
      "hint": "the same", "within": ("The shaft speed at the end", "Hz", 0.1, 2000.0)},
 ]  # fmt: skip
 _SPEED = curve("spectrogram_speed", "x", "y", "#FFFFFF", 1.6, (5, 4))
@@ -94,13 +92,9 @@ class MeasuredSpectrogram(LookView, MeasuredView):
             height=320,
             name="spectrogram_drawing",
         )
-        plot.grid.visible = False
-        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-        scale_by(packed.range("spectrogram_level", -DEPTH_OF_VIEW, 0.0), mapper)
-        sides = list(_SIDES.values())
-        self._image = GridImage(plot, packed, "spectrogram_cells", [mapper], sides, _SAY)
-        title = "dB below the highest"
-        plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
+        level = packed.range("spectrogram_level", -DEPTH_OF_VIEW, 0.0)
+        sides, title = list(_SIDES.values()), "dB below the highest"
+        self._image = bright_image(plot, packed, "spectrogram_cells", level, sides, _SAY, title)
         draw(plot, packed, [_SPEED])
         self.hidden = stack(self.panel_of_look, plot, visible=False)
         return self.hidden

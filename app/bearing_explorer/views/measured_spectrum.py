@@ -26,7 +26,7 @@ from bearing_explorer.views.frequency_view import (
 )
 from bearing_explorer.views.measured_view import shown_unit
 from bearing_explorer.views.modes import BAND_WORDS, bands_along
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -46,7 +46,7 @@ class MeasuredSpectrum(FrequencyView):
         "them, the scene is like the machine. A click puts a cursor on a line."
     )
     first_look: ClassVar[dict[str, Any]] = {**FIRST_LOOK, "resolution": "8"}
-    look_fields: ClassVar[list[LookField]] = [
+    look_fields: ClassVar[list[FieldSpec]] = [
         ALONG,
         SCALE,
         {

@@ -23,6 +23,7 @@ from bearing_explorer.views.measured_view import (
     column_name,
     shown_unit,
 )
+from bearing_explorer.views.passage_view import TIME
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 
 if TYPE_CHECKING:
@@ -32,7 +33,6 @@ from bearing_explorer.widgets.form import row, stack
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "")
 AS_IN_FILE = style.AxisQuantity("Value", "", "")
-TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 HEIGHT = 230
 DRAWN_PARTS = 700
 """Stretches of which the least and the greatest number are drawn."""

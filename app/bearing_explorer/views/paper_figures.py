@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
-from bearing_explorer.plots.levels import SHOWN, decibels
+from bearing_explorer.plots.levels import SHOWN, decibels, density_axis
 from bearing_explorer.results import statics
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.address import Place, write
 from bearing_explorer.state.compared import Compared, usual_name
+from bearing_explorer.views.depth_profile import DEPTH
 from bearing_explorer.views.modes import FREQUENCY, lines
+from bearing_explorer.views.passage_view import TIME
 from bearingcore import STIFFNESS_TERMS, Maps, Scene, presets, stiffness_maps
 from bearingcore.common.numbers import number, prefixed_span, span
 from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
@@ -317,10 +319,8 @@ _STIFFNESS = {
     for term, unit in TERM_UNITS.items()
 }
 _EXTENT = style.AxisQuantity("Extent", "Δφf", "°")
-_DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
-_TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 _ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²")
-_DENSITY = style.AxisQuantity("Density", "", "dB re 1 (m/s²)²/Hz")
+_DENSITY = density_axis("")
 _HERTZ = style.AxisQuantity("Frequency", "f", "Hz", prefixed=True)
 _BALLS = style.AxisQuantity("Balls", "", "")
 _NOTHING = style.AxisQuantity("", "", "")
@@ -426,7 +426,7 @@ FIGURES = (
             Panel("(d) ωy1, ωy2", style.CAGE_ANGLE, FREQUENCY, (*_TURN, 300.0, 2100.0),
                   partial(_modes, "y")),
             _stiffness_panel(4, "k_xy", (*_TURN, -3e6, 3e6)),
-            Panel("(f) Depth profile", style.BALL_ANGLE, _DEPTH, (180.0, 360.0, 0.0, 75e-6),
+            Panel("(f) Depth profile", style.BALL_ANGLE, DEPTH, (180.0, 360.0, 0.0, 75e-6),
                   _depth),
         ),
         (
@@ -444,13 +444,13 @@ FIGURES = (
         (
             *(
                 Panel(_lettered(2 * row + column, f"{('Horizontal', 'Vertical')[row]}, {extent}°"),
-                      _TIME, _ACCELERATION, (*_SPAN, -limit, limit),
+                      TIME, _ACCELERATION, (*_SPAN, -limit, limit),
                       partial(_acceleration, row), (extent,))
                 for row, limit in enumerate((2.0, 4.0))
                 for column, extent in enumerate(_EXTENTS)
             ),
             *(
-                Panel(_lettered(4 + column, f"Contact force, {extent}°"), _TIME, style.BALL_LOAD,
+                Panel(_lettered(4 + column, f"Contact force, {extent}°"), TIME, style.BALL_LOAD,
                       (*_SPAN, 0.0, top), _contact_forces, (extent,))
                 for column, (extent, top) in enumerate(zip(_EXTENTS, (50.0, 90.0), strict=True))
             ),

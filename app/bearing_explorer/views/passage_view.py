@@ -18,6 +18,7 @@ from bearing_explorer.plots.layers import (
     sources_of,
     uprights,
 )
+from bearing_explorer.plots.levels import SHOWN
 from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.results.excerpt import least_and_greatest
 from bearing_explorer.serve.packed_source import PackedSource
@@ -133,6 +134,14 @@ def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarr
         **named(bearing, balls),
         "slot": slots,
     }
+
+
+def along_both(
+    time: NDArray[np.float64], acceleration: Mapping[str, NDArray[np.float64]]
+) -> dict[str, NDArray[np.float64]]:
+    """Acceleration along x and y over time; NaN where the housing cannot move."""
+    missing = np.full(time.size, np.nan)
+    return {dof: acceleration.get(dof, missing) for dof in SHOWN}
 
 
 def traces(

@@ -61,17 +61,13 @@ SUPPORTS = [
 """Knowledge of the machine's masses and springs: value and words."""
 
 
-EDGES = (
-    uprights("sizing_events", "time", style.INK, 1.0, 0.7),
-    names_over("sizing_events", EDGE_WORDS, "time", "row", style.INK, ("exit",), x_offset="shift"),
-)
-
-
 def layers(dof: str) -> list[Layer]:
     """The mean ball pass along a direction: of a candidate, the measured one over it."""
     candidate, measured = (f"sizing_pass_{who}_{dof}" for who in ("candidate", "measured"))
+    edges = "sizing_events"
     return [
-        *EDGES,
+        uprights(edges, "time", style.INK, 1.0, 0.7),
+        names_over(edges, EDGE_WORDS, "time", "row", style.INK, ("exit",), x_offset="shift"),
         curve(candidate, "time", "size", style.color_along(dof), 3.2),
         curve(measured, "time", "size", MEASURED, 1.1),
     ]

@@ -29,12 +29,11 @@ from bearing_explorer.views.bearing import (
     Shapes,
     load_words,
 )
-from bearing_explorer.views.passage_view import TIME, traces
+from bearing_explorer.views.passage_view import TIME, along_both, traces
 from bearing_explorer.views.vibration_time import (
     ACCELERATION,
     event_rows,
     motion_layers,
-    signals_of,
 )
 from bearing_explorer.widgets.form import stack
 from bearingcore import Bearing
@@ -125,7 +124,7 @@ class SlowPassage(BearingDrawing):
             "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
         }
         loudest = max(shown.acceleration.values(), key=_peak, default=np.zeros(2))
-        signals = signals_of(shown)
+        signals = along_both(shown.time, shown.acceleration)
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
             "slow_load_words": load_words(scene.load, drawn.depth_scale),

@@ -9,13 +9,12 @@ from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import GlyphRenderer, HSpan, LinearColorMapper, Scatter
-from bokeh.palettes import Viridis256
+from bokeh.models import GlyphRenderer, HSpan, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.plots import style
-from bearing_explorer.plots.heat_map import CLEAR, GridImage, Side, color_bar, ends, scale_by
+from bearing_explorer.plots.heat_map import GridImage, Side, bright_image, ends
 from bearing_explorer.plots.layers import (
     Glyph,
     Layer,
@@ -141,6 +140,7 @@ class SpeedRunSpectra(SweptView):
         speed = packed.range("speed_run_speed", 0.0, 60.0)
         self._images: dict[str, GridImage] = {}
         sources = sources_of(packed, ALL_LAYERS)
+        sides = list(_SIDES.values())
         plots: list[figure] = []
         marks: list[GlyphRenderer] = []
         for dof in SHOWN:
@@ -152,10 +152,11 @@ class SpeedRunSpectra(SweptView):
                 height=HEIGHT,
                 name=f"speed_run_drawing_{dof}",
             )
-            plot.grid.visible = False
             plot.stylesheets = [":host { cursor: crosshair; }"]
             plot.syncable = False  # which of them is seen is the browser's business
-            self._add_map(plot, packed, dof)
+            shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
+            name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
+            self._images[dof] = bright_image(plot, packed, name, shown, sides, _SAY, title)
             marks += add_all(plot, sources, expected(dof))
             add_all(plot, sources, SCENE)
             plots.append(plot)
@@ -163,17 +164,6 @@ class SpeedRunSpectra(SweptView):
         box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
         choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
         return [self.job, self.only_with_numbers(choices, *plots)]
-
-    def _add_map(self, plot: figure, packed: PackedSource, dof: str) -> None:
-        """The spectra as colours, with their scale."""
-        shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
-        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-        scale_by(shown, mapper)
-        self._images[dof] = GridImage(
-            plot, packed, f"speed_run_cells_{dof}", [mapper], list(_SIDES.values()), _SAY
-        )
-        title = f"S{dof} (dB re 1 (m/s²)²/Hz)"
-        plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
 
     # The job
 

@@ -41,12 +41,12 @@ from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
 from bearing_explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.views.wide_spectrum import HEIGHT, WideSpectra
-from bearing_explorer.widgets.look import LookField
+from bearing_explorer.widgets.form import FieldSpec
 from bearingcore import Scene
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.scene import WITH_MASS
 
-AXIS: LookField = {
+AXIS: FieldSpec = {
     "name": "axis",
     "label": "Frequency",
     "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],

@@ -18,6 +18,7 @@ from bearing_explorer.views.passage_view import (
     LABEL_WIDTH,
     SLOTS,
     PassageView,
+    along_both,
     ball_names,
     event_lines,
     event_names,
@@ -64,7 +65,7 @@ class VibrationInTime(PassageView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing
         missing = np.full(shown.time.size, np.nan)
-        signals = signals_of(shown)
+        signals = along_both(shown.time, shown.acceleration)
         loads = dict.fromkeys((f"load{i}" for i in range(SLOTS)), missing)
         loads |= {f"load{i}": load for i, load in enumerate(shown.ball_load.T[:SLOTS])}
         start, end = float(shown.time[0]), float(shown.time[-1])
@@ -72,7 +73,9 @@ class VibrationInTime(PassageView):
             "vibration",
             ("time", *SHOWN),
             results.of_compared,
-            lambda other: traces(other.excerpt.time, signals_of(other.excerpt)),
+            lambda other: traces(
+                other.excerpt.time, along_both(other.excerpt.time, other.excerpt.acceleration)
+            ),
         )
         sources: Sources = {
             **compared,
@@ -129,12 +132,6 @@ def motion_layers(prefix: str) -> list[Layer]:
         ),
         event_names(prefix, EVENT_WORDS, ("enters",)),
     ]
-
-
-def signals_of(shown: Excerpt) -> dict[str, np.ndarray]:
-    """Acceleration along x and y; NaN where the housing cannot move."""
-    missing = np.full(shown.time.size, np.nan)
-    return {dof: shown.acceleration.get(dof, missing) for dof in SHOWN}
 
 
 def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:

@@ -14,13 +14,13 @@ from bokeh.models import (
     CustomJS,
     FixedTicker,
     HoverTool,
-    LinearColorMapper,
     Range1d,
     Span,
 )
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
+from bearing_explorer.plots.layers import by_number
 from bearing_explorer.widgets.form import Fields, row, select, stack
 from bearingcore.common.numbers import decibels, scientific
 from bearingcore.experiments import Experiment, Point
@@ -144,13 +144,12 @@ class WorkPrecision:
         ticks = [m * 10.0**e for e in range(-9, 13) for m in (1, 3)]
         plot.xaxis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
         plot.yaxis.formatter = style.logarithmic_ticks()
-        colors = {"field": "slot", "transform": LinearColorMapper(
-            palette=list(COLORS), low=-0.5, high=len(COLORS) - 0.5)}  # fmt: skip
-        self._best = _source("cost", "error")
-        self._lines = _source("costs", "errors", "slot", "alpha")
-        self._slopes = _source("costs", "errors")
-        self._points = _source(*_POINTS)
-        self._used = _source("cost", "error")
+        colors = by_number("slot", COLORS)
+        self._best = column_source("cost", "error")
+        self._lines = column_source("costs", "errors", "slot", "alpha")
+        self._slopes = column_source("costs", "errors")
+        self._points = column_source(*_POINTS)
+        self._used = column_source("cost", "error")
         self._allowed = Span(dimension="width", line_color="#009E73", line_dash=[6, 4])
         plot.add_layout(self._allowed)
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
@@ -262,9 +261,9 @@ class WorkPrecision:
                         p.status if p.failed or placed else BEYOND, 8 if placed else 11,
                         alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
                     ))  # fmt: skip
-        self._points.data = _columns(_POINTS, rows)
-        self._lines.data = _columns(("costs", "errors", "slot", "alpha"), lines)
-        self._slopes.data = _columns(("costs", "errors"), self._theory(main, cost))
+        self._points.data = columns_of(_POINTS, rows)
+        self._lines.data = columns_of(("costs", "errors", "slot", "alpha"), lines)
+        self._slopes.data = columns_of(("costs", "errors"), self._theory(main, cost))
 
     def _theory(self, one: Experiment, cost: str) -> list[tuple[list[float], list[float]]]:
         """Through the cheapest point of each method of a known order, a line of that order."""
@@ -367,9 +366,11 @@ def _around(values: list[float], room: float) -> tuple[float, float]:
     return low / room, high * room
 
 
-def _source(*columns: str) -> ColumnDataSource:
+def column_source(*columns: str) -> ColumnDataSource:
+    """A source without numbers yet."""
     return ColumnDataSource({column: [] for column in columns}, syncable=False)
 
 
-def _columns(names: tuple[str, ...], rows: list[Any]) -> dict[str, list[Any]]:
+def columns_of(names: tuple[str, ...], rows: list[Any]) -> dict[str, list[Any]]:
+    """Rows as columns."""
     return {name: [row[i] for row in rows] for i, name in enumerate(names)}

@@ -19,18 +19,21 @@ _ROW = ":host { flex-wrap: wrap; align-items: end; gap: 8px 14px; min-width: 0 !
 
 
 class FieldSpec(TypedDict, total=False):
-    """A field of a form.
+    """A field of a form, or a choice above a figure.
 
-    Without `options` text is typed into it. An option is [value, words] or [value, words, heading].
-    `only` names other fields and the values with which alone this one is shown; `hint` is the
-    placeholder of a text field.
+    Without `options` text is typed into it. An option is [value, words] or [value, words, heading];
+    where `some` of several can be chosen, [value, words, colour]. `only` names other fields and the
+    values with which alone this one is shown; `hint` is the placeholder of a text field. `within`
+    is what a number may be: its words in a sentence, its unit, its least and greatest value.
     """
 
     name: str
     label: str
     options: Sequence[Sequence[str]]
+    some: bool
     only: Mapping[str, Sequence[str]]
     hint: str
+    within: tuple[str, str, float, float]
 
 
 def select(label: str, options: Sequence[Sequence[str]], **params: Any) -> pn.widgets.Select:
@@ -49,6 +52,14 @@ def choices(options: Sequence[Sequence[str]]) -> dict[str, Any]:
 def entry(label: str, **params: Any) -> pn.widgets.TextInput:
     """A labelled field to type text or a number into."""
     return pn.widgets.TextInput(label=label, **_common(params))
+
+
+def widget_of(spec: FieldSpec, *classes: str) -> pn.widgets.Widget:
+    """The list, or the field to type into, of a field."""
+    if "options" in spec:
+        return select(spec["label"], spec["options"], css_classes=list(classes))
+    hint = spec.get("hint", "")
+    return entry(spec["label"], placeholder=hint, css_classes=[*classes, "number"])
 
 
 def button(label: str, act: Callable[[], None], **params: Any) -> pn.widgets.Button:

@@ -4,31 +4,16 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, TypedDict
+from typing import Any
 
 import panel as pn
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.form import number_of
-from bearing_explorer.widgets.form import Fields, choices, entry, row, select
+from bearing_explorer.widgets.form import Fields, FieldSpec, choices, row, widget_of
 
 
-class LookField(TypedDict, total=False):
-    """A choice, of "one" where there is no kind.
-
-    An option is [value, words], of "some" [value, words, colour]. A number is typed, or left out:
-    `within` are its words in a sentence, its unit, and its least and greatest value.
-    """
-
-    kind: Literal["some", "number"]
-    name: str
-    label: str
-    options: Sequence[Sequence[str]]
-    hint: str
-    within: tuple[str, str, float, float]
-
-
-def checked(fields: Sequence[LookField], name: str, value: Any) -> Any:
+def checked(fields: Sequence[FieldSpec], name: str, value: Any) -> Any:
     """The value of a choice; ValueError with a sentence where there is no such choice.
 
     A string, or a list of strings where some of several can be chosen. A number has no unit.
@@ -37,11 +22,11 @@ def checked(fields: Sequence[LookField], name: str, value: Any) -> Any:
     if field is None:
         raise ValueError(f"There is no choice {name!r}.")
     options = [option[0] for option in field.get("options", ())]
-    if "kind" not in field:
+    if "options" in field and not field.get("some"):
         if value not in options:
             raise ValueError(f"{name} is {value!r}; it can be {' or '.join(options)}")
         return value
-    if field["kind"] == "some":
+    if options:
         return [option for option in options if option in value]
     text = str(value)[:20].strip()
     if not text:
@@ -58,7 +43,7 @@ class LookPanel(pn.Column):
     The value is a string, or a list of strings where some of several can be chosen.
     """
 
-    def __init__(self, changed: Callable[[str, Any], None], fields: Sequence[LookField]) -> None:
+    def __init__(self, changed: Callable[[str, Any], None], fields: Sequence[FieldSpec]) -> None:
         self._fields = Fields(lambda name: changed(name, self._fields.values[name]))
         self._specs = fields
         self._disabled: dict[str, Sequence[str]] = {}
@@ -69,15 +54,9 @@ class LookPanel(pn.Column):
             margin=(2, 0, 6, 0),
         )  # fmt: skip
 
-    def _widget(self, spec: LookField) -> pn.viewable.Viewable:
-        name, label = spec["name"], spec["label"]
-        if "kind" not in spec:
-            widget = select(label, spec["options"], css_classes=["beside"])
-            return self._fields.add(name, widget)
-        if spec["kind"] == "number":
-            hint = spec.get("hint", "")
-            number = entry(label, placeholder=hint, css_classes=["beside", "number"])
-            return self._fields.add(name, number)
+    def _widget(self, spec: FieldSpec) -> pn.viewable.Viewable:
+        if not spec.get("some"):
+            return self._fields.add(spec["name"], widget_of(spec, "beside"))
         colors = "".join(
             f"label:nth-of-type({n}) {{ --swatch: {option[2]}; }}\n"
             for n, option in enumerate(spec["options"], 1)
@@ -89,8 +68,8 @@ class LookPanel(pn.Column):
             margin=0,
             stylesheets=[asset_text("form.css"), colors],
         )
-        self._fields.add(name, boxes)
-        return row(_text(label), boxes, css_classes=["checks"], sizing_mode=None)
+        self._fields.add(spec["name"], boxes)
+        return row(_text(spec["label"]), boxes, css_classes=["checks"], sizing_mode=None)
 
     def show(
         self,

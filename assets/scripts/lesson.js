@@ -113,16 +113,17 @@ export function render({ model }) {
   }
 
   // A prediction: chosen or typed. Until then the figures that would answer it are veiled.
-  const prediction = ({ ask: question, choices, right, unit, within }, reveal) => {
+  const prediction = ({ ask: question, choose: choices, right, unit, within }, reveal) => {
     const verdict = element("p", { class: "verdict", role: "status" })
     const boxes = choices.map((_, index) =>
       element("input", { type: "radio", name: "prediction", value: String(index) }))
+    const best = boxes.length ? right - 1 : right  // choices are counted from 1
     const box = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": question })
     const settle = (given) => {
-      const is_right = boxes.length ? given === right : Math.abs(given - right) <= within
+      const is_right = boxes.length ? given === best : Math.abs(given - best) <= within
       const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
       form.dataset.said = hides ? "" : is_right ? "right" : "other"
-      verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(right)}.`
+      verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(best)}.`
       reveal.textContent = reveal.dataset.after
       remember_answer({ given })
       announce("predicted")

@@ -523,13 +523,8 @@ class Measurement:
 
     def _take_simulated(self, found: Measured) -> None:
         self._table, self._cut, self.measured, self.sized = None, "", found, None
-        self._tell(
-            words=self._summary(),
-            bad=False,
-            busy=False,
-            arrival=self.state.arrival + 1,
-            **{**_NO_FORM, **self._in_short({})},
-        )
+        self.state = MeasurementState(arrival=self.state.arrival + 1)
+        self._tell(words=self._summary(), **self._in_short({}))
         self._draw()
 
     # Saying and doing
@@ -573,13 +568,6 @@ class Measurement:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-
-_NO_FORM: Mapping[str, Any] = {
-    "columns": [], "values": {}, "refused": {}, "reasons": {}, "open": [], "proposed": None,
-    "said": "", "load": None, "bearings": [], "line": "",
-    "whole_name": "", "remarks": "",
-}  # fmt: skip
-"""Of a state without a file."""
 
 _WAITS = "Nothing is drawn yet:"
 

@@ -227,8 +227,6 @@ class Plane:
         output, axes and scene.
     stride
         of the level.
-    x, y
-        values of the quantities, (nx,) and (ny,).
     values : (ny, nx)
         in the unit of the output; NaN where there is none.
     reasons : (ny, nx)
@@ -237,10 +235,18 @@ class Plane:
 
     question: Question
     stride: int
-    x: Sweep
-    y: Sweep
     values: Array
     reasons: NDArray[np.object_]
+
+    @property
+    def x(self) -> Sweep:
+        """Values of the quantity to the right, (nx,)."""
+        return self.question.sides(self.stride)[0]
+
+    @property
+    def y(self) -> Sweep:
+        """Values of the quantity upwards, (ny,)."""
+        return self.question.sides(self.stride)[1]
 
     @property
     def missing(self) -> int:
@@ -308,10 +314,7 @@ class Survey:
         """The map on a level."""
         columns, rows = self.question.level(stride)
         at = np.ix_(rows, columns)
-        sides = self.question.sides(stride)
-        return Plane(
-            self.question, stride, *sides, self._values[at].copy(), self._reasons[at].copy()
-        )
+        return Plane(self.question, stride, self._values[at].copy(), self._reasons[at].copy())
 
     def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
         """Rows and columns of what is missing, in blocks: lines of extents whole, as they are

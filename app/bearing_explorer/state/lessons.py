@@ -120,27 +120,16 @@ class Part:
     html: str
 
 
-@dataclass(frozen=True)
-class Prediction:
-    """A question before the answer is shown.
-
-    Either out of `choices`, of which number `right` is right, counted from 0; or, without choices,
-    a number of `unit`, right from `right` − `within` to `right` + `within`.
-    """
-
-    ask: str
-    choices: tuple[str, ...]
-    right: float
-    unit: str = ""
-    within: float = 0.0
-
-
 Text = Annotated[str, Meta(min_length=1, max_length=200)]
 Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 
 
-class _PredictEntry(msgspec.Struct):
-    """A prediction as a head has it; `right` counts choices from 1."""
+class Prediction(msgspec.Struct, frozen=True):
+    """A question before the answer is shown, as the head of a lesson has it.
+
+    Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
+    number of `unit`, right from `right` − `within` to `right` + `within`.
+    """
 
     ask: Text
     right: Number
@@ -193,7 +182,7 @@ class Lesson:
             "drag": list(self.drag),
             "watch": list(self.watch),
             "parts": [asdict(part) for part in self.parts],
-            "predict": None if self.predict is None else asdict(self.predict),
+            "predict": msgspec.to_builtins(self.predict),
             "name": self.name,
         }
 
@@ -393,12 +382,10 @@ class _Checks:
         """The prediction; LessonError where none of its choices is right."""
         if self.head.predict is None:
             return None
-        given = self._entries(self.head.predict, _PredictEntry)
-        if not given.choose:
-            return Prediction(given.ask, (), given.right, given.unit, given.within)
-        if given.right not in range(1, len(given.choose) + 1):
+        given = self._entries(self.head.predict, Prediction)
+        if given.choose and given.right not in range(1, len(given.choose) + 1):
             raise self.error("right", "right counts the choices from 1")
-        return Prediction(given.ask, given.choose, given.right - 1.0)
+        return given
 
     @cached_property
     def _begun(self) -> tuple[SceneEditor, Snapshot]:

@@ -447,7 +447,7 @@ def lesson_of(path: Path) -> Lesson:
 def words_of(lesson: Lesson) -> str:
     parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
     asked = lesson.predict
-    prediction = "" if asked is None else " ".join([asked.ask, *asked.choices])
+    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose])
     return Words(f"{lesson.title} {prediction} {parts}").text
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import html
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import panel as pn
 
+from bearing_explorer.assets import asset_text
 from bearing_explorer.plots import style
 from bearing_explorer.results import compiling
 from bearing_explorer.results.jobs import Work
@@ -18,7 +19,8 @@ from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.views.job_view import JobView
 from bearing_explorer.views.work_precision import ALLOWED
-from bearing_explorer.widgets.form import Fields, button, choices, pane, row, select
+from bearing_explorer.widgets.facts import html_table, html_text
+from bearing_explorer.widgets.form import Fields, button, choices, row, select
 from bearingcore.common.numbers import decibels, percent
 from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
 
@@ -44,7 +46,9 @@ class OtherModels(JobView[Alternatives]):
     bounds = "A quarter of a second of motion in several models; it takes about a second."
 
     def build(self, packed: PackedSource) -> Any:
-        self._table = pane("alternatives.css")
+        self._table = pn.pane.HTML(
+            "", stylesheets=[asset_text("alternatives.css")], sizing_mode="stretch_width", margin=0
+        )
         self._models = Fields(lambda _: None)
         self._models.add("model", select("Model", [["", "none"]]))
         take = button("Take it", lambda: self._use(self._models.values["model"]))
@@ -147,21 +151,18 @@ def price(found: Alternatives) -> str:
 
 def table_of_rows(rows: tuple[Alternative, ...]) -> str:
     """Models as an HTML table."""
-    heads = "".join(f'<th scope="col">{head}</th>' for head in HEADS)
-    body = "".join(_row(row) for row in rows)
-    return f"<table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>"
-
-
-def _row(row: Alternative) -> str:
     cells = (
-        error_words(row),
-        row.quantity,
-        _seconds(row.seconds),
-        saved_words(row),
-        row.note,
+        (
+            one.name,
+            error_words(one),
+            one.quantity,
+            _seconds(one.seconds),
+            saved_words(one),
+            one.note,
+        )
+        for one in rows
     )
-    rest = "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
-    return f'<tr><th scope="row">{html.escape(row.name)}</th>{rest}</tr>'
+    return html_table(HEADS, ([html_text(cell) for cell in row] for row in cells), named=True)
 
 
 def saved_words(row: Alternative) -> str:

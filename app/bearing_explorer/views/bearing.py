@@ -332,11 +332,7 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
             kind, names = elements(bearing, own.size), style.list_words([str(ball) for ball in own])
             which = f"{kind} {names}" if own.size <= MOST_NAMED else f"{own.size} {kind}"
             words.append(which + of_row)
-    return f"; {style.list_words(words)} {_in_defect(balls.size)}"
-
-
-def _in_defect(count: int) -> str:
-    return "is in the defect" if count == 1 else "are in the defect"
+    return f"; {style.list_words(words)} {'is' if balls.size == 1 else 'are'} in the defect"
 
 
 def moved(shapes: Sources, to_right: float) -> Sources:

@@ -16,14 +16,9 @@ from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.state.choice_list import KIND, NUMBERS
-from bearing_explorer.state.field_values import (
-    BEARING_GROUPS,
-    SHOWN_FIELDS,
-    in_shown_unit,
-    number_of,
-)
+from bearing_explorer.state.field_values import BEARING_GROUPS, values_of
 from bearing_explorer.views.bearing_picture import bearing_picture
-from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.views.control_view import ControlView, table_of_fields
 from bearing_explorer.widgets.controls import Rows, spec_of
 from bearingcore.bearings.catalogue import COLUMNS, NEEDED
 from bearingcore.common.numbers import with_deviation
@@ -111,16 +106,12 @@ class BearingEditor(ControlView):
             )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        rows = [q for q in SHOWN_FIELDS if q.group in BEARING_GROUPS]
-        values = [in_shown_unit(q, number_of(results.scene, q)) for q in rows]
-        facts = facts_of(results.scene)
+        table = table_of_fields(BEARING_GROUPS, values_of(results.scene))
+        facts = [[fact["label"], fact["value"], ""] for fact in facts_of(results.scene)]
+        further = np.array(facts).T
         return {
-            "quantity": np.array([q.label for q in rows] + [fact["label"] for fact in facts]),
-            "value": np.array(
-                ["" if math.isnan(v) else f"{v:.9g}" for v in values]
-                + [fact["value"] for fact in facts]
-            ),
-            "unit": np.array([q.shown_unit for q in rows] + [""] * len(facts)),
+            name: np.append(column, more)
+            for (name, column), more in zip(table.items(), further, strict=True)
         }
 
 

@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
+from bearing_explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.views.base import SessionParts, View
 from bearing_explorer.widgets.controls import Rows
+
+
+def table_of_fields(groups: Sequence[str], values: Mapping[str, float]) -> dict[str, np.ndarray]:
+    """Fields of some groups as columns: label, value of its key, unit."""
+    rows = [field for field in SHOWN_FIELDS if field.group in groups]
+    numbers = [values[field.key] for field in rows]
+    return {
+        "quantity": np.array([field.label for field in rows]),
+        "value": np.array(["" if math.isnan(v) else f"{v:.9g}" for v in numbers]),
+        "unit": np.array([field.shown_unit for field in rows]),
+    }
 
 
 class ControlView(View):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,8 +11,8 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.field_values import MODEL_GROUPS, SHOWN_FIELDS, values_of
-from bearing_explorer.views.control_view import ControlView
+from bearing_explorer.state.field_values import MODEL_GROUPS, values_of
+from bearing_explorer.views.control_view import ControlView, table_of_fields
 from bearing_explorer.widgets.controls import Rows, spec_of
 
 
@@ -65,13 +64,5 @@ class ModelEditor(ControlView):
             self.rows.put(automatic=style.number(results.contact_damping, 4))
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        values = values_of(results.scene)
-        rows = [q for q in SHOWN_FIELDS if q.group in MODEL_GROUPS]
-        numbers = [
-            results.contact_damping if q.name == "contact_damping" else values[q.key] for q in rows
-        ]
-        return {
-            "quantity": np.array([q.label for q in rows]),
-            "value": np.array(["" if math.isnan(v) else f"{v:.9g}" for v in numbers]),
-            "unit": np.array([q.shown_unit for q in rows]),
-        }
+        values = values_of(results.scene) | {"contact_damping": results.contact_damping}
+        return table_of_fields(MODEL_GROUPS, values)

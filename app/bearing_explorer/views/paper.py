@@ -21,7 +21,7 @@ from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
 from bearing_explorer.views.paper_figures import FIGURES, Panel, PaperFigure
-from bearing_explorer.widgets.facts import facts_pane
+from bearing_explorer.widgets.facts import facts_pane, html_table
 from bearing_explorer.widgets.form import button, row, stack
 from bearingcore import Scene
 
@@ -145,14 +145,12 @@ def _key(figure: PaperFigure) -> str:
 
 def _numbers(figure: PaperFigure) -> str:
     """Printed values and ours as a table, and where the paper slips."""
-    rows = "".join(
-        f"<tr><th scope='row'>{_symbols(one.name)}</th><td>{html.escape(one.paper)}</td>"
-        f"<td>{html.escape(one.ours(figure.scenes))}</td></tr>"
+    rows = (
+        [_symbols(one.name), html.escape(one.paper), html.escape(one.ours(figure.scenes))]
         for one in figure.printed
     )
     slip = f"<p><b>Where the paper slips.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
-    head = "".join(f"<th scope='col'>{word}</th>" for word in ("", "Paper", "Here"))
-    return f"<table class='printed'><tr>{head}</tr>{rows}</table>{slip}"
+    return html_table(("", "Paper", "Here"), rows, named=True) + slip
 
 
 def _symbols(words: str) -> str:

@@ -69,10 +69,6 @@ MOST_NAMED = 3
 """Files that are left out which a sentence names."""
 
 
-def _dots(source: str, y: str, color: str) -> Glyph:
-    return Glyph(Scatter, source, ("x", y), {"size": 6, "color": color})
-
-
 def _layers(name: str) -> list[Layer]:
     """Layers of the figure of this name."""
     if name == "lines":
@@ -86,7 +82,11 @@ def _layers(name: str) -> list[Layer]:
         drawn.append(segments("trend_interval", style.color_along("y"), 2.0))
     else:
         drawn += [curve("trend", "x", y, color, 1.4) for y, color in names.items()]
-    return [*drawn, *(_dots("trend", y, color) for y, color in names.items())]
+    dots = {"size": 6}
+    return [
+        *drawn,
+        *(Glyph(Scatter, "trend", ("x", y), {**dots, "color": c}) for y, c in names.items()),
+    ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -80,10 +80,13 @@ def sentence_html(words: str) -> str:
     return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
 
 
-def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of cells that are HTML already."""
+def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool = False) -> str:
+    """A table of cells that are HTML already; `named`: the first of each row is its name."""
     head = "".join(f"<th scope='col'>{html_text(word)}</th>" for word in heads)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    body = ""
+    for row in rows:
+        names = [f"<th scope='row'>{cell}</th>" for cell in row[:named]]
+        body += "".join(["<tr>", *names, *(f"<td>{cell}</td>" for cell in row[named:]), "</tr>"])
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 

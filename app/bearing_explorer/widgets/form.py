@@ -75,12 +75,6 @@ def row(*parts: Any, **params: Any) -> pn.Row:
     return pn.Row(*parts, **(wide | params))
 
 
-def pane(style: str, content: str = "", **params: Any) -> pn.pane.HTML:
-    """HTML with a style sheet, as wide as its place."""
-    wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
-    return pn.pane.HTML(content, stylesheets=[asset_text(style)], **(wide | params))
-
-
 def stack(*parts: Any, **params: Any) -> pn.Column:
     """Parts below one another, as wide as their place, and as high where one of them is."""
     return pn.Column(*parts, **({"margin": 0} | params))

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import copy
-import dataclasses
 import logging
 import math
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -274,29 +273,24 @@ class Measurement:
             return
         if number == 1:
             self._latest += 1
+            # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
-            self._arrival = _Arrival(count, chosen) if several else None
-        elif self._arrival is None or number != self._arrival.number + 1:
+            series = Series(together=True) if several else replace(self.series, together=False)
+            self._arrival = _Arrival(count if several else 1, chosen, series)
+        arrival = self._arrival
+        if arrival is None or number not in (1, arrival.number + 1):
             return  # of files that were given up
         self._uploads += 1
-        if self._arrival is not None:
-            self._arrival.number = number
+        arrival.number = number
         try:
             self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
-            if self._arrival is not None:
-                self._take_next(self._arrival, name, str(error))
-            else:
-                self._refuse(str(error))
+            self._take_next(arrival, name, str(error))
         else:
-            self._tell(words=self._at_work("Uploading", self._upload.name), bad=False, busy=True)
+            words = f"Uploading {arrival.words}{self._upload.name} …"
+            self._tell(words=words, bad=False, busy=True)
             self.want(0, self._uploads)
-
-    def _at_work(self, doing: str, name: str) -> str:
-        """A sentence on what is done to a file that comes."""
-        arrival = self._arrival
-        return f"{doing} {arrival.words if arrival else ''}{name} …"
 
     def cancel(self) -> None:
         """Give up the files that are being uploaded or read; the signal before them stays."""
@@ -308,58 +302,44 @@ class Measurement:
     def take_piece(self, content: bytes, of: int) -> None:
         """A piece of the file of the upload with the number `of`."""
         upload, arrival = self._upload, self._arrival
-        if upload is None or of != self._uploads:
+        if upload is None or arrival is None or of != self._uploads:
             return
         try:
             upload.take(content)
         except ValueError as error:
             self._upload = None
-            if arrival is not None:
-                self._take_next(arrival, upload.name, str(error))
-            else:
-                self._refuse(str(error))
+            self._take_next(arrival, upload.name, str(error))
             return
         if not upload.whole:
             self.want(upload.length, self._uploads)
             return
         self._upload = None
-        self._tell(words=self._at_work("Reading", upload.name), bad=False, busy=True)
+        words = f"Reading {arrival.words}{upload.name} …"
+        self._tell(words=words, bad=False, busy=True)
         speed, find = self._editor.values["shaft_speed_hz"], self._editor.listed.find
-
-        def read() -> _Read:
-            return read_file(upload.name, upload.content, speed, find)
-
-        if arrival is None:
-            self._in_background(read, self._take_only, upload.name)
-            return
 
         def read_or_why() -> _Read | str:
             try:
-                return read()
+                return read_file(upload.name, upload.content, speed, find)
             except ValueError as error:
                 return str(error)
             except Exception:
-                log.exception("a file of several could not be read")
+                log.exception("a file could not be read")
                 return f"{upload.name} could not be read."
 
         take = lambda found: self._take_next(arrival, upload.name, found)  # noqa: E731
         self._in_background(read_or_why, take, upload.name)
 
-    def _take_only(self, found: _Read) -> None:
-        """Take a file that came alone; with those before it, it is a series too."""
-        series = dataclasses.replace(self.series, together=False)
-        self.series = series.with_table(found.table)
-        self._take_read(found)
-
     def _take_next(self, arrival: _Arrival, name: str, found: _Read | str) -> None:
-        """Take one of several files, or a sentence on why it cannot be read."""
+        """Take a file that came, or a sentence on why it cannot be read."""
         arrival.take(name, found)
         if arrival.number < arrival.count:
             self.more()
             return
         self._arrival = None
         if arrival.newest is None:
-            self._refuse(f"None of {arrival.count} files can be read. {arrival.series.left_out[0]}")
+            none = f"None of {arrival.count} files can be read. "
+            self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}")
             return
         self.series = arrival.series
         self._take_read(arrival.newest)
@@ -538,7 +518,7 @@ class Measurement:
         return "" if measured is None else f" {measured.recording.name} stays."
 
     def _tell(self, **news: Any) -> None:
-        self.state = dataclasses.replace(self.state, **news)
+        self.state = replace(self.state, **news)
         self.show(self.state)
 
     def _in_background(
@@ -574,24 +554,31 @@ _WAITS = "Nothing is drawn yet:"
 
 @dataclass
 class _Arrival:
-    """Several files that come one after the other, and what was read of them."""
+    """Files that come one after the other, and what was read of them.
+
+    `why`: the sentence on the first that cannot be read.
+    """
 
     count: int
     chosen: int
+    series: Series
     number: int = 1
-    series: Series = field(default_factory=lambda: Series(together=True))
     newest: _Read | None = None
+    why: str = ""
 
     @property
     def words(self) -> str:
-        """Which of how many it is."""
+        """Which of how many it is; empty of one alone."""
+        if self.count == 1:
+            return ""
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
         return f"{self.number} of {self.count} files{of}: "
 
     def take(self, name: str, found: _Read | str) -> None:
         """Take what was read, or why nothing was."""
         if isinstance(found, str):
-            self.series = self.series.without(found if name in found else f"{name}: {found}")
+            sentence = found if name in found else f"{name}: {found}"
+            self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
             self.series, self.newest = self.series.with_table(found.table, self.count), found
 
@@ -697,7 +684,7 @@ def _shortened(table: Table) -> tuple[Table, str]:
     most = MOST_NUMBERS // columns
     if rows <= most:
         return table, ""
-    kept = dataclasses.replace(table, columns=table.columns[:most].copy())
+    kept = replace(table, columns=table.columns[:most].copy())
     return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."
 
 

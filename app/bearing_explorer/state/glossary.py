@@ -37,7 +37,7 @@ TERMS = (
     Term("Load zone", "", "°", "The part of the race in which balls carry load."),
     Term("Mode", "", "", "A shape of vibration, named after the direction that moves most."),
     Term("Natural frequency", "f", "Hz", "At which rotor and housing vibrate freely."),
-    Term("Power spectral density", "", "(m/s²)²/Hz", "Power of a vibration in each hertz of frequency."),
+    Term("Power spectral density", "", "(m/s²)²/Hz", "Power of a vibration in each hertz."),
     Term("Sidebands", "", "Hz", "Lines at equal distances from a line that is modulated."),
     Term("Steady orbit", "", "", "Motion that is the same in each period."),
     Term(

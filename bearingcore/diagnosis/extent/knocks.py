@@ -234,10 +234,11 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
     """
     names, envelopes, rate = _envelopes(recording, nominal)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
+    highest = min(20.0 * nominal, widest)
     left = envelopes
     for _ in range(MOST_CUTS):
         found = average_passes(
-            left, rate, nominal, slip, nominal, 20.0 * nominal, widest, follow=True, turns=turns
+            left, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
         )
         passes = _mean_passes(found, names)
         jump = _jump(found)

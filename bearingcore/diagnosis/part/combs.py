@@ -48,12 +48,15 @@ def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
     return np.asarray(np.where(hidden, np.minimum(level, 0.0), level))
 
 
-def near_multiples(levels: LineLevels, spacing: float, width: float) -> NDArray[np.bool_]:
-    """Which frequencies (m,) are within `width` [Hz] of multiples of a spacing; none for 0."""
+def near_multiples(
+    levels: LineLevels, spacing: float, width: float, error: float
+) -> NDArray[np.bool_]:
+    """Which frequencies (m,) are within `width` [Hz] of multiples of a spacing with an `error`."""
     frequency = levels.step * np.arange(len(levels.level))
     if spacing <= 0.0:
         return np.zeros(len(frequency), dtype=bool)
-    return np.asarray(np.abs(frequency - spacing * np.rint(frequency / spacing)) <= width)
+    multiple = np.rint(frequency / spacing)
+    return np.asarray(np.abs(frequency - spacing * multiple) <= width + error * multiple)
 
 
 def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:

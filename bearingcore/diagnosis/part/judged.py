@@ -149,11 +149,12 @@ def compare(
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, given or shaft) for combs in resolutions]
-    finest, turning = compared[-1], spin(resolutions[0], parts)
+    first, finest = compared[0], compared[-1]
+    turning = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
     evidence = []
     for lines in parts:
         around = turning.frequency if lines.part == BALL else None
-        best = max((one.clearest(lines, around) for one in compared), key=_speaking)
+        best = max((one.clearest(lines, around) for one in compared), key=log_probability)
         deviations = turning.of(lines.part)
         if lines.part == BALL:
             best = replace(best, lead=min(best.lead, finest.carried(best.frequency)))
@@ -227,12 +228,12 @@ class _Comparison:
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
             frequency = float(combs.frequency[inside[level[place].argmax()]])
             if frequency not in explained:
-                explained[frequency] = self._explained(frequency, lines)
+                explained[frequency] = self.explained(frequency, lines)
             others = float((combs.level[place] - explained[frequency]).max())
             found.append(self._evidence(lines, combs.envelopes[place], frequency, others))
-        return max(found, key=_speaking)
+        return max(found, key=log_probability)
 
-    def _explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
+    def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
         """By how much [dB] combs (n,) may be higher as they follow from a part's lines.
 
         Infinity for multiples of its frequency [Hz] and for what another part may have.
@@ -427,7 +428,7 @@ class _Comparison:
         explained = np.where(self._windows_of(*PARTS), np.inf, 0.0)
         for lines, part in zip(self.parts, evidence, strict=True):
             if part.level > part.noise:
-                explained = np.maximum(explained, self._explained(part.frequency, lines))
+                explained = np.maximum(explained, self.explained(part.frequency, lines))
         level = np.where(explained > 0.0, -np.inf, combs.level)
         place, column = np.unravel_index(int(level.argmax()), level.shape)
         frequency, one = float(combs.frequency[column]), combs.envelopes[int(place)]
@@ -455,10 +456,6 @@ def _or_sidebands(
         for away in (0.0, -spacing, spacing)
     )
     return np.maximum(line, np.minimum(below, above))
-
-
-def _speaking(own: PartEvidence) -> float:
-    return log_probability(own, CALIBRATION)
 
 
 def _without_greatest(values: NDArray[np.float64]) -> float:

@@ -44,7 +44,7 @@ class Calibration(NamedTuple):
     swing_scale: float
 
 
-CALIBRATION = Calibration(0.138, 1.5)
+CALIBRATION = Calibration(0.135, 1.52)
 """Fitted to the records of five machines, see `tests.benchmarks.scoreboard`."""
 
 
@@ -66,7 +66,7 @@ def probabilities(evidence: Iterable[PartEvidence], chosen: Calibration) -> dict
     }
 
 
-def log_probability(one: PartEvidence, chosen: Calibration) -> float:
+def log_probability(one: PartEvidence, chosen: Calibration = CALIBRATION) -> float:
     """Logarithm of the probability that a part's lines are there and its own damage makes them."""
     decibels = 20.0 * math.log10(max(one.swing, 1e-9) / chosen.swing)
     return -_doubt((one.lead - LEAD) / LEAD_SCALE) - _doubt(decibels / chosen.swing_scale)

@@ -84,15 +84,10 @@ class Combs:
     best: dict[PartLines, tuple[float, float]]
 
     @property
-    def averages(self) -> float:
-        """Independent spectra in a mean."""
-        return self.envelopes[0].levels.averages
-
-    @property
     def noise(self) -> float:
         """The level [dB] that noise reaches in one of a thousand signals, in any part's window."""
         cells = sum(self.cells(frequency) for frequency, _ in self.best.values())
-        return noise_level(RARE / cells, self.averages)
+        return noise_level(RARE / cells, self.envelopes[0].levels.averages)
 
     def cells(self, frequency: float, slip: float = 0.02) -> float:
         """Independent combs among those within slip of a frequency [Hz], in all bands."""
@@ -124,19 +119,19 @@ def listen(
         [Hz] the speed as given, from which lines may not be farther than the slip either.
     """
     segment = turns / shaft
+    duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
+    resolution = 1.0 / min(segment, duration)
     top = max(lines.order for lines in parts) * (1.0 + slip)
     highest = (HARMONICS * top + 1.5) * shaft
     listened = []
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
-        width = 1.5 / segment + 5e-4 * shaft
-        hidden = near_multiples(levels, shaft if known_speed else 0.0, width)
+        width, error = 1.5 * resolution + 5e-4 * shaft, 0.1 / min(TURNS[-1] / shaft, duration)
+        hidden = near_multiples(levels, shaft if known_speed else 0.0, width, error)
         cleared = cut(levels, hidden)
         listened.append(
             Listened(direction, envelope.band, envelope.kurtosis, levels, cleared, hidden)
         )
-    duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
-    resolution = 1.0 / min(segment, duration)
     slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
     frequency = np.arange(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS

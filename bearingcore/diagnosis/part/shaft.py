@@ -17,7 +17,7 @@ from bearingcore.diagnosis.part.combs import (
 )
 from bearingcore.diagnosis.part.search import RARE
 from bearingcore.signals.filter_bank import LOWEST, Band, squared_envelopes, thinned
-from bearingcore.signals.line_levels import LineLevels, line_levels
+from bearingcore.signals.line_levels import line_levels
 
 TURNS = 240.0
 """Of the shaft in a spectrum's segment."""
@@ -75,32 +75,31 @@ def shaft_lines(
         for values, rate in series:
             levels = line_levels(values, rate, segment, top, 2.0 * low)
             resolution = 1.0 / min(segment, len(values) / rate)
-            frequency = np.arange(low, high + 0.25 * resolution, 0.25 * resolution)
-            lines = lines_at(
-                np.clip(levels.level, FAINTEST, LOUDEST), levels.step, frequency, HARMONICS
-            )
-            level = comb_level(lines)
+            step = 0.25 * resolution / HARMONICS  # the highest line resolves the most
+            frequency = np.arange(low, high + step, step)
+            cut = np.clip(levels.level, FAINTEST, LOUDEST)
+            level = comb_level(lines_at(cut, levels.step, frequency, HARMONICS))
             cells = 1.0 + (high - low) / resolution * 0.5 * HARMONICS
             index = int(level.argmax())
-            above = float(level[index]) - noise_level(RARE / cells, levels.averages)
+            noise = noise_level(RARE / cells, levels.averages)
+            above = float(level[index]) - noise
             if above > best.excess:
                 near = np.flatnonzero(level >= level[index] - PLATEAU)
                 near = near[np.abs(frequency[near] - frequency[index]) <= resolution]
                 found = float(frequency[near].mean())
-                noise = noise_level(RARE / cells, levels.averages)
-                best = ShaftLines(_slowest(levels, found, low, noise), above)
+                best = ShaftLines(_slowest(cut, levels.step, found, low, noise), above)
     return best
 
 
-def _slowest(levels: LineLevels, frequency: float, low: float, noise: float) -> float:
+def _slowest(
+    level: NDArray[np.float64], step: float, frequency: float, low: float, noise: float
+) -> float:
     """The part of a frequency [Hz] of which all lines show: three turns are no turn."""
     for parts in SUBMULTIPLES:
         part = frequency / parts
         if part < low:
             continue
-        lines = lines_at(
-            np.clip(levels.level, FAINTEST, LOUDEST), levels.step, np.array([part]), 2 * HARMONICS
-        )[:, 0]
+        lines = lines_at(level, step, np.array([part]), 2 * HARMONICS)[:, 0]
         between = np.sort(lines[np.arange(1, len(lines) + 1) % parts != 0])
         if between[:-1].mean() >= noise + CLEAR:
             return part

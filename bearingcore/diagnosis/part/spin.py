@@ -9,7 +9,7 @@ comb stands out is counted in deviations of the combs of all other frequencies i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,8 +43,8 @@ class Spin:
     outer, inner, ball
         deviations of the combs at other frequencies by which each part's comb is above them.
     parent
-        the same of combs next to it or at its sidebands, where no ball has lines: of such as are
-        stronger, a ball's may be the foot or a sideband.
+        the same of all that a ball's do not explain, and of combs next to them or at their
+        sidebands: of such as are stronger, a ball's may be a part, the foot or a sideband.
     shaft_sidebands, cage_sidebands
         the same of the sidebands of the ball's lines.
     """
@@ -79,8 +79,12 @@ def may_be(frequency: NDArray[np.float64] | float, nominal: float) -> NDArray[np
     return np.asarray((ratio >= 1.0 - LAG) & (ratio <= 1.0 + AHEAD))
 
 
-def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
-    """The lines of the parts in all bands of short segments."""
+def spin(
+    combs: Combs,
+    parts: Sequence[PartLines],
+    explained: Callable[[float], NDArray[np.float64]],
+) -> Spin:
+    """The lines of the parts; `explained`: above 0 for combs that a ball's at a place explain."""
     order = {lines.part: lines.order for lines in parts}
     cage = next(lines.sidebands for lines in parts if lines.part == BALL)
     at, shaft = combs.frequency, combs.shaft
@@ -88,9 +92,9 @@ def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
     window = may_be(at, order[BALL] * shaft) & np.isfinite(own)
     column = int(np.where(window, own, -np.inf).argmax())
     places = at[column] + cage * shaft * np.arange(-2, 3)[:, None]
-    neighbours = (
-        (np.abs(at - places) <= shaft / combs.turns).any(axis=0) & ~window & np.isfinite(own)
-    )
+    others = explained(float(at[column])) == 0.0
+    others |= (np.abs(at - places) <= shaft / combs.turns).any(axis=0)
+    others &= ~window & np.isfinite(own)
 
     def race(part: str) -> float:
         inside = np.abs(at / (order[part] * shaft) - 1.0) <= RACE_SLIP
@@ -104,7 +108,7 @@ def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
         outer=race(OUTER),
         inner=race(INNER),
         ball=float(own[column]) if window.any() else -math.inf,
-        parent=float(np.max(own[neighbours], initial=-np.inf)),
+        parent=float(np.max(own[others], initial=-np.inf)),
         shaft_sidebands=sides(shaft),
         cage_sidebands=sides(cage * shaft),
     )
@@ -113,7 +117,7 @@ def spin(combs: Combs, parts: Sequence[PartLines]) -> Spin:
 def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]:
     """The mean level at some distances [Hz] from harmonics of each frequency, in all bands (n,).
 
-    In deviations of all frequencies from their median; NaN where lines of the shaft hide it.
+    In deviations of all frequencies from their median; NaN where the shaft's hide all but one.
     """
     total = np.zeros((SPIN_HARMONICS * len(sidebands), len(combs.frequency)))
     for one in combs.envelopes:
@@ -124,6 +128,6 @@ def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]
         ])  # fmt: skip
     seen = np.isfinite(total)
     count = seen.sum(axis=0)
-    mean = np.where(seen, total, 0.0).sum(axis=0) / np.where(count, count, np.nan)
+    mean = np.where(seen, total, 0.0).sum(axis=0) / np.where(count > 1, count, np.nan)
     away = mean - np.nanmedian(mean)
     return np.asarray(away / max(DEVIATION * float(np.nanmedian(np.abs(away))), 1e-9))

@@ -129,9 +129,10 @@ def test_too_few_ball_passes_and_too_few_samples():
     # enough for an average, and not for what its filter spoils at both ends
     some = measured(signal()[: round(16.0 / MOTOR.bpfo(SPEED) * RATE)])
     assert some.status == ExtentStatus.TOO_SHORT
-    coarse = Recording(signal()[::32], RATE / 32, ("y",))
-    answer = measure_extent(coarse, MOTOR, SPEED, race="outer")
-    assert answer.status == ExtentStatus.TOO_COARSE
+    for race, share in (("outer", 32), ("inner", 8)):
+        coarse = Recording(signal(race)[::share], RATE / share, ("y",))
+        answer = measure_extent(coarse, MOTOR, SPEED, race=race)
+        assert answer.status == ExtentStatus.TOO_COARSE
 
 
 @pytest.mark.parametrize(

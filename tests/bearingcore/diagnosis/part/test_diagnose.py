@@ -136,7 +136,7 @@ def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_the
     found = answer(made("outer race", -17.0, 3))
     own = found.of("outer race")
     assert own.lead > 1.2
-    assert own.swing < 0.138
+    assert own.swing < 0.135
     assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.PERHAPS_A_BALL)
     assert "A damaged ball or a healthy bearing may make them" in found.sentence
     stronger = answer(made("outer race", -14.0, 3))
@@ -182,6 +182,18 @@ def test_a_gear_that_swells_every_turn_is_no_damage(healthy):
     assert answer(healthy + 20.0 * knock).fault not in PARTS
 
 
+def test_blows_of_the_shaft_are_none_of_a_race_that_has_its_line_there():
+    machine = dataclasses.replace(MOTOR, n_balls=8, ratio=0.25, duration=1.0)
+    rng = np.random.default_rng(3)
+    time = np.arange(round(machine.rate)) / machine.rate
+    places = np.arange(87) * machine.rate / machine.lines["outer race"]
+    blows = np.bincount(places.astype(int), [1.0, 0.6, 0.8] * 29, len(time))
+    ringing = fftconvolve(blows, resonances(machine.rate, rng))[: len(time)]
+    turns = sum(tone(time, k * machine.turns, rng, 0.3) for k in range(1, 7))
+    signal = ringing / ringing.std() + turns + 0.7 * rng.standard_normal(len(time))
+    assert answer(signal, machine).fault == CANNOT_TELL
+
+
 @pytest.mark.parametrize("part", PARTS)
 def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     """8 balls of 6.75 mm on 28.5 mm, the motor's other end: none of its lines lies near."""
@@ -189,9 +201,8 @@ def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     found = answer(damaged[part], other)
     assert found.fault == CANNOT_TELL
     assert found.other is not None
-    assert found.other.frequency == pytest.approx(MOTOR.lines[part], rel=0.012) or (
-        abs(found.other.frequency / MOTOR.lines[part] - 0.5) < 0.01
-    )
+    share = found.other.frequency / MOTOR.lines[part]  # a ball's lines are also seen at parts of it
+    assert min(abs(share - one) for one in (0.25, 0.5, 1.0)) < 0.012
 
 
 def with_shaft_lines(signal: np.ndarray) -> np.ndarray:

@@ -346,7 +346,7 @@ _PRESETS: Mapping[str, Preset] = {
         "formula. It carries radial loads only, and its rollers do not tilt here.",
     ),
     "30206-back-to-back": Preset(
-        "30206 pair of tapered rollers, back to back",
+        "30206 pair, tapered rollers, back to back",
         lambda: _scene(
             Bearing.tapered(
                 n_rollers=17,

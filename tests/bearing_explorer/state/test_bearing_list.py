@@ -38,7 +38,7 @@ def found(text: str) -> list[tuple[str, str]]:
         ("6205 C3", ("6205 C3", "estimated")),
         ("7208 pair", ("7208 pair, back to back (O)", "")),
         ("nu", ("NU 208, cylindrical rollers", "")),
-        ("30206", ("30206 pair of tapered rollers, back to back", "")),
+        ("30206", ("30206 pair, tapered rollers, back to back", "")),
         ("32208", ("32208", "estimated")),
         ("30308 face to face", ("30308 face to face", "estimated")),
         ("0.235 in", ("NICE, MFPT", "")),

@@ -33,7 +33,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(
         prog="bearing-explorer",
-        description="Serve a page on which a damaged ball bearing follows its sliders.",
+        description="Serve the Bearing explorer: a page with a damaged ball bearing and sliders.",
     )
     parser.add_argument("--port", type=int, default=5006, help="port to listen on (5006)")
     parser.add_argument(
@@ -66,7 +66,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         type=_positive,
         default=100,
         metavar="N",
-        help="people at once in a process (100); whoever comes later is asked to come back",
+        help="sessions at once in a process (100); later ones are asked to come back",
     )
     parser.add_argument(
         "--max-message-mb",

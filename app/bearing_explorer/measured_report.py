@@ -46,10 +46,10 @@ FIGURES = {
 
 NOT_JUDGED = "Lubrication, balance, alignment and other bearings of the machine are not judged."
 NOT_FORESEEN = (
-    "How deep the damage is and how long the bearing will last do not follow from the vibration."
+    "The vibration shows neither the depth of the damage nor the remaining life of the bearing."
 )
-ONE_RECORD = "Whether it grows shows in several records over time."
-NO_SIZE = "How strong the vibration is stays open, as the unit of the signal is not known."
+ONE_RECORD = "Several records over time show whether it grows."
+NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
 
 
 def measured_report(

@@ -188,7 +188,7 @@ def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: st
 
 def _compared(results: Results) -> str:
     names = style.list_words([f"“{one.name}”" for one in results.compared])
-    return html_text(f"Drawn too: {names}. ") if names else ""
+    return html_text(f"Also drawn: {names}. ") if names else ""
 
 
 def _changes(scene: Scene, about: About) -> str:

@@ -211,7 +211,7 @@ def regions(found: StabilityMap) -> Sequence[str]:
     sentences = [f"{found.count(MapOutcome.STABLE)} of {size} points have a stable orbit."]
     for how, words in (
         ("-1", "lose it by doubling their period: lines appear at half the ball-pass frequency"),
-        ("pair", "lose it to a second frequency: every line gets neighbours"),
+        ("pair", "lose it to a second frequency: every line gets sidebands"),
         ("+1", "lose it to another orbit"),
     ):
         n = int(np.sum(found.through == how))
@@ -219,7 +219,9 @@ def regions(found: StabilityMap) -> Sequence[str]:
             sentences.append(f"{n} {words}.")
     lost = found.count(MapOutcome.NOT_CONVERGED)
     if lost:
-        sentences.append(f"At {lost} shooting finds no orbit; there the motion must be marched.")
+        sentences.append(
+            f"At {lost} shooting finds no orbit; there the motion must be integrated in time."
+        )
     long = found.count(MapOutcome.TOO_MANY_STEPS)
     if long:
         sentences.append(f"At {long} the search would take more steps than allowed.")

@@ -241,7 +241,7 @@ def balls_experiment(
     tasks = [(NO_MASS, 1), *((name, stride) for name in BALL_METHODS for stride in steps)]
     experiment = Experiment(
         "balls",
-        f"Ways to march balls with mass over {duration:g} s, and balls without",
+        f"Methods for balls with mass over {duration:g} s, and balls without",
         ERRORS,
         "evaluations of all contacts",
         {"": reference},

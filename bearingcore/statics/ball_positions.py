@@ -309,7 +309,7 @@ class CentrifugalEffect:
         return (
             f"Centrifugal load of {with_prefix(self.force, 'N')} a ball changes loads by up to "
             f"{percent(self.load, 2)} of the heaviest, stiffness by up to "
-            f"{percent(self.stiffness, 2)}, and parts the contact angles of the races by up to "
+            f"{percent(self.stiffness, 2)}, and separates the contact angles of the races by up to "
             f"{number(math.degrees(self.contact_angle), 2)}°."
         )
 

@@ -159,7 +159,7 @@ class Life:
     def table(self) -> ResultTable:
         """One row: life, loads, ratings, in words what they say."""
         of_ball = "load of a ball under which the {} race lasts 10⁶ turns"
-        as_tiring = "load of a ball that tires the {} race as all it carries"
+        as_tiring = "equivalent load of a ball on the {} race"
         return table_of(
             ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
             ("life", "h", self.hours, "L_10h"),
@@ -482,10 +482,10 @@ def _sentence(
     if reason:
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
-        return "No ball carries load: nothing tires."
+        return "No ball carries load, so there is no fatigue."
     words = f"Nine of ten bearings reach {turns_in_words(L)}"
     if math.isnan(hours):
-        words += "; the shaft stands still, so there are no hours."
+        words += "; the shaft is at rest, so there are no hours."
     else:
         rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
         words += f", {hours_in_words(hours)} at {number(rpm, 4)} rpm."

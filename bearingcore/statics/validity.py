@@ -359,7 +359,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
     fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
         f"changes loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
-        f"{percent(effect.stiffness)}, and parts the contact angles of the two races by up to "
+        f"{percent(effect.stiffness)}, and separates the contact angles of the two races by up to "
         f"{number(math.degrees(effect.contact_angle), 2)}°"
     )
     left_out = LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT

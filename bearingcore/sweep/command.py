@@ -24,8 +24,8 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(
         prog="bearing-sweep",
-        description="Compute every scene of a grid. A sweep that was stopped, however, goes on "
-        "where it was when the command is given again.",
+        description="Compute every scene of a grid. A sweep that was stopped resumes when the "
+        "command is given again.",
     )
     parser.add_argument("file", type=Path, help="TOML: a scene and a table [sweep]")
     parser.add_argument(

@@ -36,10 +36,7 @@ the scheduler to carry, however many there are in all."""
 LOOK_AGAIN = 5.0
 """[s] after which the size of the cluster is asked for again."""
 
-FULL = (
-    "the disk is full. What is finished is kept: the same sweep goes on where it was when there is "
-    "room"
-)
+FULL = "the disk is full. What is finished is kept: the same sweep resumes once there is room"
 
 LOST = "the scheduler or the connection to it is lost; what is finished is kept in the store"
 
@@ -308,8 +305,8 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
         except RuntimeError as error:
             raise RuntimeError(
                 f"a worker ended while it was starting ({count} of them were to start): is there "
-                "enough memory, and may this program start others? If the worker said why, that "
-                f"stands above. ({error})"
+                "enough memory, and may this program start others? Any message of the "
+                f"worker is above. ({error})"
             ) from error
         yield open_.enter_context(Client(cluster, set_as_default=False))
 

@@ -701,7 +701,7 @@ def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor) -> Non
     visitor.reads(re.compile("^Figure 4: .* Blue: 70°"))
     visitor.wait(lambda: len(visitor.figures()) == 15 and "blank" not in visitor.figures())
     visitor.reads("100 to 260 MN/m")
-    visitor.reads(re.compile("^Where the paper slips"))
+    visitor.reads(re.compile("^Errors in the paper"))
     assert visitor.number("Extent") == 70.0
     visitor.press(re.compile("^Open it on the tab Stiffness"))
     expect(visitor.page.get_by_role("tab", name="Stiffness", selected=True)).to_be_visible()

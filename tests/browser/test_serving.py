@@ -69,7 +69,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         answer = third.goto(url)
         assert answer is not None
         assert answer.status == 503
-        expect(third.get_by_role("heading")).to_have_text("All places are taken")
+        expect(third.get_by_role("heading")).to_have_text("The server is full")
         expect(third.locator("p").first).to_contain_text("Try again in a minute")
         second.close()
         third.close()
@@ -94,7 +94,7 @@ def test_panel_serve_shows_the_page_too(page: Page) -> None:
 @pytest.mark.parametrize(
     ("code", "reason", "words"),
     [
-        (1013, "All places are taken.", "All places are taken. Reload the page in a minute."),
+        (1013, "The server is full.", "The server is full. Reload the page in a minute."),
         (4000, "", "The connection to the server is lost. Reload the page to go on."),
     ],
 )

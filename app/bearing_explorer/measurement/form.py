@@ -407,7 +407,7 @@ def _speed(text: str) -> float:
     value = value / 60.0 if per_minute else value
     if not least <= value <= most:
         raise ValueError(
-            f"{words} of {number(value, 6)} Hz is not possible: {span(least, most, 'Hz', 6)} are."
+            f"{words} is {number(value, 6)} Hz; possible: {span(least, most, 'Hz', 6)}."
         )
     return value
 

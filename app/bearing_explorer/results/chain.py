@@ -87,7 +87,7 @@ class Chain:
         """One row."""
         return table_of(
             ("off_line", "rad", [self.off_line], "mean angle of the loads off their line"),
-            ("greatest_load", "N", [self.greatest_load], "most that a ball carries"),
+            ("greatest_load", "N", [self.greatest_load], "greatest load of a ball"),
             ("loaded_balls", "1", [self.loaded_balls], "mean number of balls with a load"),
             *(
                 (term, TERM_UNITS[term], [value], "mean over the cage angles")

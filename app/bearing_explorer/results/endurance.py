@@ -27,7 +27,7 @@ from bearingcore.statics.validity import looked_at
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
-    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. The Bearing tab takes yours."
+    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. Enter yours on the Bearing tab."
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02

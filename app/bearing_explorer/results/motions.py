@@ -133,7 +133,7 @@ def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> fl
     if SHORTEST * rate > most:
         why = "the defect is passed so fast that"
         if with_mass:
-            why = "balls swing so fast between their races that"
+            why = "balls vibrate so fast between their races that"
         raise ValueError(
             f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
             f"second; allowed here: {thousands(most / SHORTEST)}"

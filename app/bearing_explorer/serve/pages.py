@@ -53,7 +53,7 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
             write_html(self, 400, "This address does not work", _NO_SESSION)
         elif len(list(self.application_context.sessions)) >= self.most_sessions:
             self.set_header("Retry-After", "60")
-            write_html(self, 503, "All places are taken", _FULL.format(self.most_sessions))
+            write_html(self, 503, "The server is full", _FULL.format(self.most_sessions))
         else:
             async with self.one_at_a_time:
                 await super().get(*arguments, **named)

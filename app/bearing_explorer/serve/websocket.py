@@ -121,4 +121,4 @@ def close_idle(seconds: float) -> None:
     """Disconnect browsers that have sent nothing for so long; their pages show the reason."""
     now = time.monotonic()
     for socket in [one for one in LiveSocket.connected if now - one.last_message_at > seconds]:
-        socket.close(1001, f"Nothing was moved for {seconds / 60.0:.0f} minutes.")
+        socket.close(1001, f"The page was not used for {seconds / 60.0:.0f} min.")

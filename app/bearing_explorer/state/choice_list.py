@@ -173,7 +173,7 @@ FLOOR = Choice(
     "Floor",
     "Defect",
     (
-        Option("flat", "Flat", "As deep everywhere."),
+        Option("flat", "Flat", "The same depth everywhere."),
         Option(
             "rough",
             "Rough",
@@ -228,7 +228,7 @@ BALLS = Choice(
             "with mass",
             "With mass",
             "Each ball has its own place, its inertia, centrifugal load and weight, and a contact "
-            "with each race: it flies, and strikes. Loads and stiffness at rest count the "
+            "with each race: it can lift off and strike. Loads and stiffness at rest count the "
             "centrifugal load; maps and natural frequencies leave it out.",
         ),
     ),

@@ -55,7 +55,7 @@ CHARTS = {
         Chart("models", FULL, "Fewer directions, against all five"),
         Chart("models", EXACT, "Models of edges, against the exact edge"),
         Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
-        Chart("models", SETTLED, "Periodic orbit and march, against the settled motion"),
+        Chart("models", SETTLED, "Periodic orbit and time integration, against the settled motion"),
     ),
     "Statics": (
         Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
@@ -375,7 +375,7 @@ def steps_sentence(chart: StabilityChart | None) -> str:
         words.append(f"{name} {met} (linear theory: {expected})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
-        f"Upright: linear limit. Steps per period of the highest frequency, {frequency}, below "
+        f"Vertical: linear limit. Steps per period of the highest frequency, {frequency}, below "
         f"which the motion diverges: {', '.join(words)}."
     )
 

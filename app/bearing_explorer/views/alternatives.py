@@ -37,7 +37,7 @@ class OtherModels(JobView[Alternatives]):
     """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
     name = "alternatives"
-    title = "What would less do here?"
+    title = "Would a simpler model do here?"
     about = (
         "Other models against the scene's own, each computed. Errors of stiffness hold at 99 % "
         "of the cage angles; those of spectra up to 1.25 times the highest natural frequency."

@@ -142,7 +142,7 @@ _FREQUENCIES = (
     ("bpfo", "{1} pass the outer race", "How often a point of the outer race is passed."),
     ("bpfi", "{1} pass the inner race", "How often a point of the inner race meets a {0}."),
     ("ftf", "The cage turns", "Turns of the cage a second."),
-    ("bsf", "A {0} spins", "Turns of a {0} about itself a second."),
+    ("bsf", "A {0} spins", "Turns of a {0} about its own axis a second."),
 )
 
 

@@ -74,7 +74,7 @@ class ExplorePlane(JobView[Plane]):
     name = "explore"
     title = "Explore a plane"
     about = (
-        "Any output over any two quantities. All else is as the sliders have it. Point at the "
+        "Any output over any two quantities. All else is as the sliders are set. Point at the "
         "map to move the curves, click to go there; select values in the histogram to find them "
         "on it. Hatched: no answer. Ring: this scene."
     )

@@ -98,8 +98,8 @@ class HowSure(View):
     about = (
         "Stated probability against the share that was right. Second figure: true extents of "
         "spalls against those measured from entry to exit. Bars: intervals of 95 %. Dashed: as it "
-        "should be. The records are public collections of a motor and three rigs. What the "
-        "diagnosis has learnt from records, it has from these; other machines may show less."
+        "should be. The records are public collections of a motor and three rigs. The "
+        "diagnosis was fitted to these records and may do worse on other machines."
     )
     in_report = False
 
@@ -150,9 +150,9 @@ class HowSure(View):
             sizes["true_extent_deg"] <= sizes["high_deg"]
         )
         return (
-            f"Of {len(rows)} records {len(told)} were answered, {right} of them rightly; of "
+            f"Of {len(rows)} records {len(told)} were answered, {right} of them correctly; of "
             f"{len(sure)} answers stated with 90 % or more {kept} were right. {int(held.sum())} of "
-            f"{len(held)} measured extents hold the truth in their interval."
+            f"{len(held)} measured extents have the true one in their interval."
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

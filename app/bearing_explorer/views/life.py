@@ -206,7 +206,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             if math.isfinite(lasts.hours)
             else "no hours: "
             + ("the shaft is at rest" if results.scene.shaft_speed == 0.0 else "unlimited"),
-            "The same in hours.",
+            "This life in hours.",
         ),
         Fact(
             "Equivalent load P",

@@ -22,8 +22,8 @@ class MassInSpectrum(View):
     about = (
         "In colour with mass of the balls, in grey without. Power spectral density of the "
         "housing's acceleration up to half the sample rate. Shaded: where loaded balls resonate "
-        "between their two contacts. In free flight balls are sensitive to anything: look at "
-        "bands, not at single lines."
+        "between their two contacts. In free flight balls react to the smallest "
+        "disturbance: look at bands, not at single lines."
     )
     needs = frozenset({"ball_mass"})
 
@@ -51,7 +51,7 @@ class MassInSpectrum(View):
             )
         comparison = found.comparison
         if comparison is None:
-            return f"{resonance}The motion is too short to say up to where massless balls will do."
+            return f"{resonance}The motion is too short to show where massless balls will do."
         return f"{resonance}{comparison.sentence[0].upper()}{comparison.sentence[1:]}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

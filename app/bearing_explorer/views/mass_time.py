@@ -50,7 +50,7 @@ class MassInTime(PassageView):
     about = (
         "In colour with mass of the balls, in grey without. Above: acceleration of the housing. "
         "Below: loads of the balls near the defect, full at the outer race, dashed at the inner. "
-        "Shaded: a ball flies free, it touches neither."
+        "Shaded: a ball touches neither race."
     )
     needs = frozenset({"ball_mass"})
     prefix = "mass"

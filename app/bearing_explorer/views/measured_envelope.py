@@ -41,9 +41,9 @@ class MeasuredEnvelope(FrequencyView):
     title = "Envelope spectrum"
     about = (
         "How often impacts repeat. Dark: measured. Coloured: the scene. It is simulated once you "
-        "switch it on, and scaled to the measured root mean square. Each impact makes something "
-        "ring, and the envelope of that rises: lines at BPFO speak for the outer race, at BPFI "
-        "for the inner race, at twice BSF for a ball. The band is that of the diagnosis, or, "
+        "switch it on, and scaled to the measured root mean square. Each impact makes the "
+        "machine ring, and the envelope rises: lines at BPFO point to the outer race, at BPFI "
+        "to the inner race, at twice BSF to a ball. The band is that of the diagnosis, or, "
         "without one, where the kurtogram is highest; you can give another. A click puts a "
         "cursor on a line."
     )

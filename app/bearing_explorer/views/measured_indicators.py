@@ -52,7 +52,7 @@ class MeasuredIndicators(LookView, MeasuredView):
     title = "Condition indicators"
     about = (
         "Numbers of the whole signal. Crest factor and kurtosis rise with single knocks, which "
-        "early damage makes, and may fall again as it grows; the velocity speaks for unbalance, "
+        "early damage makes, and may fall again as it grows; the velocity shows unbalance, "
         "misalignment and looseness. Its zones are those of ISO 20816-3, for machines above 15 kW "
         "and sensors on the bearing's housing."
     )
@@ -114,7 +114,7 @@ def severity(measured: Measured, machine: str) -> str:
     why = no_velocity(measured)
     shaft = measured.shaft_speed / (2.0 * math.pi)
     if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
-        why = "the standard is for 120 to 30 000 turns a minute"
+        why = "the standard is for 120 to 30 000 rpm"
     if not why and not machine:
         why = "choose power and support of the machine"
     if why:

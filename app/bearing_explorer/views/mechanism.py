@@ -54,7 +54,7 @@ class WhichMechanism(View):
     name = "mechanism"
     title = "Which mechanism"
     about = (
-        "Power that is there only because balls have mass. Its share of the housing's power "
+        "Share of the vibration that comes from the mass of the balls. The housing's power "
         "along x and y together, by octaves; the rest comes from the stiffness that varies as "
         "balls pass. Thin lines: its standard error. Faint bars: 40 dB and more below the "
         "loudest octave. Below zero mass takes power away."
@@ -106,7 +106,7 @@ class WhichMechanism(View):
     def sentence(self, results: Results) -> str:
         found = results.ball_mass
         if not np.isfinite(found.share).any():
-            return "There is no settled motion whose power could be shared out."
+            return "There is no settled motion to compute the power from."
         return in_words(found)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -82,11 +82,11 @@ class SteadyOrbit(View):
     name = "orbit"
     title = "Steady orbit"
     about = (
-        "The motion that repeats itself with every ball pass. It is found by Newton's method "
-        "rather than by waiting. Its Floquet multipliers: factors by which a pass changes a small "
-        "disturbance; inside the unit circle it dies out. Then the path of the inner ring, and the "
-        "spectrum of the housing, blue along x, orange along y. Grey: the motion integrated in "
-        "time from rest."
+        "The motion that repeats with every ball pass. It is found by Newton's method, "
+        "not by a long simulation. Its Floquet multipliers: factors by which a pass changes a "
+        "small disturbance; inside the unit circle it dies out. Then the path of the inner "
+        "ring, and the spectrum of the housing, blue along x, orange along y. Grey: the motion "
+        "integrated in time from rest."
     )
     needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
 
@@ -200,7 +200,7 @@ class SteadyOrbit(View):
             )
         if orbit.status is OrbitStatus.NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
             return (
-                "The cages of the rows turn at speeds of their own and have no common period: no "
+                "The cages of the rows turn at different speeds and have no common period: no "
                 "motion repeats itself. Grey: the motion integrated in time."
             )
         if orbit.status is OrbitStatus.NO_PERIOD:

@@ -144,12 +144,12 @@ def _key(figure: PaperFigure) -> str:
 
 
 def _numbers(figure: PaperFigure) -> str:
-    """Printed values and ours as a table, and where the paper slips."""
+    """Printed values and ours as a table, and the errors of the paper."""
     rows = (
         [_symbols(one.name), html.escape(one.paper), html.escape(one.ours(figure.scenes))]
         for one in figure.printed
     )
-    slip = f"<p><b>Where the paper slips.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
+    slip = f"<p><b>Errors in the paper.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
     return html_table(("", "Paper", "Here"), rows, named=True) + slip
 
 

@@ -27,7 +27,7 @@ from bearingcore.statics.equilibrium import TERM_SYMBOLS, TERM_UNITS
 from bearingcore.statics.passes import crossings
 
 Array = NDArray[np.float64]
-_SLIPS = "## Where the paper slips"
+_SLIPS = "## Errors in the paper"
 
 
 class Line(NamedTuple):

@@ -19,11 +19,11 @@ SIDEBANDS = 2.0
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
-    "frequency and is missed. Count them, or read the frequencies off the maker's sheet."
+    "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
 )
 """Follows "no damage seen" where the number of balls or rollers follows from a designation."""
 
-LENGTH_HIDDEN = "how long the spall is does not show"
+LENGTH_HIDDEN = "the length of the spall does not show"
 
 _FREQUENCY = {
     "outer race": "the outer-race frequency (BPFO)",

@@ -319,7 +319,7 @@ def status(sized: Sized) -> dict[str, Any]:
         words = f"The defect extends over {in_degrees(sizing.end(sizing.bound))} {sizing.bound}"
         return {"mood": "good", "words": words, "details": details}
     if not sizing.conclusive:
-        return {"mood": "bad", "words": "The signal cannot tell", "details": details}
+        return {"mood": "bad", "words": "No clear result", "details": details}
     size = with_deviation(math.degrees(best.extent), math.degrees(sizing.extent_uncertainty), "°")
     words = f"The defect extends over {size}, {along_race(best.extent, scene)}"
     return {"mood": "good", "words": words, "details": details}

@@ -125,7 +125,7 @@ class SpeedRunSpectra(SweptView):
     title = "Spectrum over shaft speed"
     about = (
         "Spectrum of the vibration at each shaft speed. It is that of the steady vibration. "
-        "Upright: the bands of the natural frequencies, which speed does not move. Slanted: the "
+        "Vertical: the bands of the natural frequencies, which speed does not move. Slanted: the "
         "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
         "Horizontal line: current speed. Click to go to a speed."
     )

@@ -231,7 +231,9 @@ def loudest_words(results: Results) -> str:
                 f"along {dof}"
             )
     text = (
-        "Above 100 Hz the housing vibrates most with " + style.list_words(words)
+        "Above 100 Hz the housing vibrates most with "
+        + style.list_words(words)
+        + " (re 1 (m/s²)²/Hz)"
         if words
         else "The housing cannot move along x or y in this scene"
     )

@@ -175,7 +175,7 @@ class MeasuredExtent:
             ("high", "rad", [self.high], "of the interval with 95 %"),
             ("separation", "rad", [self.separation], "from the entry's peak to the exit's"),
             ("separation_deviation", "rad", [self.deviation]),
-            ("offset", "rad", [self.offset], "over which a ball is not loaded beside the edges"),
+            ("offset", "rad", [self.offset], "over which a ball is not loaded at the edges"),
             ("length", "m", [self.length], "along the race"),
             ("frequency", "Hz", [self.frequency], "of ball passes"),
             ("ball_passes", "", [self.n_passes]),
@@ -185,7 +185,7 @@ class MeasuredExtent:
         best = self.passes[0]
         angle = self.ball_spacing * np.arange(len(best.envelope)) / len(best.envelope)
         return rows | table_of(
-            ("angle", "rad", angle, "of the race, from an arbitrary begin"),
+            ("angle", "rad", angle, "of the race, from an arbitrary start"),
             ("envelope", "1", best.envelope, "mean over the ball passes, of its mean"),
             ("envelope_error", "1", np.full(len(angle), best.error), "standard error"),
         )

@@ -119,7 +119,7 @@ class EnvelopeLines:
     ----------
     frequency : (m,) [Hz]
     level : (m,) [dB]
-        over the surroundings.
+        above local noise.
     band
         [Hz] of the signal whose envelope it is.
     direction
@@ -177,7 +177,7 @@ class Diagnosis:
         """The answer in sentences, to pass on, with the shaft speed on which it rests."""
         words = self.detail
         if not self.conclusive:
-            words = f"Cannot tell: {words[:1].lower()}{words[1:]}"
+            words = f"No clear result: {words[:1].lower()}{words[1:]}"
         if not self.evidence:
             return words
         if self.shaft_speed is None:
@@ -245,5 +245,5 @@ class Diagnosis:
             return columns
         return columns | table_of(
             ("envelope_frequency", "Hz", spectrum.frequency),
-            ("envelope_level", "dB", spectrum.level, "over the surroundings"),
+            ("envelope_level", "dB", spectrum.level, "above local noise"),
         )

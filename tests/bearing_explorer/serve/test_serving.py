@@ -342,6 +342,6 @@ def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
             socket.last_message_at -= 61.0  # a minute passes
         await closed(client)
         assert client._socket is not None
-        assert "Nothing was moved for 1 minutes" in str(client._socket.close_reason)
+        assert "The page was not used for 1 min." in str(client._socket.close_reason)
 
     served(wait, Limits(idle=60.0))

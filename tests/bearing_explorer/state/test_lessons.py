@@ -345,7 +345,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
     ],
     "09": lambda: [
         ("500 µm down", (500,)),
-        ("where the points of RK4 stand", (4,)),
+        ("where the points of RK4 are", (4,)),
         ("The point of RK4 furthest", (4,)),
         ("lets it carry 56 kN", (crushed(light(depth=500e-6)),)),
         ("the greatest load is 411 N", (loads(light()).ball_load.max(),)),

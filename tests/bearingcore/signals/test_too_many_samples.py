@@ -38,7 +38,7 @@ def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
     assert found.fault == CANNOT_TELL
     assert found.status == DiagnosisStatus.TOO_LONG
     assert found.sentence == (
-        f"Cannot tell: too many samples: {thousands(40_000)}, allowed are most_samples = "
+        f"No clear result: too many samples: {thousands(40_000)}, allowed are most_samples = "
         f"{thousands(39_999)}."
     )
     with pytest.raises(AssertionError, match="it was begun"):

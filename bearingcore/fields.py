@@ -194,9 +194,9 @@ _FIRST = " Left empty it is that of the first row."
 # fmt: off
 _SCENE = (
     Field("extent", "defect", "Extent", "Δφ_f", "°", "Defect", Range(0.0, 120.0, 0.1, 0.0, 360.0),
-          "How far the defect reaches along the race.", sweep_range=(2.0, 62.0)),
+          "Length of the defect along the race, as an angle.", sweep_range=(2.0, 62.0)),
     Field("depth", "defect", "Depth", "h", "µm", "Defect", Range(0.0, 500.0, 1.0, 0.0, 5000.0),
-          "How deep its floor lies. A ball reaches it only where the defect is long enough."),
+          "Depth of its floor. A ball reaches it only where the defect is long enough."),
     Field("center", "defect", "Centre", "φ_f", "°", "Defect", Range(0.0, 360.0, 0.5),
           "Where its middle is: 0° is right, 90° up, 270° down, where the weight of a rotor acts. "
           "A defect of the inner race is there at cage angle 0 and turns with the shaft."),
@@ -207,7 +207,7 @@ _SCENE = (
           Range(20.0, 2000.0, 10.0, 1.0, 20000.0),
           "Distance along the race over which the correlation of the heights falls to 1/e."),
     Field("seed", "floor", "Seed", "", "", "Defect", Range(0.0, 99.0, 1.0, 0.0, 2.0**31 - 1.0),
-          "Which of all rough floors of this kind: the same number is the same floor.",
+          "Number of the random floor: the same number gives the same floor.",
           whole=True),
     Field("shaft_speed", "scene", "Shaft speed", "f_s", "Hz", "Turning",
           Range(1.0, 100.0, 0.1, 0.0, 1000.0),
@@ -222,8 +222,8 @@ _SCENE = (
     Field("fz", "load", "Force, axial", "F_z", "N", "Load", _force,
           "Force on the inner ring along the shaft."),
     Field("unbalance", "scene", "Unbalance", "U", "g·mm", "Load", Range(0.0, 2000.0, 5.0, 0.0, 1e6),
-          "Mass of the rotor times how far its centre is off the shaft's axis: a force U·ω² turns "
-          "with the shaft. It moves the vibration; static answers leave it out."),
+          "Mass of the rotor times the distance of its centre from the shaft's axis: a force U·ω² "
+          "turns with the shaft. It changes the vibration; static answers leave it out."),
     Field("mx", "load", "Moment about x", "M_x", "N·m", "Load", _moment,
           "Moment on the inner ring that tilts the shaft up or down."),
     Field("my", "load", "Moment about y", "M_y", "N·m", "Load", _moment,
@@ -233,7 +233,7 @@ _SCENE = (
 _BEARING = (
     Field("n_balls", "bearing", "Number of balls", "N_b", "", "Balls",
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
-          "How many balls share the load, equally spaced by the cage.", whole=True),
+          "Balls in a row, equally spaced by the cage.", whole=True),
     Field("ball_diameter", "bearing", "Ball diameter", "D_b", "mm", "Balls", _near,
           "Diameter of a ball. With the pitch diameter it decides how fast the cage turns."),
     Field("pitch_diameter", "bearing", "Pitch diameter", "D_p", "mm", "Balls", _near,
@@ -245,10 +245,10 @@ _BEARING = (
           Range(0.0, 100.0, 0.1, 0.0, 10_000.0),
           "From the centre of one row of balls to that of the other, along the shaft."),
     Field("preload", "pair", "Axial preload", "", "µm", "Rows", Range(0.0, 50.0, 0.1, 0.0, 1000.0),
-          "How far the inner grooves of both rows are pushed against each other along the shaft."),
+          "Distance by which the inner grooves of both rows are pushed together along the shaft."),
     Field("n_balls", "second", "Number of balls, row 2", "N_b2", "", "Second row",
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
-          "How many balls the second row has." + _FIRST, optional=True, whole=True),
+          "Balls in the second row." + _FIRST, optional=True, whole=True),
     Field("ball_diameter", "second", "Ball diameter, row 2", "D_b2", "mm", "Second row",
           _near_first_row("ball_diameter"),
           "Diameter of a ball of the second row; its grooves go with it." + _FIRST,
@@ -271,7 +271,7 @@ _BEARING = (
           "Stiffness of the material of balls and rings; steel has about 207 GPa."),
     Field("poisson", "bearing", "Poisson's ratio", "ν", "", "Drawing",
           Range(0.1, 0.45, 0.005, 0.0, 0.49),
-          "How much the material narrows as it is stretched; 0.3 for steel."),
+          "Narrowing of the material over its stretching; 0.3 for steel."),
     Field("contact_angle", "bearing", "Contact angle", "α_0", "°", "Contact",
           Range(0.0, 45.0, 0.5, 0.0, 80.0),
           "Angle between the line through both contacts of an unloaded ball and the plane of the "
@@ -285,8 +285,8 @@ _BEARING = (
           "a tilt of the ring moves a contact."),
     Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
           Range(0.0, 50.0, 0.1, 0.0, 1000.0),
-          "How far the inner ring can move from the middle before a ball touches, on top of what "
-          "the contact angle stands for: half the diametral clearance of a drawing."),
+          "Distance that the inner ring can move from the middle before a ball touches, on top of "
+          "what the contact angle gives: half the diametral clearance of a drawing."),
     Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
           _near,
           "Stiffness of both contacts of a ball in series: the load is K times the compression to "

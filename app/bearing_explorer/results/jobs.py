@@ -212,7 +212,7 @@ class Jobs:
         elif job.work.stopped:
             state = JobState("stopped", part, f"Cancelled. {future.result()}")
         elif job.work.timed_out:
-            state = JobState("stopped", part, f"Ended after {LONGEST:.0f} s. {future.result()}")
+            state = JobState("stopped", part, f"Stopped after {LONGEST:.0f} s. {future.result()}")
         else:
             state = JobState("done", 1.0, future.result())
         await self._report(job, state)

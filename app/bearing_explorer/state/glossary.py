@@ -22,8 +22,8 @@ class Term(NamedTuple):
 
 
 TERMS = (
-    Term("Ball pass frequency, outer race", "BPFO", "Hz", "How often a ball passes a point of it."),
-    Term("Ball pass frequency, inner race", "BPFI", "Hz", "How often a ball passes a point of it."),
+    Term("Ball pass frequency, outer race", "BPFO", "Hz", "Balls past a point of it a second."),
+    Term("Ball pass frequency, inner race", "BPFI", "Hz", "Balls past a point of it a second."),
     Term("Ball spin frequency", "BSF", "Hz", "Turns of a ball about its own axis a second."),
     Term("Cage frequency", "FTF", "Hz", "Turns of the cage a second."),
     Term("Contact load", "Q", "N", "Force between a ball and a race."),

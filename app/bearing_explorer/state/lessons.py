@@ -220,7 +220,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
         except OSError as error:
             found.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
     if len(files) > MOST_LESSONS:
-        found.append(_fault(folder.name, f"holds {len(files)} lessons; read are {MOST_LESSONS}"))
+        found.append(_fault(folder.name, f"holds {len(files)} lessons; allowed: {MOST_LESSONS}"))
     return found
 
 

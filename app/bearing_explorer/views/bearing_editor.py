@@ -139,8 +139,8 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
 
 
 _FREQUENCIES = (
-    ("bpfo", "{1} pass the outer race", "How often a point of the outer race is passed."),
-    ("bpfi", "{1} pass the inner race", "How often a point of the inner race meets a {0}."),
+    ("bpfo", "{1} pass the outer race", "Rate at which a point of the outer race is passed."),
+    ("bpfi", "{1} pass the inner race", "Rate at which a point of the inner race meets a {0}."),
     ("ftf", "The cage turns", "Turns of the cage a second."),
     ("bsf", "A {0} spins", "Turns of a {0} about its own axis a second."),
 )

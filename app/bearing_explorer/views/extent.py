@@ -66,7 +66,7 @@ class SpallExtent(LookView, MeasuredView):
     name = "extent"
     title = "3  How long"
     about = (
-        "How long a spall is, from entry to exit. Drawn is the mean envelope of a ball pass. A "
+        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
         "ball that enters a spall and one that leaves it each give a peak; their distance and the "
         "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
         "frequency band that shows both best. Faint: other bands."

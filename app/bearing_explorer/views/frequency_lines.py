@@ -49,7 +49,9 @@ FAMILIES = (
         dash="dashed",
     ),
     Family("bpfi", "BPFI", "balls pass a point of the inner race", "#AA3377", "#94407A"),
-    Family("bsf", "BSF", "a ball spins; a spot on it knocks twice a turn", "#009E73", "#00704F", 6),
+    Family(
+        "bsf", "BSF", "a ball spins; a spot on it strikes twice a turn", "#009E73", "#00704F", 6
+    ),
     Family("ftf", "FTF", "the cage turns", "#56B4E9", "#1F6F9F", 3),
 )
 """In the order of their rows."""

@@ -40,8 +40,8 @@ class MeasuredEnvelope(FrequencyView):
     prefix = "measured_envelope"
     title = "Envelope spectrum"
     about = (
-        "How often impacts repeat. Dark: measured. Coloured: the scene. It is simulated once you "
-        "switch it on, and scaled to the measured root mean square. Each impact makes the "
+        "Rates at which impacts repeat. Dark: measured. Coloured: the scene. It is simulated once "
+        "you switch it on, and scaled to the measured root mean square. Each impact makes the "
         "machine ring, and the envelope rises: lines at BPFO point to the outer race, at BPFI "
         "to the inner race, at twice BSF to a ball. The band is that of the diagnosis, or, "
         "without one, where the kurtogram is highest; you can give another. A click puts a "

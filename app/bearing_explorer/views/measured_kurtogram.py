@@ -37,7 +37,7 @@ class MeasuredKurtogram(MeasuredView):
     name = "measured-kurtogram"
     title = "Kurtogram"
     about = (
-        "How impulsive the signal is in bands of many widths. Dashed: the demodulation band. "
+        "Impulsiveness of the signal in bands of many widths. Dashed: the demodulation band. "
         "Each row splits the range into as many equal bands as the number at its left; bright "
         "bands hold knocks. The kurtosis is 0 for noise and -1 for a steady tone. The diagnosis "
         "takes the band whose envelope shows the bearing's lines best, which need not be the most "

@@ -90,7 +90,7 @@ class NaturalFrequencies(View):
     name = "modes"
     title = "Natural frequencies"
     about = (
-        "How each one moves as the bearing turns. Blue x, orange y. A mode is named after the "
+        "Each natural frequency as the bearing turns. Blue x, orange y. A mode is named after the "
         "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
     )
     needs = frozenset({"modes", "bands"})

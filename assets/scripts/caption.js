@@ -30,6 +30,13 @@ export function render({ model }) {
     root.replaceChildren(head)
     return root
   }
+  root.addEventListener("keydown", (event) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key]
+    if (!step || !menu.matches(":popover-open")) return
+    event.preventDefault()
+    const all = [...menu.querySelectorAll("button:not([hidden])")], at = all.indexOf(root.getRootNode().activeElement)
+    all.at((Math.max(at, step < 0 ? 0 : -1) + step) % all.length).focus()
+  })
   unfolds(part("more"), part("rest"))
   follow(model, ["line", "rest"], () => {
     part("line").textContent = model.line

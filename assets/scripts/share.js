@@ -1,5 +1,5 @@
 // The bar above the controls. What changes the scene carries the number of the change, as the sliders
-// do. Scenes that are kept lie in this browser, and are checked before they are used.
+// do. Scenes are kept in this browser and are checked before they are used.
 
 const KEPT = "bearing-explorer.kept.1"
 const MOST_KEPT = 50

@@ -271,7 +271,7 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     assert helps.count() >= 10
     expect(page.locator("aside .control-depth_um .named")).to_have_attribute(
         "title",
-        re.compile(r"How deep its floor lies\..*\nIn µm; the slider goes from 0 to 500\sµm\."),
+        re.compile(r"Depth of its floor\..*\nIn µm; the slider goes from 0 to 500\sµm\."),
     )
     about = page.get_by_role("button", name="About depth")
     note = page.locator("#control-depth_um-about")

@@ -54,7 +54,7 @@ class WhichMechanism(View):
     name = "mechanism"
     title = "Which mechanism"
     about = (
-        "Share of the vibration that comes from the mass of the balls. The housing's power "
+        "Vibration power from the mass of the balls. Its share of the housing's power "
         "along x and y together, by octaves; the rest comes from the stiffness that varies as "
         "balls pass. Thin lines: its standard error. Faint bars: 40 dB and more below the "
         "loudest octave. Below zero mass takes power away."

@@ -126,7 +126,9 @@ def listen(
     listened = []
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
-        width, error = 1.5 * resolution + 5e-4 * shaft, 0.1 / min(TURNS[-1] / shaft, duration)
+        width = 1.5 * resolution + 5e-4 * shaft
+        # the speed is found to a tenth of what the highest of its lines resolves
+        error = 0.1 / HARMONICS / min(TURNS[-1] / shaft, duration)
         hidden = near_multiples(levels, shaft if known_speed else 0.0, width, error)
         cleared = cut(levels, hidden)
         listened.append(

@@ -129,5 +129,7 @@ def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]
     seen = np.isfinite(total)
     count = seen.sum(axis=0)
     mean = np.where(seen, total, 0.0).sum(axis=0) / np.where(count > 1, count, np.nan)
+    if not np.isfinite(mean).any():
+        return np.asarray(mean)
     away = mean - np.nanmedian(mean)
     return np.asarray(away / max(DEVIATION * float(np.nanmedian(np.abs(away))), 1e-9))

@@ -241,12 +241,12 @@ class Plane:
     @property
     def x(self) -> Sweep:
         """Values of the quantity to the right, (nx,)."""
-        return self.question.sides(self.stride)[0]
+        return self.question.x.every(self.stride)
 
     @property
     def y(self) -> Sweep:
         """Values of the quantity upwards, (ny,)."""
-        return self.question.sides(self.stride)[1]
+        return self.question.y.every(self.stride)
 
     @property
     def missing(self) -> int:

@@ -27,6 +27,7 @@ class LiveComponent(JSComponent):
 
     #: scripts answer with messages: nothing comes back by a property
     _linked_properties = ()
+    #: no script lies in a bundle, which Panel would look for whenever one is shown
     _bundle_path = None
 
     def __init__(self, **params: Any) -> None:

@@ -43,8 +43,8 @@ class Spin:
     outer, inner, ball
         deviations of the combs at other frequencies by which each part's comb is above them.
     parent
-        the same of all that a ball's do not explain, and of combs next to them or at their
-        sidebands: of such as are stronger, a ball's may be a part, the foot or a sideband.
+        the same of combs that a ball's lines do not explain, and of those next to them or at their
+        sidebands: where one is stronger, a ball's may be a part, the foot or a sideband of it.
     shaft_sidebands, cage_sidebands
         the same of the sidebands of the ball's lines.
     """
@@ -84,7 +84,10 @@ def spin(
     parts: Sequence[PartLines],
     explained: Callable[[float], NDArray[np.float64]],
 ) -> Spin:
-    """The lines of the parts; `explained`: above 0 for combs that a ball's at a place explain."""
+    """The lines of the parts.
+
+    `explained` says of each comb by how much [dB] lines of a ball at a frequency [Hz] explain it.
+    """
     order = {lines.part: lines.order for lines in parts}
     cage = next(lines.sidebands for lines in parts if lines.part == BALL)
     at, shaft = combs.frequency, combs.shaft
@@ -117,7 +120,7 @@ def spin(
 def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]:
     """The mean level at some distances [Hz] from harmonics of each frequency, in all bands (n,).
 
-    In deviations of all frequencies from their median; NaN where the shaft's hide all but one.
+    In deviations of all frequencies from their median; NaN where the shaft hides all lines but one.
     """
     total = np.zeros((SPIN_HARMONICS * len(sidebands), len(combs.frequency)))
     for one in combs.envelopes:

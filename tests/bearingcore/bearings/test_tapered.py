@@ -22,9 +22,9 @@ def of(bearing: Bearing, **changes: object) -> Scene:
 
 def test_an_axial_load_is_shared_and_moves_the_ring_in_closed_form() -> None:
     found = equilibrium(of(ROW, fy=0.0, fz=5000.0), [0.0])
-    Q = 5000.0 / (Z * math.sin(ALPHA))
-    assert found.ball_load[0] == pytest.approx(np.full(Z, Q), rel=1e-5)
-    assert found.displacement[0, 2] == pytest.approx((Q / K) ** 0.9 / math.sin(ALPHA), rel=1e-5)
+    Q = 5000.0 / (Z * math.sin(ALPHA))  # but for the turn by 30 µm over races of 10 m
+    assert found.ball_load[0] == pytest.approx(np.full(Z, Q), rel=2e-5)
+    assert found.displacement[0, 2] == pytest.approx((Q / K) ** 0.9 / math.sin(ALPHA), rel=2e-5)
 
 
 def test_the_rating_is_the_catalogues_and_of_two_rows_that_of_iso_281() -> None:

@@ -33,6 +33,9 @@ SERIES_CONSTANT = 35_948.0
 """[N/mm^2] c_L/l^(8/9) of ISO 16281, of a steel roller between BOTH its races. Palmgren's
 3.84e-5 mm of 1 N on 1 mm, 8.06e4, is ONE contact: two of it in series are 3.73e4."""
 
+LONG_ROLLER = 2.5
+"""Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""
+
 
 @dataclass(frozen=True)
 class RollerContact:
@@ -87,6 +90,23 @@ def roller_contact(
     gamma = roller_diameter / pitch_diameter
     side = -1.0 if race == "inner" else 1.0
     return RollerContact(race, 2.0 / (roller_diameter * (1.0 + side * gamma)), roller_length)
+
+
+def profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+    """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
+
+    Its reference profile: 0.00035 D ln(1/(1 − (2x/l)²)), and of rollers longer than 2.5 D straight
+    but for 1.25 D at each end, there with 0.0005 D.
+    """
+    rounded = min(length, LONG_ROLLER * diameter)
+    part = np.maximum(2.0 * np.abs(np.asarray(place)) - (length - rounded), 0.0) / rounded
+    size = 0.00035 if length <= LONG_ROLLER * diameter else 0.0005
+    return np.asarray(-size * diameter * np.log1p(-(part**2)))
+
+
+def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+    """The same of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44)."""
+    return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
 
 
 def series_factor(roller_length: float) -> float:

@@ -5,9 +5,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import ISO_76_ROLLERS, Kind, Picture, Variant
-from bearingcore.bearings.line_contact import RollerContact, series_factor, roller_contact
+from bearingcore.bearings.line_contact import (
+    RollerContact,
+    profile_drop,
+    roller_contact,
+    series_factor,
+)
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -136,6 +144,9 @@ class Roller(Kind):
         return roller_contact(
             race, bearing.ball_diameter, bearing.pitch_diameter, length_of(bearing)
         )
+
+    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        return profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
     def volume(self, bearing: Bearing) -> float:
         return math.pi / 4.0 * bearing.ball_diameter**2 * length_of(bearing)

@@ -22,10 +22,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.bearings import inside
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
-from bearingcore.bearings.line_contact import RollerContact, series_factor, roller_contact
+from bearingcore.bearings.line_contact import (
+    RollerContact,
+    roller_contact,
+    series_factor,
+    tapered_profile_drop,
+)
 from bearingcore.bearings.roller import Roller, checked_sizes, length_of
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
 from bearingcore.common import checks
@@ -175,6 +183,9 @@ class Tapered(Roller):
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
         return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
+
+    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        return tapered_profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
 
 TAPERED = Tapered()

@@ -202,7 +202,7 @@ class Kind:
         return None
 
     def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How far [m] a roller's profile drops at places [m] from its middle; see `laminae`."""
+        """Drop P [m] of a roller's profile at places [m] from its middle; see `statics.laminae`."""
         raise NotImplementedError
 
     def volume(self, bearing: Bearing) -> float:

@@ -1,4 +1,4 @@
-"""Laminae of rollers: how the load of a roller lies along its length, for its life, by ISO 16281.
+"""Laminae of rollers: the load of a roller along its length, for its life, by ISO 16281.
 
 Quantity                                        | Symbol | Name              | Unit
 ----------------------------------------------- | ------ | ----------------- | -------
@@ -149,7 +149,7 @@ def compressions(state: Equilibrium) -> Array:
 
 
 def carried(state: Equilibrium) -> Array:
-    """What `strips` takes (n, elements): compressions [m] of rollers, loads [N] of balls."""
+    """Compressions [m] of rollers, loads [N] of balls (n, elements): `strips` takes either."""
     return compressions(state) if state.scene.bearing.kind.line_contact else state.ball_load
 
 

@@ -184,7 +184,7 @@ class Life:
             ),
             ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
             ("dynamic_load_rating", "N", self.dynamic_load_rating, "C_r"),
-            ("equivalent_load", "N", self.equivalent_load, "P, of the same life by ISO 281"),
+            ("equivalent_load", "N", self.equivalent_load, "P, for which ISO 281 gives L_10r"),
             ("heaviest_load", "N", self.heaviest_load, "greatest load of a ball"),
             ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
             ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),

@@ -211,7 +211,8 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         Fact(
             "Equivalent load P",
             style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
-            "The load of the same life by ISO 281.",
+            "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
+            "rollers.",
         ),
     ]
     if len(lasts.rows) > 1 and known:

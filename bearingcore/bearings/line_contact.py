@@ -33,6 +33,9 @@ SERIES_CONSTANT = 35_948.0
 """[N/mm^2] c_L/l^(8/9) of ISO 16281, of a steel roller between BOTH its races. Palmgren's
 3.84e-5 mm of 1 N on 1 mm, 8.06e4, is ONE contact: two of it in series are 3.73e4."""
 
+ONE_CONTACT = 8.06e4
+"""The same by Palmgren of one contact, which scenes of rollers were saved with as that of both."""
+
 LONG_ROLLER = 2.5
 """Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""
 
@@ -115,3 +118,17 @@ def series_factor(roller_length: float) -> float:
     K = 35 948 l^(8/9) N/mm^(10/9), l in mm (c_L of ISO 16281).
     """
     return float(SERIES_CONSTANT * (1e3 * roller_length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0))
+
+
+def mended_factor(factor: object, roller_length: object) -> object:
+    """K [N/m^(10/9)] of a file, where it is that of a time when ONE_CONTACT stood for both.
+
+    Anything else stays as it is.
+    """
+    if not isinstance(factor, float) or not isinstance(roller_length, float):
+        return factor
+    if not 0.0 < roller_length < math.inf:
+        return factor
+    right = series_factor(roller_length)
+    wrong = right * ONE_CONTACT / SERIES_CONSTANT
+    return right if math.isclose(factor, wrong, rel_tol=1e-9) else factor

@@ -122,3 +122,15 @@ def test_a_pair_of_tapered_rollers_against_statics_of_its_own() -> None:
     k_xx = 1e3 * (rows_push(q + step, rows) - rows_push(q - step, rows))[0] / 2e-7
     assert state.term("k_xx")[0] == pytest.approx(k_xx, rel=1e-4)
     assert k_xx == pytest.approx(1.7e9, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["nu208", "30206-back-to-back"])
+def test_files_of_the_wrong_constant_open_with_the_right_one(name: str) -> None:
+    """8.06e4 was saved in the place of 35 948; a factor that a person chose stays."""
+    scene = presets[name]
+    data = scene.to_data()
+    K = data["bearing"]["load_deflection_factor"]
+    data["bearing"]["load_deflection_factor"] = K * 8.06e4 / C_L
+    assert Scene.from_data(data) == scene
+    data["bearing"]["load_deflection_factor"] = 1.5 * K
+    assert Scene.from_data(data).bearing.load_deflection_factor == 1.5 * K

@@ -167,9 +167,9 @@ class Bearing:
         pitch_diameter: float,
         radial_clearance: float = 0.0,
     ) -> Self:
-        """A cylindrical roller bearing of steel, with Palmgren's law of its line contacts.
+        """A cylindrical roller bearing of steel, its line contacts as stiff as ISO 16281 has them.
 
-        K = 8.06e4 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
+        K = 35 948 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
         Lengths in m. A roller does not tilt here and carries nothing along the shaft.
 
         Raises
@@ -381,7 +381,7 @@ class Bearing:
 
     @property
     def contact_exponent(self) -> float:
-        """Exponent of load over compression: 3/2 for balls, 10/9 for rollers (Palmgren)."""
+        """Exponent of load over compression: 3/2 for balls, 10/9 for rollers (ISO 16281)."""
         return self.kind.exponent
 
     @property

@@ -11,6 +11,9 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -197,6 +200,10 @@ class Kind:
     def groove_radius(self, bearing: Bearing, race: str) -> float | None:
         """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
         return None
+
+    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Drop P [m] of a roller's profile at places [m] from its middle; see `statics.laminae`."""
+        raise NotImplementedError
 
     def volume(self, bearing: Bearing) -> float:
         """Volume [m³] of a rolling element; a ball's, π D_b³/6."""

@@ -1,4 +1,4 @@
-"""Line contact of a cylindrical roller with a race: stiffness by Palmgren, pressure by Hertz.
+"""Line contact of a cylindrical roller with a race: stiffness by ISO 16281, pressure by Hertz.
 
 Quantity                                    | Symbol | Name                   | Unit
 ------------------------------------------- | ------ | ---------------------- | ----------
@@ -7,13 +7,13 @@ D / D_p                                     | γ      |                        |
 curvature sum                               | Σρ     | curvature_sum          | 1/m
 half length, half width of the contact      | l/2, b | semi_axes              | m
 greatest pressure, in the middle            | p      | greatest_pressure      | Pa
-load-deflection factor of both contacts     | K      | palmgren_factor        | N/m^(10/9)
+load-deflection factor of both contacts     | K, c_L | series_factor          | N/m^(10/9)
 
 Pressure is even along the roller: the ends, where it rises unless roller or race is crowned, and a
 roller that is skewed are left out.
 
-Source: Palmgren, Grundlagen der Wälzlagertechnik; Hertz for a cylinder on a cylinder (Harris,
-Rolling Bearing Analysis, chapter "Contact stress and deformation").
+Source: ISO 16281, after Palmgren; Hertz for a cylinder on a cylinder (Harris, Rolling Bearing
+Analysis, chapter "Contact stress and deformation").
 """
 
 from __future__ import annotations
@@ -27,7 +27,17 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 
 STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
-"""E [Pa] and ν of rollers and rings: Palmgren's formula is for steel."""
+"""E [Pa] and ν of rollers and rings: the factor is for steel."""
+
+SERIES_CONSTANT = 35_948.0
+"""[N/mm^2] c_L/l^(8/9) of ISO 16281, of a steel roller between BOTH its races. Palmgren's
+3.84e-5 mm of 1 N on 1 mm, 8.06e4, is ONE contact: two of it in series are 3.73e4."""
+
+ONE_CONTACT = 8.06e4
+"""The same by Palmgren of one contact, which scenes of rollers were saved with as that of both."""
+
+LONG_ROLLER = 2.5
+"""Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +65,8 @@ class RollerContact:
 
     @property
     def load_deflection_factor(self) -> float:
-        """K [N/m^(10/9)] of this contact alone: both are alike, and in series Palmgren's."""
-        return 2.0 ** (10.0 / 9.0) * palmgren_factor(self.length)
+        """K [N/m^(10/9)] of this contact alone: each race gives half of what both give."""
+        return 2.0 ** (10.0 / 9.0) * series_factor(self.length)
 
     def greatest_pressure(self, load: ArrayLike) -> NDArray[np.float64]:
         """Pressure [Pa] in the middle at a load [N]: p = (Q E Σρ/(2 π l (1 − ν²)))^½."""
@@ -85,9 +95,40 @@ def roller_contact(
     return RollerContact(race, 2.0 / (roller_diameter * (1.0 + side * gamma)), roller_length)
 
 
-def palmgren_factor(roller_length: float) -> float:
+def profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+    """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
+
+    Its reference profile: 0.00035 D ln(1/(1 − (2x/l)²)), and of rollers longer than 2.5 D straight
+    but for 1.25 D at each end, there with 0.0005 D.
+    """
+    rounded = min(length, LONG_ROLLER * diameter)
+    part = np.maximum(2.0 * np.abs(np.asarray(place)) - (length - rounded), 0.0) / rounded
+    size = 0.00035 if length <= LONG_ROLLER * diameter else 0.0005
+    return np.asarray(-size * diameter * np.log1p(-(part**2)))
+
+
+def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+    """The same of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44)."""
+    return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
+
+
+def series_factor(roller_length: float) -> float:
     """K [N/m^(10/9)] of both contacts of a steel roller of a length [m], one after the other.
 
-    K = 8.06e4 l^(8/9) N/mm^(10/9), l in mm.
+    K = 35 948 l^(8/9) N/mm^(10/9), l in mm (c_L of ISO 16281).
     """
-    return float(8.06e4 * (1e3 * roller_length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0))
+    return float(SERIES_CONSTANT * (1e3 * roller_length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0))
+
+
+def mended_factor(factor: object, roller_length: object) -> object:
+    """K [N/m^(10/9)] of a file, where it is that of a time when ONE_CONTACT stood for both.
+
+    Anything else stays as it is.
+    """
+    if not isinstance(factor, float) or not isinstance(roller_length, float):
+        return factor
+    if not 0.0 < roller_length < math.inf:
+        return factor
+    right = series_factor(roller_length)
+    wrong = right * ONE_CONTACT / SERIES_CONSTANT
+    return right if math.isclose(factor, wrong, rel_tol=1e-9) else factor

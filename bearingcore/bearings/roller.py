@@ -1,13 +1,21 @@
-"""Cylindrical rollers: line contacts by Palmgren, radial loads only."""
+"""Cylindrical rollers: line contacts by ISO 16281, radial loads only."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import ISO_76_ROLLERS, Kind, Picture, Variant
-from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.bearings.line_contact import (
+    RollerContact,
+    profile_drop,
+    roller_contact,
+    series_factor,
+)
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -52,7 +60,7 @@ def _derived(ball_diameter: float, roller_length: float, pitch_diameter: float) 
     return Derived(
         groove_center_radius=0.5 * pitch_diameter,
         groove_center_distance=ball_diameter,  # of no account where contacts never swivel
-        load_deflection_factor=palmgren_factor(roller_length),
+        load_deflection_factor=series_factor(roller_length),
         outer_raceway_radius=0.5 * (pitch_diameter + ball_diameter),
         inner_raceway_radius=0.5 * (pitch_diameter - ball_diameter),
     )
@@ -72,7 +80,7 @@ class Roller(Kind):
         Variant(
             "rollers",
             "Cylindrical rollers",
-            "Line contact between cylindrical races, stiff by Palmgren's formula for steel. Radial "
+            "Line contact between cylindrical races, stiff as ISO 16281 has it for steel. Radial "
             "loads only: axial loads and moments are taken out of the scene. Rollers do not tilt.",
         ),
     )
@@ -136,6 +144,9 @@ class Roller(Kind):
         return roller_contact(
             race, bearing.ball_diameter, bearing.pitch_diameter, length_of(bearing)
         )
+
+    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        return profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
     def volume(self, bearing: Bearing) -> float:
         return math.pi / 4.0 * bearing.ball_diameter**2 * length_of(bearing)

@@ -8,7 +8,7 @@ diameter of the circle of those middles     | D_p    | pitch_diameter
 angle of the line of contact                | α      | contact_angle
 
 A roller is pressed by what both races approach each other along its line of contact,
-δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K by Palmgren as of a cylindrical roller. The
+δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K as of a cylindrical roller. The
 line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
 α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
 
@@ -22,10 +22,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.bearings import inside
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
-from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
+from bearingcore.bearings.line_contact import (
+    RollerContact,
+    roller_contact,
+    series_factor,
+    tapered_profile_drop,
+)
 from bearingcore.bearings.roller import Roller, checked_sizes, length_of
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
 from bearingcore.common import checks
@@ -69,7 +77,7 @@ def _derived(
     return Derived(
         groove_center_radius=0.5 * pitch_diameter,
         groove_center_distance=STRAIGHT,
-        load_deflection_factor=palmgren_factor(roller_length),
+        load_deflection_factor=series_factor(roller_length),
         outer_raceway_radius=0.5 * (pitch_diameter + across),
         inner_raceway_radius=0.5 * (pitch_diameter - across),
     )
@@ -175,6 +183,9 @@ class Tapered(Roller):
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
         return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
+
+    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        return tapered_profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
 
 TAPERED = Tapered()

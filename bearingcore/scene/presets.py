@@ -342,8 +342,8 @@ _PRESETS: Mapping[str, Preset] = {
         "A cylindrical roller bearing. By ISO 15: bore 40 mm, outside diameter 80 mm, width "
         "18 mm. Assumed here: 14 rollers of 11 mm diameter and length on 60.5 mm, a radial "
         "clearance of 15 µm, load, speed, the defect, and the rotor and support of the fan "
-        "rig. Computed: the stiffness of a steel roller between its races by Palmgren's "
-        "formula. It carries radial loads only, and its rollers do not tilt here.",
+        "rig. Computed: the stiffness of a steel roller between its races by "
+        "ISO 16281. It carries radial loads only, and its rollers do not tilt here.",
     ),
     "30206-back-to-back": Preset(
         "30206 pair, tapered rollers, back to back",
@@ -363,7 +363,7 @@ _PRESETS: Mapping[str, Preset] = {
         "a cup of 14°02′10″. Assumed, as makers do not print it: 17 rollers on 46 mm, the middle "
         "of both diameters. Computed: rollers of 7.66 mm and 10.3 mm length, which have the "
         "43.5 kN and 48 kN of a catalogue (Nachi) by ISO 281 and ISO 76; their stiffness by "
-        "Palmgren's formula for steel. Assumed here too: rows 30 mm apart, an axial preload of "
+        "ISO 16281. Assumed here too: rows 30 mm apart, an axial preload of "
         "6 µm, loads, speed, the defect, in the first row, and the rotor and support of the fan "
         "rig. The taper of the rollers, their swivelling and the friction of the rib are left out.",
     ),

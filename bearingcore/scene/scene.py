@@ -9,6 +9,7 @@ from typing import Any, Self
 
 from bearingcore.bearings.bearing import Bearing, recognized
 from bearingcore.bearings.kind import DIRECTIONS
+from bearingcore.bearings.line_contact import mended_factor
 from bearingcore.common import checks, scene_file
 from bearingcore.scene.defect import Defect, path_tables
 from bearingcore.scene.load import Load
@@ -194,6 +195,13 @@ class Scene:
             only = table["defect"][0]
             table["defect"] = scene_file.from_data(Defect, "defect 1", only)
         table.setdefault("load", {})
+        if isinstance(table.get("bearing"), dict):
+            bearing = dict(table["bearing"])
+            if "load_deflection_factor" in bearing:
+                bearing["load_deflection_factor"] = mended_factor(
+                    bearing["load_deflection_factor"], bearing.get("roller_length")
+                )
+            table["bearing"] = bearing
         return scene_file.from_data(cls, "scene", table, top=True)
 
     def to_toml(self) -> str:

@@ -32,6 +32,9 @@ loads are then averaged over a whole turn of the cage, and over TURNS_OF_ROWS wa
 are turned to each other, spread evenly. What passes a standing place then varies a little; that is
 counted by the second average too, which is on the safe side.
 
+A race of rollers is a chain of laminae too, each of which has places and loads of its own: all of
+this holds for each of them (`bearingcore.statics.laminae`).
+
 The integrals are taken over panels that end where a ball meets an edge or a floor.
 """
 
@@ -39,6 +42,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import product
 from typing import NamedTuple
@@ -51,6 +55,7 @@ from bearingcore.common import checks
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.laminae import carried, strips
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -102,10 +107,12 @@ def snapshot_loads(
     bearing carries nothing there, it has no life.
     """
     state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
-    if unknown := _unknown(state):
+    loads = carried(state)
+    if unknown := _unknown(state, loads):
         return unknown
+    heaviest = float(state.ball_load[0].max())
     return _averaged(
-        scene, state.ball_load[:1], np.full(1, 1.0), load_exponent, scatter, turning_race
+        scene, loads[:1], heaviest, np.full(1, 1.0), load_exponent, scatter, turning_race
     )
 
 
@@ -118,17 +125,18 @@ def race_loads(
     """
     if any(defect.race == "inner" for defect in scene.defects):
         return _with_turning_defects(scene, load_exponent, scatter)
-    loads, weights = [], []
+    loads, weights, heaviest = [], [], 0.0
     turned = _rows_turned(scene)
     for one in turned:
         places, weight = _panels(one, "outer")
         state = equilibrium(one, places)
-        if unknown := _unknown(state):
+        loads.append(carried(state))
+        if unknown := _unknown(state, loads[-1]):
             return unknown
-        loads.append(state.ball_load)
+        heaviest = max(heaviest, float(state.ball_load.max()))
         weights.append(weight / len(turned))
     all_loads, all_weights = np.concatenate(loads), np.concatenate(weights)
-    return _averaged(scene, all_loads, all_weights, load_exponent, scatter, turning_race)
+    return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter, turning_race)
 
 
 def _rows_turned(scene: Scene) -> list[Scene]:
@@ -154,17 +162,34 @@ def _rows_turned(scene: Scene) -> list[Scene]:
 def _averaged(
     scene: Scene,
     loads: Array,
+    heaviest: float,
     weights: Array,
     load_exponent: float,
     scatter: float,
     turning_race: str,
 ) -> RaceLoads:
-    """Both races under loads (n, balls) with weights (n,) where nothing turns against the load."""
+    """Both races under what is `carried` (n, balls), where nothing turns against the load."""
     rows = [loads[:, own] for own in scene.bearing.balls_of_rows]
-    turning = tuple(_mean(row, weights, load_exponent) for row in rows)
-    standing = tuple(_mean(row, weights, load_exponent * scatter) for row in rows)
+    chain = load_exponent * scatter
+    turning, standing = (
+        tuple(
+            together(
+                [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
+            )
+            for row in rows
+        )
+        for power in (load_exponent, chain)
+    )
     inner, outer = (turning, standing) if turning_race == "inner" else (standing, turning)
-    return RaceLoads(inner, outer, float(loads.max()))
+    return RaceLoads(inner, outer, heaviest)
+
+
+def together(loads: Sequence[float], power: float) -> float:
+    """The one load that tires as much as all of them do, each a part that has to live."""
+    size = max(loads)
+    if len(loads) == 1 or not size > 0.0:
+        return size
+    return float(size * sum((load / size) ** power for load in loads) ** (1.0 / power))
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
@@ -175,14 +200,17 @@ def _mean(loads: Array, weights: Array, power: float) -> float:
     return size * float(weights @ np.mean((loads / size) ** power, axis=1)) ** (1.0 / power)
 
 
-def _unknown(state: Equilibrium) -> RaceLoads | None:
+def _unknown(state: Equilibrium, loads: Array) -> RaceLoads | None:
     """NaN with the reason, where the loads of some cage angle are not known; None where all are."""
-    failed = np.flatnonzero(~np.isfinite(state.ball_load).all(axis=1))
+    failed = np.flatnonzero(~np.isfinite(loads).all(axis=1))
     if not failed.size:
         return None
     first = int(failed[0])
     nothing = (math.nan,) * len(state.scene.bearing.all_rows)
-    return RaceLoads(nothing, nothing, math.nan, int(state.status[first]), state.reason(first))
+    status, reason = int(state.status[first]), state.reason(first)
+    if status == StaticStatus.CONVERGED:  # of straight rollers
+        status, reason = StaticStatus.NOT_CONVERGED, "rollers with their profile: not converged"
+    return RaceLoads(nothing, nothing, math.nan, int(status), reason)
 
 
 def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
@@ -239,32 +267,39 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     first = 2.0 * math.pi * np.arange(n) / n * (ratio - 1.0) / ratio
     offset = places / (ratio - 1.0)  # ψ at the first of the n steps
     loads = np.empty((n, places.size, bearing.total_balls))
+    heaviest = 0.0
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = equilibrium(turned, (places + psi_0) * ratio / (ratio - 1.0))
-        if unknown := _unknown(state):
+        loads[k] = carried(state)
+        if unknown := _unknown(state, loads[k]):
             return unknown
-        loads[k] = state.ball_load
-    size = float(loads.max())
-    if size == 0.0:
-        nothing = (0.0,) * len(bearing.all_rows)
-        return RaceLoads(nothing, nothing, 0.0)
-    inner, outer = [], []
-    root = 1.0 / (load_exponent * scatter)
+        heaviest = max(heaviest, float(state.ball_load.max()))
+    chain = load_exponent * scatter
     order = np.arange(n // 2 + 1)[:, None, None]
-    for row, own in zip(
-        bearing.all_rows, np.split(loads, len(bearing.all_rows), axis=2), strict=True
-    ):
-        used = (own / size) ** load_exponent
+
+    def races(load: Array, theta: Array) -> tuple[float, float]:
+        """Inner and outer race under loads (n, places, N_b) of balls at places θ."""
+        size = float(load.max())
+        if size == 0.0:
+            return 0.0, 0.0
+        used = (load / size) ** load_exponent
         along = float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
-        inner.append(size * along**root)
         # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ interpolates
-        theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
         series = np.fft.rfft(used, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
         passing = np.fft.irfft(np.mean(shifted, axis=2) @ weights, FINER * n) * (FINER * n)
-        outer.append(size * float(np.mean(np.maximum(passing, 0.0) ** scatter)) ** root)
-    return RaceLoads(tuple(inner), tuple(outer), size)
+        standing = float(np.mean(np.maximum(passing, 0.0) ** scatter))
+        return size * along ** (1.0 / chain), size * standing ** (1.0 / chain)
+
+    found = []
+    each_row = np.split(loads, len(bearing.all_rows), axis=2)
+    for row, own in zip(bearing.all_rows, each_row, strict=True):
+        theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
+        parts = zip(*(races(strip, theta) for strip in strips(bearing, own, chain)), strict=True)
+        found.append([together(part, chain) for part in parts])
+    inner, outer = zip(*found, strict=True)
+    return RaceLoads(inner, outer, heaviest)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:

@@ -244,7 +244,7 @@ FACTS = {
     "line_load_deflection_factor": Fact(
         "Load-deflection factor",
         "K",
-        "Stiffness of both line contacts of a roller in series, by Palmgren's formula.",
+        "Stiffness of both line contacts of a roller in series, by ISO 16281.",
         _factor,
     ),
     "groove_center_distance": _of_field(

@@ -184,6 +184,9 @@ def groups_of(results: Results) -> list[FactGroup]:
     return groups
 
 
+PROFILE = "Rollers are taken to have the profile of ISO 16281, and not to tilt."
+
+
 def _life(results: Results, found: Endurance) -> FactGroup:
     title = "Life of the healthy bearing" if results.scene.defects else "Life"
     if found.life is None or found.healthy is None or found.rating is None:
@@ -211,7 +214,8 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         Fact(
             "Equivalent load P",
             style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
-            "The load of the same life by ISO 281.",
+            "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
+            "rollers.",
         ),
     ]
     if len(lasts.rows) > 1 and known:
@@ -224,7 +228,8 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             )
         )
     words = _damaged_words(found.life) if results.scene.defects else ""
-    return FactGroup(title, f"{words} {found.assumed}".strip(), facts)
+    profile = PROFILE if results.scene.bearing.kind.line_contact else ""
+    return FactGroup(title, " ".join(filter(None, (words, profile, found.assumed))), facts)
 
 
 def _damaged_words(damaged: Life) -> str:

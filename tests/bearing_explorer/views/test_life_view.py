@@ -79,7 +79,9 @@ def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() ->
     assert "Life tab" in row["sentence"]
     assert film_limit(LifeInputs(viscosity=1e-3)).crossed
     assert not film_limit(LifeInputs(viscosity=1.0)).crossed
-    assert "assumed viscosity" in facts("nu208")["Oil film"]["words"]
+    rollers = facts("nu208")
+    assert "profile of ISO 16281" in rollers["Life of the healthy bearing"]["words"]
+    assert "assumed viscosity" in rollers["Oil film"]["words"]
     assert "assumed" not in facts("nu208", LifeInputs(viscosity=1.0))["Oil film"]["words"]
 
 

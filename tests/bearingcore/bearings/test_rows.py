@@ -74,9 +74,9 @@ def test_a_ball_in_a_sphere_is_hertz_for_two_spheres() -> None:
 ROLLERS = Bearing.cylindrical(12, 10e-3, 10e-3, 50e-3)
 
 
-def test_one_and_two_loaded_rollers_follow_palmgren() -> None:
-    """Q = 8.06e4 l^(8/9) δ^(10/9), N and mm; straight below, or half a spacing to either side."""
-    K = 8.06e4 * 10.0 ** (8.0 / 9.0)
+def test_one_and_two_loaded_rollers_follow_the_line_law() -> None:
+    """Q = 35 948 l^(8/9) δ^(10/9), N and mm; straight below, or half a spacing to either side."""
+    K = 35_948.0 * 10.0 ** (8.0 / 9.0)
     loose = dataclasses.replace(ROLLERS, radial_clearance=20e-6)  # neighbours stay free
     scene = FAN_RIG.replace(bearing=loose, extent=0.0, fy=-100.0)
     below = equilibrium(scene, [math.radians(270.0)])

@@ -69,8 +69,8 @@ def test_rollers_have_a_film_by_the_load_on_their_length() -> None:
         )
         assert race.thickness == pytest.approx(h, rel=1e-12)
     longer = film(scene.replace(roller_length=22e-3), **OIL).inner
-    assert longer.load == pytest.approx(found.inner.load, rel=0.02)
-    assert longer.thickness / found.inner.thickness == pytest.approx(2.0**0.128, rel=0.01)
+    lighter = found.inner.load / (0.5 * longer.load)  # N on a metre, before over after
+    assert longer.thickness / found.inner.thickness == pytest.approx(lighter**0.128, rel=1e-9)
     assert "roller" in found.sentence
     assert "ball" not in found.sentence
 

@@ -1,0 +1,51 @@
+"""Factors of load ratings as ISO 281 and ISO 76 print them."""
+
+import math
+
+import pytest
+
+from bearingcore import Bearing, dynamic_load_rating
+from bearingcore.bearings.ratings import static_factor
+
+BALLS = (
+    *(29.1, 35.8, 40.3, 43.8, 46.7, 49.1, 51.1, 52.8, 54.3, 55.5, 56.6, 57.5, 58.2, 58.8, 59.3),
+    *(59.6, 59.8, 59.9, 60.0, 59.9, 59.8, 59.6, 59.3, 59.0, 58.6, 58.2, 57.7, 57.1, 56.6, 56.0),
+    *(55.3, 54.6, 53.9, 53.2, 52.4, 51.7, 50.9, 50.0, 49.2, 48.4),
+)
+"""f_c of ISO 281, Table 2, at D cos α/D_pw = 0.01, 0.02, ... 0.40; also in the public program whose
+function is `sfereRadiali`."""
+
+ROLLERS = (
+    *(52.1, 60.8, 66.5, 70.7, 74.1, 76.9, 79.2, 81.2, 82.8, 84.2, 85.4, 86.4, 87.1, 87.7, 88.2),
+    *(88.5, 88.7, 88.8, 88.8, 88.7, 88.5, 88.2, 87.9, 87.5, 87.0, 86.4, 85.8, 85.2, 84.5, 83.8),
+)
+"""f_c of ISO 281, Table 7, at 0.01, 0.02, ... 0.30; also in a public program's function `F04`."""
+
+STATIC = (
+    *(14.9, 15.1, 15.3, 15.5, 15.7, 15.9, 16.1, 16.3, 16.5, 16.4, 16.1, 15.9, 15.6, 15.4, 15.2),
+    *(14.9, 14.7, 14.4, 14.2, 14.0, 13.7, 13.5, 13.2, 13.0, 12.8, 12.5, 12.3, 12.1, 11.8, 11.6),
+    *(11.4, 11.2, 10.9, 10.7, 10.5, 10.3, 10.0, 9.8, 9.6, 9.4),
+)
+"""f_0 of ISO 76, Table 1, at 0.01, 0.02, ... 0.40 (`sfereRadiali` has 15.7 for 15.9 at 0.06)."""
+
+
+def test_dynamic_ratings_of_balls() -> None:
+    """C_r = 1.3 f_c Z^(2/3) D^1.8 of 6 balls of 10 mm."""
+    for k, factor in enumerate(BALLS, 1):
+        bearing = Bearing.from_drawing(6, 10e-3, 1.0 / k, 5.2e-3, 5.3e-3, contact_angle=0.0)
+        printed = 1.3 * factor * 6 ** (2 / 3) * 10**1.8
+        assert dynamic_load_rating(bearing) == pytest.approx(printed, rel=2.5e-3), k
+
+
+def test_dynamic_ratings_of_rollers() -> None:
+    """C_r = 1.1 f_c (l cos α)^(7/9) Z^(3/4) D^(29/27) of 6 rollers of 10 × 15 mm."""
+    for k, factor in enumerate(ROLLERS, 1):
+        bearing = Bearing.cylindrical(6, 10e-3, 15e-3, 1.0 / k)
+        printed = 1.1 * factor * 15 ** (7 / 9) * 6**0.75 * 10 ** (29 / 27)
+        assert dynamic_load_rating(bearing) == pytest.approx(printed, rel=2e-3), k
+
+
+def test_static_factors() -> None:
+    for k, factor in enumerate(STATIC, 1):
+        assert float(static_factor(0.01 * k)) == pytest.approx(factor, abs=0.065), k
+    assert math.isclose(float(static_factor(0.095)), 16.45, abs_tol=0.065)

@@ -100,6 +100,7 @@ def hidden_of(bearing: Bearing) -> list[str]:
     choices = {
         "row": len(bearing.all_rows) > 1,
         "numbers": bearing.kind.has_drawing,
+        "ball_material": bearing.is_drawn,
         "balls": not bearing.kind.mass_unknown,
     }
     return hidden + [name for name, shown in choices.items() if not shown]

@@ -425,7 +425,7 @@ def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[s
 
 
 def _of_flanges(letters: str, basic: str, suffix: str) -> list[str]:
-    """What is not reckoned with of the flanges and the inside of cylindrical rollers."""
+    """Words on the flanges and the inside of cylindrical rollers."""
     assumed = []
     if letters in ("NJ", "NUP"):
         ways = "one way" if letters == "NJ" else "both ways"

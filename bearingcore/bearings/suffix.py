@@ -27,7 +27,7 @@ BEFORE = (
     r"(?:(?!NUP|NU|NJ|NF)(?!HCB?[ -])[A-Z]{2,8}[ -]+)?"  # the maker
     r"(?P<ceramic>(?:HCB?|3NC|5S)[ -]?)?"
 )
-"""What may stand before letters and number."""
+"""Text that may stand before letters and number."""
 
 _PAIR = re.compile(
     r"D(?P<letter>[BFT])(?:C(?P<play>\d{2,4}))?|(?P<words>BACK|FACE)[ -]TO[ -](?P=words)|TANDEM"
@@ -70,7 +70,7 @@ CERAMIC_ROLLERS = "steel rollers: the stiffness of ceramic ones is not known her
 
 
 class Suffix(NamedTuple):
-    """What the letters around a number say.
+    """Meaning of the letters around a number.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def in_small_letters(name: str) -> str:
 
 
 def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
-    """What `text`, behind the number of a `kind` of bearing, says; `count` of them are named.
+    """Meaning of `text`, behind the number of a `kind` of bearing; `count` of them are named.
 
     Raises
     ------

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
 """Groove radii over the ball diameter where none are given: the widest that ISO 281 rates fully."""
 
-_ALWAYS = ("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance")
+_ALWAYS = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance"),
+    "density",
+)
 
 SECTION = Picture(
     element="ball",

@@ -148,7 +148,8 @@ class Designation:
         """The same as an entry of a list of bearings."""
         kind = self.kind[0].upper() + self.kind[1:]
         if self.bearing.arrangement:
-            kind = f"Two {self.kind}s, {self.bearing.arrangement.replace('-', ' ')}"
+            stand = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
+            kind = f"Two {self.kind}s, {stand}"
         tapered = self.kind == TAPERED
         digits = 3 if tapered else 5
         note = (

@@ -305,8 +305,8 @@ _BEARING = (
     Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _near,
           "From the shaft's middle to the bottom of the inner groove."),
     Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "Balls", _near,
-          "Mass of a ball over its volume; 7800 kg/m³ for steel, 3200 for silicon nitride. It counts"
-          " where balls have mass."),
+          "Mass of a ball over its volume; 7800 kg/m³ for steel, 3200 for silicon nitride. It "
+          "counts where balls have mass."),
 )
 
 _BODIES = (

@@ -34,7 +34,7 @@ _PAIR = re.compile(
 )
 _SETS = re.compile(r"[TQ][BF][CT]|(?<![A-Z])[TQ]T(?![A-Z])|D(?:[BF][DT]|T[DT])(?![A-Z])")
 _TWO = re.compile(r"\b(?:PAIR|PAAR|SET|MATCHED|DUPLEX)\b")
-_UNIVERSAL_PAIR = re.compile(r"DU(?![A-Z])")
+_UNIVERSAL_PAIR = re.compile(r"(?<!D)DU")
 _SPACER = re.compile(r"\+|^T\d{2,3}\b")
 _CLEARANCE = re.compile(r"C([2345N])(?!\d)")
 _CERAMIC = re.compile(r"(?<![A-Z])(?:HC5?|SN24)(?=$|[^A-Z]|C[2345N])")
@@ -45,6 +45,7 @@ _ANGULAR = re.compile(
     r"[ /-]*(?P<matched>[CG][ABC])?[ /-]*(?P<brass>Y)?"
 )
 _REINFORCED = re.compile(r"[ /-]*E")
+_OF_ANOTHER_MAKER = re.compile(r"[ /-]*BEA")
 
 _STEEP = re.compile(r"[ /-]*[BCD]")
 
@@ -147,6 +148,8 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         return said
     if _PRECISION.match(rest):
         raise refused(PRECISION)
+    if _OF_ANOTHER_MAKER.match(rest):
+        raise refused(REINFORCED)
     letters = _ANGULAR.match(rest)
     assert letters is not None  # all of it is optional
     matched = letters["matched"] or ""

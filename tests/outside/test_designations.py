@@ -126,6 +126,8 @@ REFUSED = {
     "2x7208": "DB",
     "7208 pair": "DB",
     "7208 BDU": "DB",
+    "7208A5TRDUMP3": "DB",
+    "7208BEAT85": "reinforced",
     "7208 BECBP TBT": "sets",
     "7208 QBCB": "sets",
     "7208 DBT": "sets",

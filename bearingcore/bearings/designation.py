@@ -241,7 +241,8 @@ def read_designation(text: str) -> Designation:
         )
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
-    rated = _reinforced(name, basic, said.inside) or (size.dynamic_rating, size.static_rating)
+    if said.inside:
+        size = _reinforced(name, basic, size, said.inside)
     assumed: list[str] = []
     angle = _angle(kind, size, said.angle, assumed)
     none = kind in (ANGULAR_CONTACT, TAPERED)
@@ -254,7 +255,7 @@ def read_designation(text: str) -> Designation:
             f"a clearance of {number(1e6 * play)} µm, the middle of {clearance_class} "
             f"({number(1e6 * least)} to {number(1e6 * most)} µm)"
         )
-    inside = _inside(kind, size, rated, angle) if said.inside else inside_of(basic)
+    inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
     bearing = _built(kind, inside, angle, play, assumed)
     if kind == ROLLERS:
         assumed += _of_flanges(form["letters"] or "", basic, suffix)
@@ -268,7 +269,7 @@ def read_designation(text: str) -> Designation:
     elif said.has_better_steel:
         assumed.append("no load rating: that of X-life is its maker's")
     bearing = _mounted(bearing, kind, size, said, assumed)
-    rating = rated[0] * (1.0 if said.inside else _rating_at(kind, inside, angle))
+    rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
     return Designation(
         in_small_letters(name),
@@ -318,11 +319,12 @@ def inside_of(basic: str) -> Inside:
         ]
         ratings_of_all = (size.static_rating, *alike)
         return rollers_from_raceways(size.inner_raceway, size.outer_raceway, ratings_of_all)
-    return _inside(kind, size, (size.dynamic_rating, size.static_rating), _rated_angle(kind, size))
+    return _inside(kind, size, _rated_angle(kind, size))
 
 
-def _inside(kind: str, size: Boundary, rated: tuple[float, float], angle: float) -> Inside:
-    """Balls or tapered rollers with ratings C and C_0 [N] at a contact angle [rad]."""
+def _inside(kind: str, size: Boundary, angle: float) -> Inside:
+    """Balls or tapered rollers with the ratings of a line of the table at an angle [rad]."""
+    rated = size.dynamic_rating, size.static_rating
     if kind == TAPERED:
         return tapered_rollers_from_ratings(size.bore, size.outside_diameter, *rated, angle)
     return balls_from_ratings(
@@ -330,20 +332,21 @@ def _inside(kind: str, size: Boundary, rated: tuple[float, float], angle: float)
         size.outside_diameter,
         *rated,
         angle,
-        None if math.isnan(size.factor) or rated[0] != size.dynamic_rating else size.factor,
+        None if math.isnan(size.factor) else size.factor,
         kind == SELF_ALIGNING,
     )
 
 
-def _reinforced(name: str, basic: str, inside: str) -> tuple[float, float] | None:
-    """C and C_0 [N] of a reinforced inside, None of the plain one; refused where not tabulated."""
-    if not inside:
-        return None
+def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
+    """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
     found = [row[inside] for row in _rows("reinforced.csv") if row["designation"] == basic]
     if not found or not found[0]:
         raise checks.refuse("designation", name, REINFORCED)
-    C, C_0 = found[0].split()
-    return 1e3 * float(C), 1e3 * float(C_0)
+    C, C_0, *Y_1 = map(float, found[0].split())
+    axial = Y_1[0] if Y_1 else size.axial_factor
+    return size._replace(
+        dynamic_rating=1e3 * C, static_rating=1e3 * C_0, axial_factor=axial, factor=math.nan
+    )
 
 
 @cache

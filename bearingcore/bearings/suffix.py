@@ -45,6 +45,7 @@ _ANGULAR = re.compile(
     r"[ /-]*(?P<matched>[CG][ABC])?[ /-]*(?P<brass>Y)?"
 )
 _REINFORCED = re.compile(r"[ /-]*E")
+_SEALED = re.compile(r"2?RS|LL[UB]|DDU")
 _OF_ANOTHER_MAKER = re.compile(r"[ /-]*BEA")
 
 _STEEP = re.compile(r"[ /-]*[BCD]")
@@ -67,6 +68,7 @@ REINFORCED = (
     "the number without E, or the dimensions: no ratings of this reinforced inside are known, and "
     "its balls are others than those of the plain one"
 )
+SEALED = "the open one: sealed self-aligning bearings have smaller balls, which are not known here"
 CERAMIC_ROLLERS = "steel rollers: the stiffness of ceramic ones is not known here"
 
 
@@ -140,8 +142,12 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
     )
     if said.is_ceramic and kind in (ROLLERS, TAPERED):
         raise refused(CERAMIC_ROLLERS)
-    if kind in (DEEP_GROOVE, SELF_ALIGNING) and _REINFORCED.match(rest):
-        if kind == SELF_ALIGNING or not re.match(r"[ /-]*ETN9", rest):
+    if kind == SELF_ALIGNING and _SEALED.search(rest):
+        raise refused(SEALED)
+    if kind == SELF_ALIGNING and _REINFORCED.match(rest):
+        return said._replace(inside="E")
+    if kind == DEEP_GROOVE and _REINFORCED.match(rest):
+        if not re.match(r"[ /-]*ETN9", rest):
             raise refused(REINFORCED)
         return said._replace(inside="ETN9")
     if kind != ANGULAR_CONTACT:

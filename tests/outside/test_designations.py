@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from bearingcore.bearings import ratings
 from bearingcore.bearings.designation import boundaries, read_designation
 from bearingcore.errors import FieldError
 
@@ -139,11 +140,39 @@ REFUSED = {
     "30308T72 J2/QDBC220": "spacers",
     "7301 BECBP": "reinforced",
     "6208 E": "reinforced",
-    "1208 ETN9": "reinforced",
+    "1214 ETN9": "reinforced",
+    "2205 E-2RS1TN9": "sealed",
+    "2208-2RS": "sealed",
     "7008 ACD/P4A": "super-precision",
     "7208 CB": "super-precision",
     "NU 208 ECP/HC5": "steel rollers",
 }
+
+
+@pytest.mark.parametrize(
+    ("name", "dynamic", "static", "axial"),
+    [
+        ("1208 ETN9", 19.9, 6.95, 2.9),
+        ("2208 ETN9", 31.9, 10.0, 2.2),
+        ("2208 EKTN9/C3", 31.9, 10.0, 2.2),
+        ("1310 ETN9", 43.6, 14.0, 2.6),
+        ("6205 ETN9", 17.8, 9.8, None),
+    ],
+)
+def test_balls_of_reinforced_insides_give_their_ratings(
+    name: str, dynamic: float, static: float, axial: float | None
+) -> None:
+    """Source: SKF general catalogue, C, C_0 and Y_1; by ISO 76 from the balls found."""
+    found = read_designation(name)
+    b, rows = found.bearing, 1 if axial is None else 2
+    assert found.dynamic_load_rating == pytest.approx(1e3 * dynamic)
+    if axial is not None:
+        assert 0.42 / math.tan(b.contact_angle) == pytest.approx(axial)
+    cosine = math.cos(b.contact_angle)
+    gamma = b.ball_diameter * cosine / b.pitch_diameter
+    factor = ratings.static_factor(gamma, self_aligning=axial is not None)
+    own = ratings.static_rating(factor, b.n_balls, b.ball_diameter, cosine, rows)
+    assert float(own) == pytest.approx(1e3 * static, rel=0.06)
 
 
 @pytest.mark.parametrize("name", REFUSED)

@@ -14,19 +14,23 @@ rollers with steeper cups (B, C, D behind the number) are other bearings, and ar
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
-from typing import NamedTuple
 
 from bearingcore.bearings import ratings
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.catalogue import CatalogueBearing
+from bearingcore.bearings.designation_tables import (
+    Boundary,
+    boundaries,
+    clearance,
+    matched_clearance,
+    rows_of,
+)
 from bearingcore.bearings.inside import (
     Inside,
     accuracy,
@@ -39,7 +43,6 @@ from bearingcore.bearings.self_aligning import USUAL_GROOVE
 from bearingcore.bearings.suffix import (
     ANGULAR_CONTACT,
     BEFORE,
-    CLEARANCE_CLASSES,
     DEEP_GROOVE,
     REINFORCED,
     ROLLERS,
@@ -77,30 +80,6 @@ _ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED: ROWS_OF_ROLLERS} | dict.fro
     (DEEP_GROOVE, SELF_ALIGNING, ROLLERS), 0.0
 )
 """Power of the number of rows in C_r; the rating of the others is that of the whole bearing."""
-
-_CLEARANCE_KIND = {DEEP_GROOVE: "ball", SELF_ALIGNING: "self-aligning", ROLLERS: "roller"}
-
-
-class Boundary(NamedTuple):
-    """A line of the table of designations, in SI; what a series does not have is NaN."""
-
-    bore: float
-    outside_diameter: float
-    width: float
-    dynamic_rating: float
-    static_rating: float
-    factor: float
-    inner_raceway: float
-    outer_raceway: float
-    axial_factor: float
-    cone_width: float
-    cup_width: float
-    thrust_limit: float
-    pressure_center: float
-
-
-_UNITS = Boundary(1e-3, 1e-3, 1e-3, 1e3, 1e3, 1.0, 1e-3, 1e-3, 1.0, 1e-3, 1e-3, 1.0, 1e-3)
-"""Factors from the columns of the table to SI."""
 
 
 @dataclass(frozen=True)
@@ -168,59 +147,6 @@ class Designation:
         return CatalogueBearing(
             self.name, self.bearing, self.dynamic_load_rating, note, self.assumed
         )
-
-
-@cache
-def boundaries() -> Mapping[str, Boundary]:
-    """Boundary dimensions and ratings by basic number."""
-    found = {}
-    for row in _rows("designations.csv"):
-        values = [float(cell) if cell else math.nan for cell in list(row.values())[1:]]
-        scaled = (value * unit for value, unit in zip(values, _UNITS, strict=True))
-        found[row["designation"]] = Boundary(*scaled)
-    return found
-
-
-def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, float]:
-    """Least and greatest radial internal clearance [m] of ISO 5753-1.
-
-    From contact to contact, as a bearing is delivered: fits and warmth take some of it away.
-
-    Parameters
-    ----------
-    kind
-        DEEP_GROOVE, SELF_ALIGNING or ROLLERS.
-    bore
-        [m], cylindrical.
-    clearance_class
-        out of CLEARANCE_CLASSES.
-
-    Raises
-    ------
-    ValueError
-        for a kind or a bore that the table does not have.
-    """
-    checks.choice("clearance class", clearance_class, CLEARANCE_CLASSES)
-    name = _CLEARANCE_KIND[checks.choice("kind", kind, tuple(_CLEARANCE_KIND))]
-    for row in _rows("clearances.csv"):
-        over, up_to = float(row["bore_over_mm"]), float(row["bore_up_to_mm"])
-        if row["kind"] == name and over < 1e3 * bore <= up_to * (1.0 + 1e-9):
-            least, most = map(float, row[clearance_class].split())
-            return 1e-6 * least, 1e-6 * most
-    raise checks.refuse("bore", bore, "6 to 100 mm, where clearance classes are tabulated", "m")
-
-
-def matched_clearance(bore: float, name: str) -> tuple[float, float]:
-    """Least and greatest axial clearance [m] of a pair of matched angular-contact ball bearings.
-
-    Below 0 it is a preload. `bore` in m; `name` is the class, "CA", "CB", "CC", "GA", "GB" or "GC"
-    (SKF). ValueError for a bore that the table does not have.
-    """
-    for row in _rows("matched_clearances.csv"):
-        if float(row["bore_over_mm"]) < 1e3 * bore <= float(row["bore_up_to_mm"]) * (1.0 + 1e-9):
-            least, most = map(float, row[name].split())
-            return 1e-6 * least, 1e-6 * most
-    raise checks.refuse("bore", bore, "6 to 120 mm, where classes of pairs are tabulated", "m")
 
 
 def read_designation(text: str) -> Designation:
@@ -339,7 +265,7 @@ def _inside(kind: str, size: Boundary, angle: float) -> Inside:
 
 def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
     """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
-    found = [row[inside] for row in _rows("reinforced.csv") if row["designation"] == basic]
+    found = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
     if not found or not found[0]:
         raise checks.refuse("designation", name, REINFORCED)
     C, C_0, *Y_1 = map(float, found[0].split())
@@ -347,14 +273,6 @@ def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
     return size._replace(
         dynamic_rating=1e3 * C, static_rating=1e3 * C_0, axial_factor=axial, factor=math.nan
     )
-
-
-@cache
-def _rows(name: str) -> list[dict[str, str]]:
-    """Lines of a table of this package by their headings."""
-    text = resources.files("bearingcore.bearings").joinpath(name).read_text("utf-8")
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines, delimiter=";"))
 
 
 def _basic(letters: str, digits: str) -> str | None:

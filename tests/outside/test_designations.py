@@ -7,7 +7,8 @@ import math
 import pytest
 
 from bearingcore.bearings import ratings
-from bearingcore.bearings.designation import boundaries, read_designation
+from bearingcore.bearings.designation import read_designation
+from bearingcore.bearings.designation_tables import boundaries
 from bearingcore.errors import FieldError
 
 SKF = {

@@ -14,26 +14,27 @@ import pytest
 from bearingcore import Scene, dynamic_load_rating, presets
 from bearingcore.bearings import ratings
 from bearingcore.bearings.designation import (
-    ANGULAR_CONTACT,
     CATALOGUE_ANGLE,
-    CLEARANCE_CLASSES,
-    DEEP_GROOVE,
-    ROLLERS,
-    SELF_ALIGNING,
     SERIES,
-    TAPERED,
-    boundaries,
-    clearance,
     designations,
     inside_of,
     read_designation,
 )
+from bearingcore.bearings.designation_tables import boundaries, clearance
 from bearingcore.bearings.inside import (
     INCH,
     MEASURED,
     OTHER_MAKER,
     balls_from_ratings,
     tapered_rollers_from_ratings,
+)
+from bearingcore.bearings.suffix import (
+    ANGULAR_CONTACT,
+    CLEARANCE_CLASSES,
+    DEEP_GROOVE,
+    ROLLERS,
+    SELF_ALIGNING,
+    TAPERED,
 )
 from bearingcore.errors import FieldError
 from tests.benchmarks.insides import judged

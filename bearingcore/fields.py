@@ -268,10 +268,19 @@ _BEARING = (
           "Radius of the inner groove's cross-section; the closer to the ball, the stiffer."),
     Field("youngs_modulus", "bearing", "Young's modulus", "E", "GPa", "Drawing",
           Range(60.0, 400.0, 1.0, 1.0, 1000.0),
-          "Stiffness of the material of balls and rings; steel has about 207 GPa."),
+          "Stiffness of the material of rings, and of balls that have none of their own; steel has "
+          "about 207 GPa."),
     Field("poisson", "bearing", "Poisson's ratio", "ν", "", "Drawing",
           Range(0.1, 0.45, 0.005, 0.0, 0.49),
           "Narrowing of the material over its stretching; 0.3 for steel."),
+    Field("ball_youngs_modulus", "bearing", "Young's modulus of the balls", "E_b", "GPa", "Drawing",
+          Range(60.0, 400.0, 1.0, 1.0, 1000.0),
+          "Of balls of another material than the rings; 310 GPa for silicon nitride. Left empty "
+          "they are as the rings.", optional=True),
+    Field("ball_poisson", "bearing", "Poisson's ratio of the balls", "ν_b", "", "Drawing",
+          Range(0.1, 0.45, 0.005, 0.0, 0.49),
+          "Of balls of another material than the rings; 0.26 for silicon nitride. Left empty they "
+          "are as the rings.", optional=True),
     Field("contact_angle", "bearing", "Contact angle", "α_0", "°", "Contact",
           Range(0.0, 45.0, 0.5, 0.0, 80.0),
           "Angle between the line through both contacts of an unloaded ball and the plane of the "
@@ -295,8 +304,9 @@ _BEARING = (
           "From the shaft's middle to the bottom of the outer groove, where defects are cut."),
     Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _near,
           "From the shaft's middle to the bottom of the inner groove."),
-    Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "", _near,
-          "Mass of a ball over its volume; 7800 kg/m³ for steel."),
+    Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "Balls", _near,
+          "Mass of a ball over its volume; 7800 kg/m³ for steel, 3200 for silicon nitride. It "
+          "counts where balls have mass."),
 )
 
 _BODIES = (

@@ -2,7 +2,8 @@
 // of this file; the picture is SVG made by the server, with a group for each dimension.
 
 const LARGEST_TABLE = 1e6  // bytes
-const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor" }
+const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor",
+  ball_youngs_modulus_gpa: "load_deflection_factor", ball_poisson: "load_deflection_factor" }
 
 export function render({ model }) {
   const about = element("p", { class: "about", "aria-hidden": "true" })
@@ -42,7 +43,7 @@ export function render({ model }) {
   const boxes = model.spec.groups.map((group) => panel.group_box(group))
   const fields = panel.form({ class: "fields", "aria-label": "Dimensions of the bearing" },
     element("div", { class: "called" }, element("label", { for: "bearing-name" }, "Name"), called),
-    panel.choice("kind"), panel.choice("numbers"), waits, ...boxes)
+    panel.choice("kind"), panel.choice("numbers"), panel.choice("ball_material"), waits, ...boxes)
   // A table of bearings, which the search in the side panel then finds too.
   const { file: name_of_file, template, needed } = model.spec.table
   const upload = element("div", { class: "upload own-table" })

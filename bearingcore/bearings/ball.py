@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
 """Groove radii over the ball diameter where none are given: the widest that ISO 281 rates fully."""
 
-_ALWAYS = ("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance")
+_ALWAYS = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "radial_clearance"),
+    "density",
+)
 
 SECTION = Picture(
     element="ball",
@@ -73,8 +76,9 @@ class Ball(Kind):
         return bearing.replace(rows=()) if bearing.kind.has_drawing else drawn(bearing)
 
     def inputs(self, bearing: Bearing) -> tuple[str, ...]:
-        given = drawing.OPTIONAL_FIELDS if bearing.is_drawn else drawing.Derived._fields
-        return (*_ALWAYS, *given)
+        if not bearing.is_drawn:
+            return (*_ALWAYS, *drawing.Derived._fields)
+        return (*_ALWAYS, *drawing.OPTIONAL_FIELDS, *drawing.BALL_MATERIAL)
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         drawn = ("groove_center_radius", "raceway_radii", "outer_conformity", "inner_conformity")
@@ -103,6 +107,8 @@ class Ball(Kind):
             bearing.contact_angle,
             bearing.youngs_modulus,
             bearing.poisson,
+            bearing.ball_youngs_modulus,
+            bearing.ball_poisson,
         )
 
     def knows_contacts(self, bearing: Bearing) -> bool:

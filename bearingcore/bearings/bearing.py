@@ -13,6 +13,7 @@ load-deflection factor of a ball            | K      | load_deflection_factor   
 outer, inner raceway radius (groove bottom) | R_o, R_i | outer_, inner_raceway_radius | m
 inner, outer groove radius, if known        | r_i, r_o | inner_, outer_groove_radius | m
 Young's modulus and Poisson's ratio, if known | E, ν | youngs_modulus, poisson  | Pa,
+the same of balls of another material       | E_b, ν_b | ball_youngs_modulus, ball_poisson | Pa,
 density and mass of a ball                  | ρ, m   | density, ball_mass       | kg/m³, kg
 """
 
@@ -29,13 +30,11 @@ from bearingcore.bearings import KINDS, drawing, inside, roller, self_aligning, 
 from bearingcore.bearings.hertz import RaceContact
 from bearingcore.bearings.kind import Kind, kind_named
 from bearingcore.bearings.line_contact import RollerContact
+from bearingcore.bearings.material import BALL_MATERIALS, STEEL_DENSITY, BallMaterial
 from bearingcore.bearings.rows import LENGTHS, MOST_ROWS, Row, pair, spaced
 from bearingcore.common import checks, scene_file
 from bearingcore.common.lazy import cached_property
 from bearingcore.errors import FieldError
-
-STEEL_DENSITY = 7800.0
-"""Density [kg/m³] of balls of bearing steel."""
 
 ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
 """Fields that may be estimates."""
@@ -78,6 +77,10 @@ class Bearing:
     density
         of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
         it.
+    ball_youngs_modulus, ball_poisson
+        E [Pa] and ν of balls of another material than the rings, as of a hybrid bearing, whose
+        `youngs_modulus` and `poisson` are then those of the rings; see `with_balls_of`. None: as of
+        the rings. Only with a drawing: K given as a number is that of both materials together.
     kind
         a `Kind` or its name, out of `bearingcore.bearings.KINDS`. Empty: the one whose numbers
         these are, as in files that do not say it.
@@ -113,6 +116,8 @@ class Bearing:
     density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
     kind: Kind = field(default="")  # type: ignore[assignment]  # a name becomes its kind
     estimated: tuple[str, ...] = field(default=(), metadata=scene_file.LEFT_OUT)
+    ball_youngs_modulus: float | None = None
+    ball_poisson: float | None = None
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -141,8 +146,12 @@ class Bearing:
             for race in ("inner", "outer"):
                 name = f"{race}_groove_radius"
                 keep(name, drawing.check_groove(race, getattr(self, name), self.ball_diameter))
-            keep("youngs_modulus", drawing.check_youngs_modulus(self.youngs_modulus))
-            keep("poisson", drawing.check_poisson(self.poisson))
+        for name in ("youngs_modulus", "poisson", *drawing.BALL_MATERIAL):
+            held = getattr(self, name)
+            if self.is_drawn and (held is not None or name not in drawing.BALL_MATERIAL):
+                keep(name, drawing.check_material(name, held))
+            elif held is not None:
+                raise checks.refuse(name, held, "None, unless the bearing has groove radii")
 
         rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
         object.__setattr__(self, "rows", tuple(rows))
@@ -295,6 +304,20 @@ class Bearing:
         return self.rows[1].place - self.rows[0].place if len(self.rows) == 2 else None
 
     @property
+    def pressure_centers_apart(self) -> float | None:
+        """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
+
+        With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+        """
+        if self.arrangement not in ("back-to-back", "face-to-face"):
+            return None
+        meets = [
+            row.place - row.facing * 0.5 * own.pitch_diameter * math.tan(own.contact_angle)
+            for row, own in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
+        ]
+        return abs(meets[1] - meets[0])
+
+    @property
     def preload(self) -> float | None:
         """Displacement [m] of the inner grooves of a pair against each other; None of any other."""
         if not self.arrangement:
@@ -404,6 +427,8 @@ class Bearing:
         youngs_modulus: float = 210e9,
         poisson: float = 0.3,
         groove_center_radius: float | None = None,
+        ball_youngs_modulus: float | None = None,
+        ball_poisson: float | None = None,
     ) -> Self:
         """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
 
@@ -422,9 +447,11 @@ class Bearing:
             Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
             Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
         youngs_modulus, poisson
-            E [Pa] and ν of balls and rings; steel by default.
+            E [Pa] and ν of the rings; steel by default.
         groove_center_radius
             r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
+        ball_youngs_modulus, ball_poisson
+            E [Pa] and ν of the balls; None: as of the rings.
 
         Raises
         ------
@@ -449,6 +476,8 @@ class Bearing:
             diametral_clearance=diametral_clearance,
             youngs_modulus=youngs_modulus,
             poisson=poisson,
+            ball_youngs_modulus=ball_youngs_modulus,
+            ball_poisson=ball_poisson,
         )
         if groove_center_radius is not None:
             fields["groove_center_radius"] = groove_center_radius
@@ -462,6 +491,40 @@ class Bearing:
         """
         still = tuple(name for name in self.estimated if name not in changes)
         return cast(Self, self.kind.replaced(self, {"estimated": still} | changes))
+
+    def with_balls_of(self, material: BallMaterial) -> Self:
+        """The bearing with balls of a material and their density; ValueError without a drawing."""
+        return self.replace(
+            ball_youngs_modulus=material.youngs_modulus,
+            ball_poisson=material.poisson,
+            density=material.density,
+        )
+
+    @property
+    def rating_unknown(self) -> str:
+        """Words in which a load rating by ISO 281 is refused; empty where it is computed."""
+        hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
+        return self.kind.rating_unknown or (hybrid if self.is_hybrid else "")
+
+    @property
+    def ball_material(self) -> str:
+        """Name out of `BALL_MATERIALS` that the balls are of; empty where it is none of them.
+
+        The density does not count: it may be set apart from the stiffness.
+        """
+        own = (self.ball_youngs_modulus, self.ball_poisson)
+        if not self.is_hybrid:
+            return "steel"
+        return next((name for name, one in BALL_MATERIALS.items() if one[:2] == own), "")
+
+    @property
+    def is_hybrid(self) -> bool:
+        """True where the balls are of another material than the rings."""
+        own = (self.ball_youngs_modulus, self.ball_poisson)
+        return any(
+            one not in (None, ring)
+            for one, ring in zip(own, (self.youngs_modulus, self.poisson), strict=True)
+        )
 
     @property
     def is_drawn(self) -> bool:

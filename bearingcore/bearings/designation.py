@@ -1,8 +1,9 @@
-"""A bearing by its designation: "6208-2RS/C3", "7208 BEP", "NU 208", "2206", "30206 DB".
+"""A bearing by its designation: "6208-2RS/C3", "7208 BECBP DB", "NU 208", "2206", "30206 DB".
 
 The basic number gives boundary dimensions (ISO 15, ISO 355), the suffix the contact angle of
-angular-contact bearings, the class of radial clearance (ISO 5753-1) and the arrangement of two
-tapered roller bearings. The inside is estimated from the ratings of a catalogue, see
+angular-contact bearings, a reinforced inside, the class of clearance (ISO 5753-1), balls of silicon
+nitride and the arrangement of two angular-contact or tapered bearings: see
+`bearingcore.bearings.suffix`. The inside is estimated from the ratings of a catalogue, see
 `bearingcore.bearings.inside`: the bearing says so itself (`Bearing.estimated`).
 
 Understood are deep groove bearings 60, 62, 63, 64, 160, 618, 619, angular-contact ones 70, 72, 73,
@@ -13,19 +14,23 @@ rollers with steeper cups (B, C, D behind the number) are other bearings, and ar
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
-from typing import NamedTuple
 
 from bearingcore.bearings import ratings
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.catalogue import CatalogueBearing
+from bearingcore.bearings.designation_tables import (
+    Boundary,
+    boundaries,
+    clearance,
+    matched_clearance,
+    rows_of,
+)
 from bearingcore.bearings.inside import (
     Inside,
     accuracy,
@@ -33,13 +38,23 @@ from bearingcore.bearings.inside import (
     rollers_from_raceways,
     tapered_rollers_from_ratings,
 )
+from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.bearings.self_aligning import USUAL_GROOVE
+from bearingcore.bearings.suffix import (
+    ANGULAR_CONTACT,
+    BEFORE,
+    DEEP_GROOVE,
+    REINFORCED,
+    ROLLERS,
+    SELF_ALIGNING,
+    TAPERED,
+    Suffix,
+    in_small_letters,
+    is_steep,
+    read_suffix,
+)
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
-
-DEEP_GROOVE, ANGULAR_CONTACT = "deep groove ball bearing", "angular-contact ball bearing"
-SELF_ALIGNING, ROLLERS = "self-aligning ball bearing", "cylindrical roller bearing"
-TAPERED = "tapered roller bearing"
 
 SERIES: Mapping[str, str] = {
     **dict.fromkeys(("60", "62", "63", "64", "160", "618", "619"), DEEP_GROOVE),
@@ -53,48 +68,18 @@ SERIES: Mapping[str, str] = {
 CATALOGUE_ANGLE = math.radians(30.0)
 """Contact angle for which the table has the ratings of angular-contact bearings."""
 
-ANGLES = {"ACD": 25, "AC": 25, "A5": 25, "CD": 15, "A": 30, "B": 40, "C": 15, "E": 25}
-"""Contact angle [degrees] by the letters behind the number; the longer ones first."""
-
-CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
-
-ROWS_OF_ROLLERS = 7.0 / 9.0
-"""Power with which C_r of ISO 281 grows with the rows of rollers."""
+ROWS_OF_BALLS, ROWS_OF_ROLLERS = 0.7, 7.0 / 9.0
+"""Powers with which C_r of ISO 281 grows with the rows of balls and of rollers."""
 
 LONGEST_DESIGNATION = 60
 
 _FORM = re.compile(
-    r"(?:(?!NUP|NU|NJ|NF)[A-Z]{2,8}[ -]+)?"  # the maker
-    r"(?P<letters>NUP|NU|NJ|NF|N|B|HR)?[ -]?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
+    BEFORE + r"(?P<letters>NUP|NU|NJ|NF|N|B|HR)?[ -]?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
 )
-_CLEARANCE = re.compile(r"C([2345N])(?!\d)")
-_ANGLE = re.compile(r"[ /-]*(ACD|AC|A5|CD|A|B|C(?![2345N])|E)")
-
-_PAIR = re.compile(r"D(?P<letter>[BF])|(?P<words>BACK|FACE)[ -]TO[ -](?P=words)")
-_STEEP = re.compile(r"[ /-]*[BCD]")
-
-_CLEARANCE_KIND = {DEEP_GROOVE: "ball", SELF_ALIGNING: "self-aligning", ROLLERS: "roller"}
-
-
-class Boundary(NamedTuple):
-    """A line of the table of designations, in SI; what a series does not have is NaN."""
-
-    bore: float
-    outside_diameter: float
-    width: float
-    dynamic_rating: float
-    static_rating: float
-    factor: float
-    inner_raceway: float
-    outer_raceway: float
-    axial_factor: float
-    cone_width: float
-    cup_width: float
-    thrust_limit: float
-
-
-_UNITS = Boundary(1e-3, 1e-3, 1e-3, 1e3, 1e3, 1.0, 1e-3, 1e-3, 1.0, 1e-3, 1e-3, 1.0)
-"""Factors from the columns of the table to SI."""
+_ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED: ROWS_OF_ROLLERS} | dict.fromkeys(
+    (DEEP_GROOVE, SELF_ALIGNING, ROLLERS), 0.0
+)
+"""Power of the number of rows in C_r; the rating of the others is that of the whole bearing."""
 
 
 @dataclass(frozen=True)
@@ -113,13 +98,16 @@ class Designation:
         boundary dimensions [m] by ISO 15, of tapered rollers by ISO 355: T of one bearing.
     dynamic_load_rating
         C_r [N] of the catalogue, at the contact angle of the designation; of a pair that of both
-        rows, by ISO 281.
+        rows, by ISO 281. None where it is not known: of hybrid bearings, and of a class of steel
+        that its maker rates higher.
     clearance_class
         out of CLEARANCE_CLASSES; empty for angular-contact and tapered bearings, which have none.
     bearing
         with estimated inside dimensions.
     assumed
         what the designation does not say, in words.
+    reinforced
+        the inside by its letters, where it is not the plain one of the number: "BECB".
     """
 
     name: str
@@ -128,17 +116,19 @@ class Designation:
     bore: float
     outside_diameter: float
     width: float
-    dynamic_load_rating: float
+    dynamic_load_rating: float | None
     clearance_class: str
     bearing: Bearing
     assumed: tuple[str, ...]
+    reinforced: str = ""
 
     @property
     def entry(self) -> CatalogueBearing:
         """The same as an entry of a list of bearings."""
         kind = self.kind[0].upper() + self.kind[1:]
-        if self.bearing.rows:
-            kind = f"Two {self.kind}s, {self.bearing.arrangement.replace('-', ' ')}"
+        if self.bearing.arrangement:
+            stand = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
+            kind = f"Two {self.kind}s, {stand}"
         tapered = self.kind == TAPERED
         digits = 3 if tapered else 5
         note = (
@@ -147,51 +137,16 @@ class Designation:
             f"{number(1e3 * self.width, 4)} mm. Estimated, as makers do not print it: "
             f"{self.bearing.n_balls} {self.bearing.kind.elements} of "
             f"{number(1e3 * self.bearing.ball_diameter, digits)} mm, from the load ratings of the "
-            f"JTEKT (Koyo) catalogue. {accuracy(tapered)}"
+        )
+        note += (
+            f"SKF catalogue for the reinforced inside ({self.reinforced}). How good that is has "
+            "not been measured, and makers differ: count the balls."
+            if self.reinforced
+            else f"JTEKT (Koyo) catalogue; others print up to 13 % more. {accuracy(tapered)}"
         )
         return CatalogueBearing(
             self.name, self.bearing, self.dynamic_load_rating, note, self.assumed
         )
-
-
-@cache
-def boundaries() -> Mapping[str, Boundary]:
-    """Boundary dimensions and ratings by basic number."""
-    found = {}
-    for row in _rows("designations.csv"):
-        values = [float(cell) if cell else math.nan for cell in list(row.values())[1:]]
-        scaled = (value * unit for value, unit in zip(values, _UNITS, strict=True))
-        found[row["designation"]] = Boundary(*scaled)
-    return found
-
-
-def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, float]:
-    """Least and greatest radial internal clearance [m] of ISO 5753-1.
-
-    From contact to contact, as a bearing is delivered: fits and warmth take some of it away.
-
-    Parameters
-    ----------
-    kind
-        DEEP_GROOVE, SELF_ALIGNING or ROLLERS.
-    bore
-        [m], cylindrical.
-    clearance_class
-        out of CLEARANCE_CLASSES.
-
-    Raises
-    ------
-    ValueError
-        for a kind or a bore that the table does not have.
-    """
-    checks.choice("clearance class", clearance_class, CLEARANCE_CLASSES)
-    name = _CLEARANCE_KIND[checks.choice("kind", kind, tuple(_CLEARANCE_KIND))]
-    for row in _rows("clearances.csv"):
-        over, up_to = float(row["bore_over_mm"]), float(row["bore_up_to_mm"])
-        if row["kind"] == name and over < 1e3 * bore <= up_to * (1.0 + 1e-9):
-            least, most = map(float, row[clearance_class].split())
-            return 1e-6 * least, 1e-6 * most
-    raise checks.refuse("bore", bore, "6 to 100 mm, where clearance classes are tabulated", "m")
 
 
 def read_designation(text: str) -> Designation:
@@ -205,17 +160,19 @@ def read_designation(text: str) -> Designation:
     name = " ".join(text.upper().replace("–", "-").split())
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
-    if form is None or basic is None or _is_steep(basic, form["suffix"] or ""):
+    suffix = "" if form is None else form["suffix"] or ""
+    if form is None or basic is None or (_kind_of(basic) == TAPERED and is_steep(suffix)):
         raise checks.refuse(
             "designation", text[:LONGEST_DESIGNATION], f"a bearing of the series {series_words()}"
         )
-    suffix = form["suffix"] or ""
     kind, size = _kind_of(basic), boundaries()[basic]
+    said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
+    if said.inside:
+        size = _reinforced(name, basic, size, said.inside)
     assumed: list[str] = []
-    angle = _angle(kind, size, suffix, assumed)
-    given = _CLEARANCE.search(suffix)
+    angle = _angle(kind, size, said.angle, assumed)
     none = kind in (ANGULAR_CONTACT, TAPERED)
-    clearance_class = "" if none else f"C{given[1]}" if given else "CN"
+    clearance_class = "" if none else said.clearance_class or "CN"
     play = 0.0
     if clearance_class:
         least, most = clearance(kind, size.bore, clearance_class)
@@ -224,24 +181,41 @@ def read_designation(text: str) -> Designation:
             f"a clearance of {number(1e6 * play)} µm, the middle of {clearance_class} "
             f"({number(1e6 * least)} to {number(1e6 * most)} µm)"
         )
-    inside = inside_of(basic)
+    inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
     bearing = _built(kind, inside, angle, play, assumed)
-    rating = size.dynamic_rating * _rating_at(kind, inside, angle)
-    if kind == TAPERED:
-        bearing = _mounted(bearing, size, suffix, assumed)
-        rating *= len(bearing.all_rows) ** ROWS_OF_ROLLERS
+    if kind == ROLLERS:
+        assumed += _of_flanges(form["letters"] or "", basic, suffix)
+    if said.is_ceramic:
+        ceramic = BALL_MATERIALS["silicon nitride"]
+        bearing = bearing.with_balls_of(ceramic)
+        assumed.append(
+            f"balls of silicon nitride with {number(1e-9 * (ceramic.youngs_modulus or 0.0))} GPa; "
+            "their load rating (ISO 20056) is not known here"
+        )
+    elif said.has_better_steel:
+        assumed.append("no load rating: that of X-life is its maker's")
+    bearing = _mounted(bearing, kind, size, said, assumed)
+    rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
+    rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
     return Designation(
-        _PAIR.sub(lambda pair: pair[0].lower() if pair["words"] else pair[0], name),
+        in_small_letters(name),
         basic,
         kind,
         size.bore,
         size.outside_diameter,
         size.width,
-        rating,
+        None if said.is_ceramic or said.has_better_steel else rating,
         clearance_class,
         bearing,
         tuple(assumed),
+        said.inside,
     )
+
+
+def is_known(text: str) -> bool:
+    """Whether a text names a bearing of the table, also one whose suffix is refused."""
+    form = _FORM.fullmatch(" ".join(text.upper().split()))
+    return form is not None and _basic(form["letters"] or "", form["number"]) is not None
 
 
 def designations(beginning: str = "") -> Iterator[str]:
@@ -261,14 +235,6 @@ def series_words() -> str:
 def inside_of(basic: str) -> Inside:
     """Estimated rolling elements of a basic number of the table."""
     size, kind = boundaries()[basic], _kind_of(basic)
-    if kind == TAPERED:
-        return tapered_rollers_from_ratings(
-            size.bore,
-            size.outside_diameter,
-            size.dynamic_rating,
-            size.static_rating,
-            _rated_angle(kind, size),
-        )
     if kind == ROLLERS:
         alike = [
             other.static_rating
@@ -279,23 +245,34 @@ def inside_of(basic: str) -> Inside:
         ]
         ratings_of_all = (size.static_rating, *alike)
         return rollers_from_raceways(size.inner_raceway, size.outer_raceway, ratings_of_all)
+    return _inside(kind, size, _rated_angle(kind, size))
+
+
+def _inside(kind: str, size: Boundary, angle: float) -> Inside:
+    """Balls or tapered rollers with the ratings of a line of the table at an angle [rad]."""
+    rated = size.dynamic_rating, size.static_rating
+    if kind == TAPERED:
+        return tapered_rollers_from_ratings(size.bore, size.outside_diameter, *rated, angle)
     return balls_from_ratings(
         size.bore,
         size.outside_diameter,
-        size.dynamic_rating,
-        size.static_rating,
-        _rated_angle(kind, size),
+        *rated,
+        angle,
         None if math.isnan(size.factor) else size.factor,
         kind == SELF_ALIGNING,
     )
 
 
-@cache
-def _rows(name: str) -> list[dict[str, str]]:
-    """Lines of a table of this package by their headings."""
-    text = resources.files("bearingcore.bearings").joinpath(name).read_text("utf-8")
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines, delimiter=";"))
+def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
+    """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
+    found = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
+    if not found or not found[0]:
+        raise checks.refuse("designation", name, REINFORCED)
+    C, C_0, *Y_1 = map(float, found[0].split())
+    axial = Y_1[0] if Y_1 else size.axial_factor
+    return size._replace(
+        dynamic_rating=1e3 * C, static_rating=1e3 * C_0, axial_factor=axial, factor=math.nan
+    )
 
 
 def _basic(letters: str, digits: str) -> str | None:
@@ -313,11 +290,6 @@ def _kind_of(basic: str) -> str:
     return SERIES[basic[:-2]]
 
 
-def _is_steep(basic: str, suffix: str) -> bool:
-    """Whether letters behind the number of tapered rollers make it another bearing."""
-    return _kind_of(basic) == TAPERED and _STEEP.match(_PAIR.sub("", suffix)) is not None
-
-
 def _rated_angle(kind: str, size: Boundary) -> float:
     """Contact angle [rad] for which the table has the ratings."""
     if kind == SELF_ALIGNING:
@@ -327,15 +299,14 @@ def _rated_angle(kind: str, size: Boundary) -> float:
     return CATALOGUE_ANGLE if kind == ANGULAR_CONTACT else 0.0
 
 
-def _angle(kind: str, size: Boundary, suffix: str, assumed: list[str]) -> float:
-    """Contact angle [rad] of a designation."""
+def _angle(kind: str, size: Boundary, said: float | None, assumed: list[str]) -> float:
+    """Contact angle [rad] of a designation that says an angle [degrees], or none."""
     if kind != ANGULAR_CONTACT:
         return _rated_angle(kind, size)
-    letters = _ANGLE.match(suffix)
-    if letters is None:
+    if said is None:
         assumed.append("a contact angle of 30°, as no letter says it (B is 40°, AC 25°, C 15°)")
         return CATALOGUE_ANGLE
-    return math.radians(ANGLES[letters[1]])
+    return math.radians(said)
 
 
 def _rating_at(kind: str, inside: Inside, angle: float) -> float:
@@ -375,20 +346,71 @@ def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[s
     return made.replace(estimated=estimated)
 
 
-def _mounted(bearing: Bearing, size: Boundary, suffix: str, assumed: list[str]) -> Bearing:
-    """Tapered rollers as the suffix arranges them; adds what is assumed of their mounting.
+def _of_flanges(letters: str, basic: str, suffix: str) -> list[str]:
+    """Words on the flanges and the inside of cylindrical rollers."""
+    assumed = []
+    if letters in ("NJ", "NUP"):
+        ways = "one way" if letters == "NJ" else "both ways"
+        assumed.append(f"no load along the shaft, which the flanges of {letters} carry {ways}")
+    if not basic.startswith("NU10") and not re.match(r"[ /-]*E", suffix):
+        assumed.append("the reinforced inside (E) that makers deliver today")
+    return assumed
 
-    Back to back the cups touch, face to face the cones; rollers are in the middle of their cup.
+
+def _mounted(
+    bearing: Bearing, kind: str, size: Boundary, said: Suffix, assumed: list[str]
+) -> Bearing:
+    """The bearing alone or as the suffix arranges two; adds what is assumed of their mounting.
+
+    Back to back outer rings touch, face to face inner ones. Balls are in the middle of their
+    width. The pressure centres of tapered rollers are `pressure_center` from the back of the cup:
+    the lines of contact, through the middles of the rollers, meet the shaft there.
     """
-    pair = _PAIR.search(suffix)
-    if pair is None:
-        assumed.append("neither clearance nor preload, which are set as it is mounted")
+    if not said.arrangement:
+        if kind == TAPERED:
+            assumed.append("neither clearance nor preload, which are set as it is mounted")
+        elif said.matched:
+            assumed.append(f"no clearance, as {said.matched} is that of two such bearings")
         return bearing
-    back = (pair["letter"] or pair["words"]).startswith("B")
-    distance = size.cup_width if back else 2.0 * size.width - size.cup_width
-    touching = "cups" if back else "cones"
-    assumed.append(
-        f"rows {number(1e3 * distance, 4)} mm apart, as {touching} that touch each other, without "
-        "clearance or preload"
-    )
-    return bearing.paired(distance, "back-to-back" if back else "face-to-face")
+    distance = size.width
+    words = f"rows {number(1e3 * distance, 4)} mm apart, as rings that touch"
+    if said.arrangement == "tandem":
+        assumed.append(words)
+        return bearing.paired(distance, said.arrangement)
+    back = said.arrangement == "back-to-back"
+    reach = bearing.pitch_diameter * math.tan(bearing.contact_angle)
+    if kind == TAPERED:
+        centers = 2.0 * (size.pressure_center if back else size.width - size.pressure_center)
+        distance = centers - reach if back else centers + reach
+        words = (
+            f"pressure centres {number(1e3 * centers, 3)} mm apart, as "
+            f"{'cups' if back else 'cones'} that touch"
+        )
+    bearing, preload, clearance_words = _set(bearing, kind, size, said)
+    assumed.append(f"{words}, {clearance_words}")
+    return bearing.paired(distance, said.arrangement, preload)
+
+
+def _set(bearing: Bearing, kind: str, size: Boundary, said: Suffix) -> tuple[Bearing, float, str]:
+    """A row with its part of the axial clearance of a pair, the preload [m], and both in words.
+
+    Half of the clearance G moves a row from the middle until it touches: tapered rollers by
+    r_L = G/2 tan α, balls up to the free contact angle, sin α_f = sin α0 + G/(2 A0).
+    """
+    play, words = said.axial_play, ""
+    if said.matched:
+        least, most = matched_clearance(size.bore, said.matched)
+        play = 0.5 * (least + most)
+        words = f", the middle of {said.matched} ({number(1e6 * least)} to {number(1e6 * most)} µm)"
+    if not play:
+        return bearing, 0.0, f"without clearance or preload{words}"
+    if play < 0.0:
+        return bearing, -play, f"an axial preload of {number(-1e6 * play)} µm{words}"
+    words = f"an axial clearance of {number(1e6 * play)} µm{words}"
+    if kind == TAPERED:
+        gap = 0.5 * play * math.tan(bearing.contact_angle)
+    else:
+        sine = math.sin(bearing.contact_angle) + 0.5 * play / bearing.groove_center_distance
+        gap = math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2)
+        gap *= bearing.groove_center_distance
+    return bearing.replace(radial_clearance=gap), 0.0, words

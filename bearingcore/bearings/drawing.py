@@ -37,7 +37,10 @@ GROOVES = ("inner_groove_radius", "outer_groove_radius")
 OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""
 
-DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS)
+BALL_MATERIAL = ("ball_youngs_modulus", "ball_poisson")
+"""Those that such a one may have: None where the balls are of the material of the rings."""
+
+DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS, *BALL_MATERIAL)
 """Fields of a `Bearing` that others are derived from."""
 
 
@@ -78,14 +81,11 @@ def check_contact_angle(angle: float) -> float:
     )
 
 
-def check_youngs_modulus(value: float | None) -> float:
-    """Young's modulus [Pa] as a float, else ValueError."""
-    return checks.number("youngs_modulus", value, above=0.0, unit="Pa")  # type: ignore[arg-type]
-
-
-def check_poisson(value: float | None) -> float:
-    """Poisson's ratio as a float, else ValueError."""
-    return checks.number("poisson", value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+def check_material(name: str, value: float | None) -> float:
+    """A Young's modulus [Pa] or a Poisson's ratio as a float, else ValueError."""
+    if name.endswith("modulus"):
+        return checks.number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
+    return checks.number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
 
 
 def faults(values: Mapping[str, float | None]) -> Iterator[FieldError]:
@@ -144,6 +144,8 @@ def derive(
     outer_groove_radius: float,
     youngs_modulus: float,
     poisson: float,
+    ball_youngs_modulus: float | None = None,
+    ball_poisson: float | None = None,
 ) -> Derived:
     """A0, r_d, K and the raceway radii from the drawing (SI, rad).
 
@@ -156,9 +158,10 @@ def derive(
       (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° an outer-race defect of a given angle
       is there 4 % shorter.
     """
+    material = (youngs_modulus, poisson, ball_youngs_modulus, ball_poisson)
     factors = [
         race_contact(
-            race, ball_diameter, pitch_diameter, radius, contact_angle, youngs_modulus, poisson
+            race, ball_diameter, pitch_diameter, radius, contact_angle, *material
         ).load_deflection_factor
         for race, radius in (("inner", inner_groove_radius), ("outer", outer_groove_radius))
     ]
@@ -203,6 +206,8 @@ def fields(
     diametral_clearance: float | None,
     youngs_modulus: float,
     poisson: float,
+    ball_youngs_modulus: float | None = None,
+    ball_poisson: float | None = None,
 ) -> dict[str, Any]:
     """All fields of a `Bearing` but the number of balls; see `Bearing.from_drawing`."""
     D_b = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
@@ -210,15 +215,20 @@ def fields(
         raise checks.refuse(
             "contact_angle", None, "a number [rad], unless diametral_clearance is given"
         )
-    dimensions = {
+    dimensions: dict[str, Any] = {
         "ball_diameter": D_b,
         "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
         "contact_angle": check_contact_angle(0.0 if contact_angle is None else contact_angle),
         "inner_groove_radius": check_groove("inner", inner_groove_radius, D_b),
         "outer_groove_radius": check_groove("outer", outer_groove_radius, D_b),
-        "youngs_modulus": check_youngs_modulus(youngs_modulus),
-        "poisson": check_poisson(poisson),
+        "youngs_modulus": check_material("youngs_modulus", youngs_modulus),
+        "poisson": check_material("poisson", poisson),
+        "ball_youngs_modulus": ball_youngs_modulus,
+        "ball_poisson": ball_poisson,
     }
+    for name in BALL_MATERIAL:
+        if dimensions[name] is not None:
+            check_material(name, dimensions[name])
     derived = derive(**dimensions)
     s = 0.0 if diametral_clearance is None else diametral_clearance
     s = check_clearance(s, dimensions["contact_angle"], derived.groove_center_distance)

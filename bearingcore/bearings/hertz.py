@@ -12,8 +12,10 @@ complete elliptic integrals at 1 − 1/χ²     | K, E   | first_, second_integr
 load-deflection factor of one contact       | K_race | load_deflection_factor   | N/m^1.5
 greatest pressure, in the middle            | p      | greatest_pressure        | Pa
 Young's modulus, Poisson's ratio            | E, ν   | youngs_modulus, poisson  | Pa,
+2/((1 − ν²)/E of the ring + that of the ball) | E*   | modulus                  | Pa
 
-Ball and ring are of one material, the contact is small against the ball, smooth and dry.
+E* is E/(1 − ν²) where ball and ring are of one material. The contact is small against the ball,
+smooth and dry.
 
 Source: Harris, Rolling Bearing Analysis, chapters "Bearing macrogeometry" (curvatures) and
 "Contact stress and deformation" (ellipse, pressure); ISO/TS 16281 for the stiffness of both
@@ -49,7 +51,9 @@ class RaceContact:
     first_integral, second_integral
         complete elliptic integrals K and E of the ellipse.
     youngs_modulus [Pa], poisson
-        of ball and ring.
+        of the ring.
+    ball_youngs_modulus [Pa], ball_poisson
+        of the ball; None: as of the ring.
     """
 
     race: str
@@ -60,6 +64,16 @@ class RaceContact:
     second_integral: float
     youngs_modulus: float
     poisson: float
+    ball_youngs_modulus: float | None = None
+    ball_poisson: float | None = None
+
+    @property
+    def modulus(self) -> float:
+        """E* [Pa], the harmonic mean of E/(1 − ν²) of ring and ball (Hertz)."""
+        E, nu = self.youngs_modulus, self.poisson
+        E_b = E if self.ball_youngs_modulus is None else self.ball_youngs_modulus
+        nu_b = nu if self.ball_poisson is None else self.ball_poisson
+        return 2.0 / ((1.0 - nu**2) / E + (1.0 - nu_b**2) / E_b)
 
     @property
     def load_deflection_factor(self) -> float:
@@ -68,18 +82,16 @@ class RaceContact:
             math.pi
             / math.sqrt(4.5)
             * self.ellipse_ratio
-            * self.youngs_modulus
-            / (1.0 - self.poisson**2)
+            * self.modulus
             * math.sqrt(self.second_integral / (self.curvature_sum * self.first_integral**3))
         )
 
     def semi_axes(self, load: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Semi-axes a (across the rolling) and b (along it) [m] of the ellipse at a load [N].
 
-        a = (2 χ² E / π)^⅓ c and b = a/χ with c = (3 Q (1 − ν²) / (E Σρ))^⅓ (Harris).
+        a = (2 χ² E / π)^⅓ c and b = a/χ with c = (3 Q / (E* Σρ))^⅓ (Harris).
         """
-        compliance = (1.0 - self.poisson**2) / self.youngs_modulus
-        c = np.cbrt(3.0 * np.asarray(load, dtype=float) * compliance / self.curvature_sum)
+        c = np.cbrt(3.0 * np.asarray(load, dtype=float) / (self.modulus * self.curvature_sum))
         a = np.cbrt(2.0 * self.ellipse_ratio**2 * self.second_integral / math.pi) * c
         return a, a / self.ellipse_ratio
 
@@ -103,6 +115,8 @@ def race_contact(
     contact_angle: float,
     youngs_modulus: float,
     poisson: float,
+    ball_youngs_modulus: float | None = None,
+    ball_poisson: float | None = None,
 ) -> RaceContact:
     """The contact of a ball with a race, from the drawing.
 
@@ -114,8 +128,8 @@ def race_contact(
         D_b, D_p, r [m].
     contact_angle
         α0 [rad]; it tilts the race's curvature around the shaft.
-    youngs_modulus, poisson
-        E [Pa] and ν of ball and ring.
+    youngs_modulus, poisson, ball_youngs_modulus, ball_poisson
+        E [Pa] and ν of the ring and of the ball; of the ball None: as of the ring.
 
     Raises
     ------
@@ -157,6 +171,8 @@ def race_contact(
         second_integral=float(ellipe(1.0 - m1)),
         youngs_modulus=youngs_modulus,
         poisson=poisson,
+        ball_youngs_modulus=ball_youngs_modulus,
+        ball_poisson=ball_poisson,
     )
 
 

@@ -56,13 +56,15 @@ class ContactNumbers(NamedTuple):
     """Numbers that all contacts of a row have in common, as `kernels.Contacts` has them.
 
     Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
-    the inner ones [m], load-deflection factor [N/m^exponent] and its exponent.
+    the inner ones [m] and how far along the shaft they are from the place of the row, towards
+    which it faces [m], load-deflection factor [N/m^exponent] and its exponent.
     """
 
     cosine: float
     sine: float
     distance: float
     groove_center_radius: float
+    groove_center_shift: float
     factor: float
     exponent: float
 
@@ -216,6 +218,7 @@ class Kind:
             sine=math.sin(bearing.contact_angle),
             distance=bearing.groove_center_distance,
             groove_center_radius=bearing.groove_center_radius,
+            groove_center_shift=0.0,
             factor=bearing.load_deflection_factor,
             exponent=self.exponent,
         )

@@ -68,11 +68,15 @@ class RollerContact:
         """K [N/m^(10/9)] of this contact alone: each race gives half of what both give."""
         return 2.0 ** (10.0 / 9.0) * series_factor(self.length)
 
+    @property
+    def modulus(self) -> float:
+        """E/(1 − ν²) [Pa]."""
+        return self.youngs_modulus / (1.0 - self.poisson**2)
+
     def greatest_pressure(self, load: ArrayLike) -> NDArray[np.float64]:
         """Pressure [Pa] in the middle at a load [N]: p = (Q E Σρ/(2 π l (1 − ν²)))^½."""
         Q = np.asarray(load, dtype=float)
-        modulus = self.youngs_modulus / (1.0 - self.poisson**2)
-        return np.sqrt(Q * modulus * self.curvature_sum / (2.0 * math.pi * self.length))
+        return np.sqrt(Q * self.modulus * self.curvature_sum / (2.0 * math.pi * self.length))
 
     def semi_axes(self, load: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Half the length and half the width b = 2 Q/(π l p) [m] of the contact at a load [N]."""

@@ -132,7 +132,8 @@ class Roller(Kind):
         )
 
     def inputs(self, bearing: Bearing) -> tuple[str, ...]:
-        return ("n_balls", "ball_diameter", "roller_length", "pitch_diameter", "radial_clearance")
+        sizes = ("n_balls", "ball_diameter", "roller_length", "pitch_diameter", "radial_clearance")
+        return sizes if self.mass_unknown else (*sizes, "density")
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         return ("line_load_deflection_factor",)

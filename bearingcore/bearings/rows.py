@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from bearingcore.bearings.ball import BALL, SECTION, Ball
 from bearingcore.bearings.drawing import check_contact_angle
-from bearingcore.bearings.kind import Variant
+from bearingcore.bearings.kind import ContactNumbers, Variant
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -43,7 +43,9 @@ class Row:
     Parameters
     ----------
     place
-        z_k [m] of its centre along the shaft.
+        z_k [m] along the shaft of the circle on which its balls' centres run; of a self-aligning
+        bearing that of its inner groove's centres. A bearing without rows has its origin at the
+        inner groove's centres, as the paper (Eq. 12).
     facing
         1 or -1: the contact angle counts as it is, or turned round.
     clearance
@@ -222,6 +224,15 @@ class Rows(Ball):
         own = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
         second = (f"second_{name}" for name in own)
         return (*given, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
+
+    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
+        """Those of a row: its inner groove's centres are where the line of contact meets r_d.
+
+        They are (r_d − D_p/2) tan α0 beyond the balls', which of a drawing is (r_i − D_b/2) sin α0.
+        """
+        beyond = bearing.groove_center_radius - 0.5 * bearing.pitch_diameter
+        shift = beyond * math.tan(bearing.contact_angle)
+        return super().contact_numbers(bearing)._replace(groove_center_shift=shift)
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         meet = self.variant(bearing) in ("back-to-back", "face-to-face")

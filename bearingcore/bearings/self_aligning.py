@@ -139,7 +139,7 @@ class SelfAligning(Kind):
         )
 
     def inputs(self, bearing: Bearing) -> tuple[str, ...]:
-        return ("n_balls", *_DRAWN_BY, "radial_clearance")
+        return ("n_balls", *_DRAWN_BY, "radial_clearance", "density")
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         return ("sphere_rows_apart", "load_deflection_factor", "groove_center_distance")

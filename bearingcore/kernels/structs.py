@@ -42,7 +42,7 @@ class Contacts(NamedTuple):
         cage speed of the row over that of the bearing: at cage angle φ a ball is at
         angle + pace φ. The same for all of a row.
     arm
-        axial place z_k of the row over r_d.
+        axial place of the row's inner groove centres over r_d.
     reach
         radius on which the inner groove's centres of the row are, over r_d.
     line_r, line_z

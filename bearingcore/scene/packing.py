@@ -58,7 +58,12 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
             ]
         ),
         pace=each(*(bearing.pace(k) for k in range(len(rows)))),
-        arm=each(*(row.place / lever for row in rows)),
+        arm=each(
+            *(
+                (row.place + row.facing * one.groove_center_shift) / lever
+                for row, one in zip(rows, numbers, strict=True)
+            )
+        ),
         reach=each(*(one.groove_center_radius / lever for one in numbers)),
         line_r=each(*(one.cosine for one in numbers)),
         line_z=each(*(row.facing * one.sine for row, one in zip(rows, numbers, strict=True))),

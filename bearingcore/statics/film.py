@@ -287,7 +287,7 @@ def _film_of(
     for race, contact in contacts.items():
         h = math.nan
         if load > 0.0:
-            modulus = contact.youngs_modulus / (1.0 - contact.poisson**2)
+            modulus = contact.modulus
             radius = rolling_radius(own, race)
             if isinstance(contact, RollerContact):
                 h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)

@@ -397,10 +397,10 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     more where a maker vouches for better steel. Of rows that are unlike it is i^(−0.3) Σ C_k: see
     the head of the module.
 
-    ValueError for self-aligning bearings, whose factors the standard tabulates apart: their rating
-    comes from the catalogue.
+    ValueError for self-aligning bearings, whose factors the standard tabulates apart, and for
+    hybrid ones, which ISO 20056 rates: their rating comes from the catalogue.
     """
-    if words := bearing.kind.rating_unknown:
+    if words := bearing.rating_unknown:
         raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
         return float(

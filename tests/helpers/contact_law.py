@@ -100,6 +100,10 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
         each["A0"] = r_i + r_o - D
         slow = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
         each["pace"] = (1.0 - D * math.cos(angle) / pitch) / (1.0 - slow)
+    if b.kind.name == "rows":  # placed by their balls; the inner grooves are further along the line
+        for row, each in zip(b.all_rows, found, strict=True):
+            beyond = each["reach"] - 0.5 * (row.pitch_diameter or b.pitch_diameter)
+            each["place"] += each["facing"] * beyond * math.tan(each["angle"])
     return found
 
 

@@ -161,6 +161,9 @@ def prepare(scene: dict[str, Any]) -> dict[str, Any]:
             d = path(phi, at) if met else mpf(0)
             c, s, z = mp.cos(phi), mp.sin(phi), mpf(r["place"])
             ca, sa = mp.cos(alpha), r["facing"] * mp.sin(alpha)
+            if len(scene.get("rows", [ONE_ROW])) > 1 and own["ball_diameter"] > A0:
+                # places are those of balls, but of rows on one sphere those of the inner grooves
+                z += (arm - mpf(own["pitch_diameter"]) / 2) * sa / ca
             slack = mpf(b["radial_clearance"]) + mpf(r["clearance"])
             contacts.append(
                 {

@@ -59,7 +59,7 @@ from bearing_explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defect
 from bearing_explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.state.sentences import one_line, sentence_of
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.bearings.drawing import OPTIONAL_FIELDS
+from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
 from bearingcore.bearings.rows import Row
 from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene.floor import MOST_ROWS
@@ -80,7 +80,7 @@ TAB_OF_OLD_LINKS = "load"
 FORMER_TABS = {"sizing": "diagnosis"}
 """Former names of tabs, in links that people have."""
 
-_MAY_BE_NONE = (*OPTIONAL_FIELDS, "roller_length")
+_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
     *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),

@@ -64,14 +64,16 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
 
 
 def held(scene: Scene) -> tuple[Scene, str]:
-    """A scene in which a single row with a contact angle is pushed together, and a sentence on it.
+    """A scene in which rows that face one way are pushed together, and a sentence on it.
 
-    Such a row carries a radial load only with an axial one, and tilts without another bearing on
-    its shaft: both are added where the scene has no axial load. No sentence where nothing is.
+    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one, and
+    tilt without another bearing on the shaft: both are added where the scene has no axial load. No
+    sentence where nothing is.
     """
     bearing, load = scene.bearing, scene.load
     thrust = 2.0 * math.tan(bearing.contact_angle) * math.hypot(load.fx, load.fy)
-    alone = not bearing.rows and "z" in bearing.kind.directions
+    one_way = not bearing.rows or bearing.arrangement == "tandem"
+    alone = one_way and "z" in bearing.kind.directions
     if load.fz != 0.0 or not (alone and thrust > 0.0):
         return scene, ""
     words = (
@@ -100,6 +102,7 @@ def hidden_of(bearing: Bearing) -> list[str]:
     choices = {
         "row": len(bearing.all_rows) > 1,
         "numbers": bearing.kind.has_drawing,
+        "ball_material": bearing.is_drawn,
         "balls": not bearing.kind.mass_unknown,
     }
     return hidden + [name for name, shown in choices.items() if not shown]

@@ -19,6 +19,7 @@ from bearingcore.bearings.catalogue import MOST_BYTES
 from bearingcore.bearings.designation import (
     Designation,
     designations,
+    is_known,
     read_designation,
     series_words,
 )
@@ -73,7 +74,7 @@ class BearingTable:
         """
         text = " ".join(text[:LONGEST_SEARCH].split())
         entries = list(islice(self._found(text), MOST_FOUND))
-        words = "" if entries else f"No match. Known by number are the series {series_words()}."
+        words = "" if entries else _no_match(text)
         return {"text": text, "entries": entries, "words": words}
 
     def _found(self, text: str) -> Iterator[dict[str, Any]]:
@@ -104,6 +105,17 @@ class BearingTable:
             for basic in islice(designations(text), MOST_NUMBERS):
                 yield _estimated(read_designation(basic))
         yield from (entry for rank, entry in ranked if rank == 1)
+
+
+def _no_match(text: str) -> str:
+    """Why a search finds nothing; of a bearing with an unknown suffix what may be written."""
+    if is_known(text):
+        try:
+            read_designation(text)
+        except ValueError as error:
+            words = words_of(error)
+            return f"{words[0].upper()}{words[1:]}."
+    return f"No match. Known by number are the series {series_words()}."
 
 
 def _designation(text: str) -> Designation | None:

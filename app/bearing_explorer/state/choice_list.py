@@ -261,6 +261,23 @@ NUMBERS = Choice(
     not_in_lessons=frozenset({"direct", "drawing"}),
 )
 
+MATERIAL = Choice(
+    "ball_material",
+    "Balls of",
+    "",
+    (
+        Option("steel", "Steel, as the rings", "The balls are of the material of the rings."),
+        Option(
+            "silicon nitride",
+            "Silicon nitride (hybrid bearing)",
+            "Ceramic balls in steel rings: stiffer contacts, and balls of less than half the mass. "
+            "The load rating of steel balls is not theirs.",
+        ),
+    ),
+    first=True,
+    not_in_lessons=frozenset({"steel", "silicon nitride"}),
+)
+
 KIND_OF_VARIANT = {variant.name: kind for kind in KINDS.values() for variant in kind.variants}
 """The kind of bearing that each option of KIND is of."""
 
@@ -273,7 +290,7 @@ KIND = Choice(
     not_in_lessons=frozenset(KIND_OF_VARIANT),
 )
 
-CHOICE_LIST: tuple[Choice, ...] = (KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS)
+CHOICE_LIST: tuple[Choice, ...] = (KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS, MATERIAL)
 """All choices, in the order in which several are taken."""
 
 OF_SCENE = tuple(choice for choice in CHOICE_LIST if choice.of == "scene")
@@ -295,4 +312,5 @@ def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
         **{choice.name: choice.name_of(scene) for choice in OF_SCENE},
         KIND.name: scene.bearing.kind.variant(scene.bearing),
         NUMBERS.name: "drawing" if scene.bearing.is_drawn else "direct",
+        MATERIAL.name: scene.bearing.ball_material,
     }

@@ -54,7 +54,8 @@ from bearingcore import (
     read_floor,
 )
 from bearingcore.bearings.ball import USUAL_GROOVES, drawn
-from bearingcore.bearings.drawing import OPTIONAL_FIELDS
+from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
+from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
 from bearingcore.fields import Range
@@ -387,6 +388,7 @@ class SceneEditor:
         own = {
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
+            "ball_material": self._take_ball_material,
             "kind": self._take_kind,
         }
         if (preset := choice.get("preset", "")) in presets:
@@ -501,8 +503,12 @@ class SceneEditor:
                 f"{number(made.load_deflection_factor / 1e6)}."
             )
         elif how == "direct" and bearing.is_drawn:
-            fields: dict[str, Any] = dict.fromkeys(OPTIONAL_FIELDS)
+            fields: dict[str, Any] = dict.fromkeys((*OPTIONAL_FIELDS, *BALL_MATERIAL))
             self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
+
+    def _take_ball_material(self, name: str) -> None:
+        bearing = self.scene.bearing
+        self._take(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
 
     # A floor from a file
 

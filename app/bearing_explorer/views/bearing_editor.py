@@ -15,7 +15,7 @@ from bearing_explorer.assets import asset_text, scripts
 from bearing_explorer.plots import style
 from bearing_explorer.plots.element_words import elements
 from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.choice_list import KIND, NUMBERS
+from bearing_explorer.state.choice_list import KIND, MATERIAL, NUMBERS
 from bearing_explorer.state.field_values import BEARING_GROUPS, values_of
 from bearing_explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.views.control_view import ControlView, table_of_fields
@@ -75,7 +75,7 @@ class BearingEditor(ControlView):
             + "6205, pump 3;9;7.94;39.04;;0.52;;0.53;0;10;14;\n",
             "needed": ", ".join(NEEDED),
         }
-        spec = {**spec_of(BEARING_GROUPS, KIND, NUMBERS), "table": table}
+        spec = {**spec_of(BEARING_GROUPS, KIND, NUMBERS, MATERIAL), "table": table}
         self.rows = BearingRows(self.forward, spec=spec)
         return self.rows
 
@@ -184,15 +184,6 @@ def _free_angle(bearing: Bearing) -> str:
         return "none: the ring slips through"
 
 
-def _pressure_centers(bearing: Bearing) -> str:
-    """Distance of the points in which the lines of contact of a pair meet the shaft."""
-    distance = bearing.row_distance or 0.0
-    own = [bearing.of_row(row) for row in range(2)]
-    reach = sum(0.5 * one.pitch_diameter * math.tan(one.contact_angle) for one in own)
-    back = bearing.arrangement == "back-to-back"
-    return style.with_prefix(distance + reach if back else abs(distance - reach), "m", 4)
-
-
 class Fact(NamedTuple):
     """A number that follows from the dimensions: its words, and what writes its value.
 
@@ -220,7 +211,7 @@ FACTS = {
         "a<sub>p</sub>",
         "Where the lines of contact of both rows meet the shaft: the farther apart, the stiffer "
         "against tilt.",
-        of_all=_pressure_centers,
+        of_all=_length("pressure_centers_apart", 4),
     ),
     "sphere_rows_apart": Fact(
         "Rows apart",

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
@@ -145,7 +146,8 @@ def plausible_offsets(
     clearance
         radial clearance [m], or None: that of the bearing, known to its half.
     """
-    middle = TYPICAL_LOAD * dynamic_load_rating(bearing) if load is None else load
+    steel = bearing.with_balls_of(BALL_MATERIALS["steel"]) if bearing.is_hybrid else bearing
+    middle = TYPICAL_LOAD * dynamic_load_rating(steel) if load is None else load
     spread = LOAD_SPREAD if load is None else GIVEN_LOAD_SPREAD
     if clearance is None:
         typical = max(bearing.radial_clearance, LEAST_CLEARANCE * bearing.ball_diameter)

@@ -93,3 +93,38 @@ def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
     assert editor.scene.bearing.estimated == ()
     assert "estimated" not in editor.name
     assert not any("inside dimensions" in one.name for one in limits(editor.scene))
+
+
+def test_a_pair_in_tandem_gets_the_axial_load_that_it_needs() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "7208 BECBP DT"})
+    assert editor.scene.bearing.arrangement == "tandem"
+    assert editor.scene.load.fz > 100.0
+    assert equilibrium(editor.scene).converged.all()
+
+
+def test_a_suffix_that_is_not_known_says_what_may_be_written() -> None:
+    for name, words in (("2x7208", "DB (back to back)"), ("6308 E", "reinforced")):
+        answer = BearingTable().search(name)
+        assert answer["entries"] == []
+        assert words in answer["words"]
+        assert words in SceneEditor("6205").choose({"bearing": name})["bearing"]
+
+
+def test_balls_of_another_material_are_chosen_and_kept_in_links() -> None:
+    editor = SceneEditor("6205")
+    steel = editor.scene
+    assert editor.choose({"ball_material": "silicon nitride"}) == {}
+    assert editor.state()["choices"]["ball_material"] == "silicon nitride"
+    assert editor.scene.bearing.density == 3200.0
+    again = SceneEditor("fan-rig")
+    address.opened(address.write(address.place_of(editor)), again)
+    assert again.scene == editor.scene
+    editor.set({"ball_youngs_modulus_gpa": 250.0})
+    assert editor.state()["choices"]["ball_material"] == ""
+    assert editor.choose({"ball_material": "steel"}) == {}
+    assert editor.scene == steel
+    editor.choose({"ball_material": "silicon nitride"})
+    assert editor.choose({"numbers": "direct"}) == {}
+    assert not editor.scene.bearing.is_hybrid
+    assert "ball_material" in editor.state()["hidden"]

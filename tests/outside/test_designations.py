@@ -1,0 +1,193 @@
+"""What makers' catalogues say of a designation."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bearingcore.bearings import ratings
+from bearingcore.bearings.designation import read_designation
+from bearingcore.bearings.designation_tables import boundaries
+from bearingcore.errors import FieldError
+
+SKF = {
+    "7200 BECBP": (10, 30, 9, 7.02),
+    "7201 BECBP": (12, 32, 10, 7.61),
+    "7202 BECBP": (15, 35, 11, 8.8),
+    "7302 BECBP": (15, 42, 13, 13.0),
+    "7203 BECBM": (17, 40, 12, 11.0),
+    "7303 BECBP": (17, 47, 14, 15.9),
+    "7304 BECBPH": (20, 52, 15, 19.0),
+    "7305 BECBPH": (25, 62, 17, 26.5),
+    "61800": (10, 19, 5, 1.72),
+    "61900": (10, 22, 6, 2.7),
+    "6000": (10, 26, 8, 4.75),
+    "6200": (10, 30, 9, 5.4),
+    "6300": (10, 35, 11, 8.52),
+    "NJ 204 ECP": (20, 47, 14, 28.5),
+    "NJ 2204 ECP": (20, 47, 18, 34.5),
+    "NU 304 ECP": (20, 52, 15, 35.5),
+    "NJ 2304 ECP": (20, 52, 21, 47.5),
+    "NU 205 ECP": (25, 52, 15, 32.5),
+    "30204 J2/Q": (20, 47, 15.25, 27.5),
+    "30304 J2/Q": (20, 52, 16.25, 34.1),
+    "32304 J2/Q": (20, 52, 22.25, 44.0),
+    "30205 J2/Q": (25, 52, 16.25, 30.8),
+    "30305 J2/Q": (25, 62, 18.25, 44.6),
+    "32305 J2": (25, 62, 25.25, 60.5),
+    "30206 J2/Q": (30, 62, 17.25, 40.2),
+    "32206 J2/Q": (30, 62, 21.25, 50.1),
+    "30306 J2/Q": (30, 72, 20.75, 56.1),
+    "32306 J2/Q": (30, 72, 28.75, 76.5),
+}
+"""Bore, outside diameter, width [mm] and C [kN]. Source: SKF data in bd_warehouse 0.4.0 (PyPI)."""
+
+SKF_A_MM = {"7200": 13.0, "7201": 14.0, "7202": 16.0, "7203": 18.0, "7302": 18.6, "7303": 20.4}
+SKF_A_MM |= {"7304": 22.8, "7305": 26.8}
+"""Pressure centre from the back of the outer ring of BECBP bearings [mm]. Source: the same."""
+
+SKF_RACEWAY_MM = {"NU204": 26.5, "NU2204": 26.5, "NU304": 27.5, "NU2304": 27.5, "NU205": 31.5}
+"""Inner raceway of E insides [mm]. Source: the same, column FE."""
+
+
+@pytest.mark.parametrize("name", SKF)
+def test_dimensions_and_ratings_of_skf(name: str) -> None:
+    """A reinforced inside has SKF's own rating, others that of another maker within 13 %."""
+    found = read_designation(name)
+    *sizes, rating = SKF[name]
+    own = (found.bore, found.outside_diameter, found.width)
+    assert [1e3 * one for one in own] == pytest.approx(sizes)
+    within = 1e-9 if found.reinforced else 0.13
+    assert found.dynamic_load_rating == pytest.approx(1e3 * rating, rel=within)
+
+
+def test_raceways_of_cylindrical_rollers() -> None:
+    """Source: SKF in bd_warehouse; the table has the reinforced inside of DIN 5412-1."""
+    for basic, inner in SKF_RACEWAY_MM.items():
+        assert 1e3 * boundaries()[basic].inner_raceway == pytest.approx(inner)
+
+
+@pytest.mark.parametrize("basic", SKF_A_MM)
+def test_pressure_centres_of_angular_contact_pairs(basic: str) -> None:
+    """Source: a of SKF; back to back they are 2 a apart, face to face 2 (B − a) the other way."""
+    a, width = SKF_A_MM[basic], 1e3 * boundaries()[basic].width
+    for way, apart in (("DB", 2.0 * a), ("DF", 2.0 * (a - width))):
+        pair = read_designation(f"{basic} BECBP {way}").bearing
+        assert 1e3 * (pair.pressure_centers_apart or 0.0) == pytest.approx(apart, abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "arrangement", "least", "most"),
+    [
+        ("7208 BECBP DB", "back-to-back", 22, 30),
+        ("7208 BECBP/DF", "face-to-face", 22, 30),
+        ("2x7208 BECAP DB", "back-to-back", 9, 17),
+        ("7208 BECCM DF", "face-to-face", 40, 48),
+        ("7208 BEGBP DB", "back-to-back", -10, -2),
+        ("7208B/DB", "back-to-back", 0, 0),
+        ("7208 BECBP DT", "tandem", 0, 0),
+    ],
+)
+def test_a_pair_is_a_pair_with_its_clearance(
+    name: str, arrangement: str, least: float, most: float
+) -> None:
+    """Source: SKF general catalogue, axial clearance and preload of bearings for 30 to 50 mm.
+
+    Half of the clearance takes the ring from the middle to the free contact angle.
+    """
+    found = read_designation(name)
+    pair, single = found.bearing, read_designation("7208 BEP")
+    assert pair.arrangement == arrangement
+    assert pair.row_distance == pytest.approx(single.width)
+    middle = 0.5e-6 * (least + most)
+    if arrangement != "tandem":
+        assert pair.preload == pytest.approx(max(-middle, 0.0))
+
+    rise = math.sin(pair.free_contact_angle) - math.sin(pair.contact_angle)
+    play = 2.0 * pair.groove_center_distance * rise
+    assert play == pytest.approx(max(middle, 0.0), abs=1e-12)
+
+
+def test_pairs_are_rated_by_iso_281() -> None:
+    """Source: ISO 281, i^0.7 of balls, which SKF prints as 1.62 C; i^(7/9) of rollers as 1.715."""
+    for name, factor in (("7208 BECBP", 1.62), ("30206", 1.715)):
+        one, two = read_designation(name), read_designation(f"{name} DB")
+        assert one.dynamic_load_rating is not None
+        assert two.dynamic_load_rating == pytest.approx(factor * one.dynamic_load_rating, rel=4e-3)
+
+
+def test_axial_clearance_of_a_tapered_pair() -> None:
+    """Source: SKF, DFC and micrometres is the mean axial clearance; δz sin α = r_L cos α."""
+    pair = read_designation("30212 J2/QDFC290").bearing
+    play = 2.0 * pair.radial_clearance / math.tan(pair.contact_angle)
+    assert play == pytest.approx(290e-6)
+
+
+REFUSED = {
+    "2x7208": "DB",
+    "7208 pair": "DB",
+    "7208 BDU": "DB",
+    "7208A5TRDUMP3": "DB",
+    "7208BEAT85": "reinforced",
+    "7208 BECBP TBT": "sets",
+    "7208 QBCB": "sets",
+    "7208 DBT": "sets",
+    "3x7208 BEP": "sets",
+    "6208 DB": "pairs are known of",
+    "2x6208": "pairs are known of",
+    "30206 DT": "DB",
+    "HR30206JDB+KLR10": "spacers",
+    "30308T72 J2/QDBC220": "spacers",
+    "7301 BECBP": "reinforced",
+    "6208 E": "reinforced",
+    "1214 ETN9": "reinforced",
+    "2205 E-2RS1TN9": "sealed",
+    "2208-2RS": "sealed",
+    "7008 ACD/P4A": "super-precision",
+    "7208 CB": "super-precision",
+    "NU 208 ECP/HC5": "steel rollers",
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "dynamic", "static", "axial"),
+    [
+        ("1208 ETN9", 19.9, 6.95, 2.9),
+        ("2208 ETN9", 31.9, 10.0, 2.2),
+        ("2208 EKTN9/C3", 31.9, 10.0, 2.2),
+        ("1310 ETN9", 43.6, 14.0, 2.6),
+        ("6205 ETN9", 17.8, 9.8, None),
+    ],
+)
+def test_balls_of_reinforced_insides_give_their_ratings(
+    name: str, dynamic: float, static: float, axial: float | None
+) -> None:
+    """Source: SKF general catalogue, C, C_0 and Y_1; by ISO 76 from the balls found."""
+    found = read_designation(name)
+    b, rows = found.bearing, 1 if axial is None else 2
+    assert found.dynamic_load_rating == pytest.approx(1e3 * dynamic)
+    if axial is not None:
+        assert 0.42 / math.tan(b.contact_angle) == pytest.approx(axial)
+    cosine = math.cos(b.contact_angle)
+    gamma = b.ball_diameter * cosine / b.pitch_diameter
+    factor = ratings.static_factor(gamma, self_aligning=axial is not None)
+    own = ratings.static_rating(factor, b.n_balls, b.ball_diameter, cosine, rows)
+    assert float(own) == pytest.approx(1e3 * static, rel=0.06)
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_not_known_is_refused_and_says_what_is(name: str) -> None:
+    """Never one row, and never another inside, under the full name."""
+    with pytest.raises(FieldError) as refused:
+        read_designation(name)
+    assert refused.value.field == "designation"
+    assert REFUSED[name] in str(refused.value)
+
+
+def test_flanges_that_carry_along_the_shaft_are_said() -> None:
+    """Every maker's catalogue: NJ carries thrust one way, NUP both, NU and N none."""
+    said = {one: " ".join(read_designation(f"{one} 208 E").assumed) for one in ("NU", "NJ", "NUP")}
+    assert "one way" in said["NJ"]
+    assert "both ways" in said["NUP"]
+    assert "flanges" not in said["NU"]

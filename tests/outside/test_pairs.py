@@ -1,0 +1,96 @@
+"""Tilt of pairs of ball rows, against the energy of their contacts in three dimensions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from bearingcore import Bearing, Scene, equilibrium, presets
+
+Array = NDArray[np.float64]
+
+COUNT, BALL, PITCH, ANGLE = 14, 11.90625e-3, 60e-3, math.radians(25.0)
+INNER, OUTER = 0.52 * BALL, 0.53 * BALL
+HALF, PRELOAD = 9e-3, 8e-6
+"""A 7208 at 25°, ball centres 9 mm from the middle, pushed together by 8 µm."""
+
+
+def centres(way: str) -> tuple[Array, Array, Array]:
+    """Centres of the inner and the outer groove at each ball, (28, 3) [m], and angles.
+
+    A ball's centre is on the pitch circle; along the line of contact the inner groove's centre is
+    r_i − D/2 beyond it, the outer one's r_e − D/2 behind and half of the preload further.
+    """
+    phi = 2.0 * math.pi / COUNT * np.arange(COUNT)
+    radial = np.stack([np.cos(phi), np.sin(phi), 0.0 * phi], axis=1)
+    axis = np.array([0.0, 0.0, 1.0])
+    inner, outer = [], []
+    for side in (-1.0, 1.0):
+        leans = side if way == "face-to-face" else -side
+        line = math.cos(ANGLE) * radial + leans * math.sin(ANGLE) * axis
+        ball = 0.5 * PITCH * radial + side * HALF * axis
+        inner.append(ball + (INNER - 0.5 * BALL) * line)
+        outer.append(ball - (OUTER - 0.5 * BALL) * line - 0.5 * leans * PRELOAD * axis)
+    return np.concatenate(inner), np.concatenate(outer), np.concatenate([phi, phi])
+
+
+def energy(move: Array, way: str, K: float, load: Array) -> float:
+    """Σ 2/5 K δ^2.5 less the work of a load, the inner ring moved and turned by `move`.
+
+    Along the grooves nothing holds a ball: of what is between the centres only that in the plane
+    of the ball and the shaft counts.
+    """
+    inner, outer, phi = centres(way)
+    apart = inner + move[:3] + np.cross([move[3], move[4], 0.0], inner) - outer
+    along = np.stack([-np.sin(phi), np.cos(phi), 0.0 * phi], axis=1)
+    apart -= (apart * along).sum(axis=1)[:, None] * along
+    reach = np.linalg.norm(apart, axis=1) - (INNER + OUTER - BALL)
+    return float(0.4 * K * (np.maximum(reach, 0.0) ** 2.5).sum() - load @ move)
+
+
+def bearing(way: str) -> Bearing:
+    row = Bearing.from_drawing(COUNT, BALL, PITCH, INNER, OUTER, contact_angle=ANGLE)
+    return row.paired(2.0 * HALF, way, PRELOAD)
+
+
+def scene(way: str, **load: float) -> Scene:
+    base = presets["7208-back-to-back"].replace(extent=0.0, fx=0.0, fy=0.0, fz=0.0)
+    return base.replace(bearing=bearing(way), **load)
+
+
+@pytest.mark.parametrize(("way", "known"), [("face-to-face", 7_082.0), ("back-to-back", 129_927.0)])
+def test_tilt_stiffness_of_a_preloaded_pair(way: str, known: float) -> None:
+    """Source: second differences of the energy above; the numbers stand in a review of 2026."""
+    K, h = bearing(way).load_deflection_factor, 2e-7
+    here, step, load = np.zeros(5), np.array([0.0, 0.0, 0.0, h, 0.0]), np.zeros(5)
+    around = [energy(here + k * step, way, K, load) for k in (-1, 0, 1)]
+    stiffness = (around[0] - 2.0 * around[1] + around[2]) / h**2
+    own = equilibrium(scene(way), [0.0]).term("k_rxrx")[0]
+    assert own == pytest.approx(stiffness, rel=1e-4)
+    assert own == pytest.approx(known, rel=1e-4)
+
+
+@pytest.mark.parametrize("way", ["face-to-face", "back-to-back"])
+def test_displacement_of_a_loaded_pair(way: str) -> None:
+    """Source: SciPy's minimum of the energy above, lengths in µm and tilts in 1e-4 rad."""
+    K = bearing(way).load_deflection_factor
+    load = np.array([300.0, -3000.0, 800.0, 12.0, -7.0])
+    size = np.array([1e-6, 1e-6, 1e-6, 1e-4, 1e-4])
+    q = np.zeros(5)
+    for method in ("BFGS", "Powell"):
+        q = minimize(lambda q: 1e3 * energy(q * size, way, K, load), q, method=method, tol=1e-12).x
+    names = dict(zip(("fx", "fy", "fz", "mx", "my"), load, strict=True))
+    own = equilibrium(scene(way, **names), [0.0])
+    assert own.converged.all()
+    assert own.displacement[0] / size == pytest.approx(q, rel=1e-4, abs=1e-4)
+
+
+def test_the_lever_is_the_pressure_centre() -> None:
+    """Source: geometry, a line through a ball's centre meets the shaft D_p/2 tan α from it."""
+    lean = 0.5 * PITCH * math.tan(ANGLE)
+    assert bearing("back-to-back").pressure_centers_apart == pytest.approx(2.0 * (HALF + lean))
+    assert bearing("face-to-face").pressure_centers_apart == pytest.approx(2.0 * abs(HALF - lean))

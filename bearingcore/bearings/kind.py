@@ -53,7 +53,8 @@ class ContactNumbers(NamedTuple):
     """Numbers that all contacts of a row have in common, as `kernels.Contacts` has them.
 
     Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
-    the inner ones [m], load-deflection factor [N/m^exponent] and its exponent.
+    the inner ones [m], load-deflection factor [N/m^exponent] and its exponent; greatest compression
+    and displacement along straight races [m] that the geometry allows.
     """
 
     cosine: float
@@ -62,6 +63,7 @@ class ContactNumbers(NamedTuple):
     groove_center_radius: float
     factor: float
     exponent: float
+    room: float
 
 
 class Kind:
@@ -211,6 +213,7 @@ class Kind:
             groove_center_radius=bearing.groove_center_radius,
             factor=bearing.load_deflection_factor,
             exponent=self.exponent,
+            room=bearing.ball_radius,
         )
 
     def check_mass(self) -> None:

@@ -22,9 +22,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from bearingcore import kernels
 from bearingcore.bearings import inside
 from bearingcore.bearings.drawing import Derived
-from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
+from bearingcore.bearings.kind import DIRECTIONS, ContactNumbers, Picture, Variant
 from bearingcore.bearings.line_contact import RollerContact, palmgren_factor, roller_contact
 from bearingcore.bearings.roller import Roller, checked_sizes, length_of
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
@@ -32,9 +33,6 @@ from bearingcore.common import checks
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
-
-STRAIGHT = 10.0
-"""[m] between centres of races that are straight: over it no displacement turns the contact."""
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
@@ -68,7 +66,7 @@ def _derived(
     across = ball_diameter * math.cos(contact_angle)
     return Derived(
         groove_center_radius=0.5 * pitch_diameter,
-        groove_center_distance=STRAIGHT,
+        groove_center_distance=kernels.STRAIGHT,  # no displacement turns the contact
         load_deflection_factor=palmgren_factor(roller_length),
         outer_raceway_radius=0.5 * (pitch_diameter + across),
         inner_raceway_radius=0.5 * (pitch_diameter - across),
@@ -171,6 +169,11 @@ class Tapered(Roller):
             bearing.pitch_diameter,
             bearing.contact_angle,
         )
+
+    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
+        # a rib holds the roller on the inner race: half its length on, its middle is past the outer
+        numbers = super().contact_numbers(bearing)
+        return numbers._replace(distance=kernels.STRAIGHT, room=0.5 * length_of(bearing))
 
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)

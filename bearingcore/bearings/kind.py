@@ -196,6 +196,13 @@ class Kind:
         """True where `race_contact` has an answer."""
         return True
 
+    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+        """True where one of its rows has a shoulder on one side of each race alone.
+
+        Contacts at an angle have; at 0 they carry thrust both ways, or not at all.
+        """
+        return bearing.contact_angle > 0.0
+
     def groove_radius(self, bearing: Bearing, race: str) -> float | None:
         """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
         return None

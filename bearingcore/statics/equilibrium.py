@@ -156,9 +156,7 @@ class Equilibrium:
         status = StaticStatus(int(self.status[i]))
         words = status.sentence(", ".join(free), float(self.residual[i]))
         at = float(self.cage_angles[i])
-        return self.cost or words + explanation(
-            status, self.scene, at, self.dofs, self.state[i]
-        )
+        return self.cost or words + explanation(status, self.scene, at, self.dofs, self.state[i])
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:

@@ -98,11 +98,13 @@ def _thrust(scene: Scene, radial: float, thrust: float) -> str:
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:
-        words = f"more axial load than {with_prefix(thrust, 'N')}: the inner ring leaves the outer"
+        words = (
+            f"more axial load: {with_prefix(thrust, 'N')} let the inner ring leave the outer one"
+        )
     if radial == 0.0 or len(scene.bearing.all_rows) > 1:
         return words
     least = with_prefix(radial * math.tan(scene.bearing.contact_angle), "N")
-    return f"{words}, and over {least} hold it against the radial load"
+    return f"{words}, and over {least} must hold it against the radial load"
 
 
 def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:

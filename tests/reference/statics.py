@@ -220,7 +220,9 @@ def start(ready: dict[str, Any], free: list[int]) -> np.ndarray:
     G_r = np.array([[float(x) for x in c["radial"]] for c in ready["contacts"]])
     G_z = np.array([[float(x) for x in c["axial"]] for c in ready["contacts"]])
     # a double has no digits of a compression left for centres of straight races, far apart
-    near = [{**c, "A0": min(c["A0"], mpf(10)), "less": max(c["A0"] - 10, 0)} for c in ready["contacts"]]
+    near = [
+        {**c, "A0": min(c["A0"], mpf(10)), "less": max(c["A0"] - 10, 0)} for c in ready["contacts"]
+    ]
     r0, z0 = (
         np.array([float(c[name] - c["less"] * c[part]) for c in near])
         for name, part in (("r0", "ca"), ("z0", "sa"))

@@ -20,7 +20,7 @@ from bearingcore.kernels.compiling import inlined
 GUARD = 1e-12
 
 STRAIGHT = 1e15
-"""Distance A0 [m] of the centres of races that are straight: no displacement turns their contact."""
+"""Distance A0 [m] of the centres of straight races: no displacement turns their contact."""
 
 POINT_CONTACT = 1.5
 """Exponent of a ball between grooves (Hertz)."""

@@ -301,7 +301,7 @@ def stiffest_contact(contacts):
 
 @inlined
 def curved_length(contacts, j):
-    """A0 [m] of a contact between curved races, along which the energy's valley is curved; else 0."""
+    """A0 [m] of a contact of curved races, along which the energy's valley is curved; else 0."""
     return contacts.distance[j] if contacts.distance[j] < STRAIGHT else 0.0
 
 

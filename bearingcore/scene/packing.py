@@ -20,8 +20,8 @@ from bearingcore.scene.scene import DOF_NAMES, Scene
 Array = NDArray[np.float64]
 
 SMALL_TILT = 0.2
-"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left out
-of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
+"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
+out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 STANDARD_GRAVITY = 9.80665
 """[m/s²], along −y."""

@@ -70,7 +70,7 @@ def _is_straight(scene: Scene) -> NDArray[np.bool_]:
 
 
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
-    """What would let the contacts carry the load: tilts that are held, thrust, or both."""
+    """Tilts that are held, thrust, or both, with which the contacts would carry the load."""
     active = packing.direction_numbers(dofs)
     force = packing.static_load(scene, dofs).force
     facing = float(np.sign(packing.contacts(scene.bearing).line_z.sum()))
@@ -94,7 +94,7 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
 
 
 def _thrust(scene: Scene, radial: float, thrust: float) -> str:
-    """What is missing of thrust [N] on rows that carry it one way, beside a radial load [N]."""
+    """Clause on missing thrust, beside a radial load and a thrust [N] on rows that carry one way."""
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:

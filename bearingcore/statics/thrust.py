@@ -74,7 +74,7 @@ def _one_way(bearing: Bearing) -> list[int]:
 
 
 def _thrusts(state: Equilibrium) -> np.ndarray:
-    """(n, rows) thrust ΣQ_j sin α_j [N] of each row on the outer ring; NaN where it is not known."""
+    """(n, rows) thrust ΣQ_j sin α_j [N] of each row on the outer ring; NaN where not known."""
     thrust = state.ball_load * np.sin(np.nan_to_num(state.contact_angle))
     rows = state.scene.bearing.balls_of_rows
     return np.stack([thrust[:, own].sum(axis=1) for own in rows], axis=1)

@@ -32,6 +32,9 @@ Array = NDArray[np.floating]
 
 GRAVITY = 9.80665
 
+NEARLY_STRAIGHT = 1e3
+"""[m] taken for centres of races that are straight: farther off a compression loses its digits."""
+
 
 def gradients(angle: Array, place: Array, reach: Array) -> tuple[Array, Array]:
     """Gradients (N_b, 5) of radial and axial displacement at angles [rad] (Eqs. 11, 12).
@@ -78,7 +81,7 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
         angle = b.contact_angle if row.contact_angle is None else row.contact_angle
         each = {
             "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
-            "reach": b.groove_center_radius, "A0": b.groove_center_distance,
+            "reach": b.groove_center_radius, "A0": min(b.groove_center_distance, NEARLY_STRAIGHT),
             "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
             "slack": b.radial_clearance + row.clearance, "D": b.ball_diameter,
         }  # fmt: skip

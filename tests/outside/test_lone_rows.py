@@ -49,7 +49,7 @@ OUT = {
     "less thrust than F_r tan α": (-4000.0, 500.0, LEVEL, "more axial load: 500 N let the inner"),
     "both": (-4000.0, 500.0, None, "tilts that are held, and more axial load"),
 }
-"""Loads that a lone cone does not carry: fy, fz [N], free directions, what is said to be missing."""
+"""Loads that no lone cone carries: fy, fz [N], free directions, what is said to be missing."""
 
 
 def cone(
@@ -215,7 +215,7 @@ def test_half_of_the_rollers_carry_under_the_induced_axial_load() -> None:
 
 
 def test_a_row_that_carries_thrust_one_way_says_so_when_it_is_pressed_the_other_way() -> None:
-    """Single-row angular contact and tapered bearings carry axial load one way (SKF, Schaeffler)."""
+    """Single rows of angular contact and tapered rollers carry thrust one way (SKF, Schaeffler)."""
     name = "thrust the wrong way"
     one_way = {
         "7208-25deg": BALL, "tandem": presets["7208-tandem"].healthy(), "cone": cone(0.0, 500.0)

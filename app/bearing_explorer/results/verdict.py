@@ -80,7 +80,7 @@ def of_statics(results: Results) -> Verdict:
 
 
 def of_now(results: Results) -> Verdict:
-    """Whether there is a static equilibrium at the cage angle that is drawn, between the curves'."""
+    """Whether there is a static equilibrium at the cage angle that is drawn."""
     now = results.now
     if now.converged[0]:
         return Verdict("good", "Converged")

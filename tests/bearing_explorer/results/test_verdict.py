@@ -52,7 +52,6 @@ def test_nothing_is_called_converged_where_a_cone_leaves_its_cup(
 
 
 def test_no_equilibrium_between_the_cage_angles_of_the_curves_is_seen_too() -> None:
-    """Just above F_r tan α a roller right under the load carries none of the thrust that is over."""
     results = cone(-4000.0, 4000.0, ("x", "y", "z"))
     assert verdict(results, SHOWN - {"orbit", "motion"}).words == "Converged"
     lost = cone(-4000.0, 500.0, ("x", "y", "z"))

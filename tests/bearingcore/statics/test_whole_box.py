@@ -2,8 +2,9 @@
 
 Every cage angle is either converged, with a relative residual of 1e-9 and a symmetric, positive
 semidefinite stiffness that holds the ring, or has a reason that is true: nothing touches, a
-direction is free, the load cannot be carried, contacts would be where there are no races. `helpers.judge` decides, in extended precision
-and without the solver's code. A million scenes: `python -m tests.benchmarks.million`.
+direction is free, the load cannot be carried, contacts would be where there are no races.
+`helpers.judge` decides, in extended precision and without the solver's code. A million scenes:
+`python -m tests.benchmarks.million`.
 """
 
 import math

@@ -10,6 +10,8 @@ angle of the line of contact                | α      | contact_angle
 A roller is pressed by what both races approach each other along its line of contact,
 δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K by Palmgren as of a cylindrical roller. The
 line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
+Races are straight: no displacement turns the line of contact, and where the rings have moved along
+them by half the length of a roller, one has left the other.
 α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
 
 Left out: the taper of a roller. The inner race is less steep than the outer one by twice half of

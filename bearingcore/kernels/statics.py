@@ -663,7 +663,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                     beyond = beyond or delta > contacts.room[j]
                     if settled and (bend == 0.0 or contacts.distance[j] >= STRAIGHT):
                         beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
-            if beyond and status[e, k] < NOT_CARRIED:
+            if beyond and (settled or status[e, k] == FREE_DIRECTION):
                 status[e, k] = BEYOND
             gone = status[e, k] >= NOT_CARRIED
             loose = status[e, k] == NOTHING_TOUCHES

@@ -36,6 +36,9 @@ from bearingcore.common import checks
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
 
+WRITTEN_DISTANCE = 10.0
+"""[m] that files and links have for the centres of straight races; contacts take them straight."""
+
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
 
@@ -68,7 +71,7 @@ def _derived(
     across = ball_diameter * math.cos(contact_angle)
     return Derived(
         groove_center_radius=0.5 * pitch_diameter,
-        groove_center_distance=kernels.STRAIGHT,  # no displacement turns the contact
+        groove_center_distance=WRITTEN_DISTANCE,
         load_deflection_factor=palmgren_factor(roller_length),
         outer_raceway_radius=0.5 * (pitch_diameter + across),
         inner_raceway_radius=0.5 * (pitch_diameter - across),

@@ -94,7 +94,7 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
 
 
 def _thrust(scene: Scene, radial: float, thrust: float) -> str:
-    """Clause on missing thrust, beside a radial load and a thrust [N] on rows that carry one way."""
+    """Clause on the thrust that rows lack beside a radial load and a thrust [N] one way."""
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:

@@ -81,10 +81,12 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
         angle = b.contact_angle if row.contact_angle is None else row.contact_angle
         each = {
             "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
-            "reach": b.groove_center_radius, "A0": min(b.groove_center_distance, NEARLY_STRAIGHT),
+            "reach": b.groove_center_radius, "A0": b.groove_center_distance,
             "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
             "slack": b.radial_clearance + row.clearance, "D": b.ball_diameter,
         }  # fmt: skip
+        if b.kind.name == "tapered":
+            each["A0"] = NEARLY_STRAIGHT
         found.append(each)
         if not row.own:
             continue

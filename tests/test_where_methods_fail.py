@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from bearingcore import Motion, Scene, equilibrium, presets, simulate
+from bearingcore import Motion, Scene, equilibrium, kernels, presets, simulate
 from bearingcore.statics.ball_positions import ball_positions
 from tests.helpers.contact_law import Array, Balls, newton
 from tests.helpers.recordings import contacts, marched_elsewhere
@@ -72,7 +72,7 @@ def test_newton_from_zero_finds_a_singular_matrix(scene: Scene) -> None:
 def test_newton_without_a_line_search_fails_now_and_then() -> None:
     """From a fair first guess full steps circle, or meet a singular matrix, in some scenes."""
     rng = np.random.default_rng(2014)
-    failures = 0
+    failures = beyond = 0
     for _ in range(200):
         radial = 10.0 ** rng.uniform(1.0, 4.0)
         scene = LIEW_LIM.replace(
@@ -89,9 +89,12 @@ def test_newton_without_a_line_search_fails_now_and_then() -> None:
         balls = Balls(scene, rng.uniform(0.0, scene.bearing.ball_spacing))
         failures += bool(newton(balls, fair_guess(balls), steps=50).failure)
         found = equilibrium(scene, [balls.cage_angle])
-        assert found.converged[0]
+        # a few bearings are pressed out of their grooves: their balance is found too
+        beyond += found.status[0] == kernels.BEYOND
+        assert found.converged[0] or found.status[0] == kernels.BEYOND
         assert found.residual[0] <= 1e-9
     assert 2 <= failures <= 50
+    assert beyond < 10
 
 
 @dataclass(frozen=True)

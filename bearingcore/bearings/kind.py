@@ -57,7 +57,8 @@ class ContactNumbers(NamedTuple):
 
     Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
     the inner ones [m] and how far along the shaft they are from the place of the row, towards
-    which it faces [m], load-deflection factor [N/m^exponent] and its exponent.
+    which it faces [m], load-deflection factor [N/m^exponent] and its exponent; greatest compression
+    and displacement along straight races [m] that the geometry allows.
     """
 
     cosine: float
@@ -67,6 +68,7 @@ class ContactNumbers(NamedTuple):
     groove_center_shift: float
     factor: float
     exponent: float
+    room: float
 
 
 class Kind:
@@ -199,6 +201,13 @@ class Kind:
         """True where `race_contact` has an answer."""
         return True
 
+    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+        """True where one of its rows has a shoulder on one side of each race alone.
+
+        Contacts at an angle have; at 0 they carry thrust both ways, or not at all.
+        """
+        return bearing.contact_angle > 0.0
+
     def groove_radius(self, bearing: Bearing, race: str) -> float | None:
         """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
         return None
@@ -221,6 +230,7 @@ class Kind:
             groove_center_shift=0.0,
             factor=bearing.load_deflection_factor,
             exponent=self.exponent,
+            room=bearing.ball_radius,
         )
 
     def check_mass(self) -> None:

@@ -197,6 +197,9 @@ class SelfAligning(Kind):
         unit = in_series(*(contact.load_deflection_factor for contact in both(1.0).values()))
         return both(bearing.load_deflection_factor / unit)[race]
 
+    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+        return False  # both rows are of one ring, and carry it both ways between them
+
     def groove_radius(self, bearing: Bearing, race: str) -> float:
         return inner_groove(bearing) if race == "inner" else bearing.outer_raceway_radius
 

@@ -10,6 +10,8 @@ angle of the line of contact                | α      | contact_angle
 A roller is pressed by what both races approach each other along its line of contact,
 δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K as of a cylindrical roller. The
 line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
+Races are straight: no displacement turns the line of contact, and where the rings have moved along
+them by half the length of a roller, one has left the other.
 α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
 
 Left out: the taper of a roller. The inner race is less steep than the outer one by twice half of
@@ -25,9 +27,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
 from bearingcore.bearings import inside
 from bearingcore.bearings.drawing import Derived
-from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
+from bearingcore.bearings.kind import DIRECTIONS, ContactNumbers, Picture, Variant
 from bearingcore.bearings.line_contact import (
     RollerContact,
     roller_contact,
@@ -41,8 +44,8 @@ from bearingcore.common import checks
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
 
-STRAIGHT = 10.0
-"""[m] between centres of races that are straight: over it no displacement turns the contact."""
+WRITTEN_DISTANCE = 10.0
+"""[m] that files and links have for the centres of straight races; contacts take them straight."""
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
@@ -76,7 +79,7 @@ def _derived(
     across = ball_diameter * math.cos(contact_angle)
     return Derived(
         groove_center_radius=0.5 * pitch_diameter,
-        groove_center_distance=STRAIGHT,
+        groove_center_distance=WRITTEN_DISTANCE,
         load_deflection_factor=series_factor(roller_length),
         outer_raceway_radius=0.5 * (pitch_diameter + across),
         inner_raceway_radius=0.5 * (pitch_diameter - across),
@@ -179,6 +182,11 @@ class Tapered(Roller):
             bearing.pitch_diameter,
             bearing.contact_angle,
         )
+
+    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
+        # a rib holds the roller on the inner race: half its length on, its middle is past the outer
+        numbers = super().contact_numbers(bearing)
+        return numbers._replace(distance=kernels.STRAIGHT, room=0.5 * length_of(bearing))
 
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)

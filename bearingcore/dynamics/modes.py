@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -57,6 +57,8 @@ class Modes:
         undamped shapes at the mean stiffness, which the modes are followed by.
     cost
         what the static states would have taken, where that was too much to begin; else empty.
+    state
+        the static states that were linearised.
 
     Rows are NaN where the static state has no answer.
     """
@@ -72,9 +74,14 @@ class Modes:
     body: tuple[str, ...]
     mean_shape: NDArray[np.float64]
     cost: str = ""
+    state: Equilibrium | None = field(default=None, repr=False, compare=False)
+
+    def reason(self, i: int) -> str:
+        """In words, what became of the static state at cage angle i."""
+        return self.cost or (self.state.reason(i) if self.state else "")
 
     def table(self) -> ResultTable:
-        """A row a cage angle: frequency and damping ratio of each mode."""
+        """A row a cage angle: frequency and damping ratio of each mode, status of the statics."""
         labels = list(enumerate(self.label))
         return table_of(
             ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
@@ -83,6 +90,7 @@ class Modes:
                 for i, label in labels
             ),
             *((f"{label}_damping_ratio", "1", self.damping_ratio[:, i]) for i, label in labels),
+            ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
         )
 
     def bands(self) -> dict[str, tuple[float, float]]:
@@ -215,8 +223,9 @@ def modes_at(state: Equilibrium, like: Modes | None = None) -> Modes:
         frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
     return Modes(
-        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template
-    )
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
+        state=state,
+    )  # fmt: skip
 
 
 def undamped_bands(

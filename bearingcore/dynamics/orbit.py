@@ -35,6 +35,7 @@ from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum import Spectrum
+from bearingcore.statics.equilibrium import equilibrium
 
 MOST_BALL_PASSES = 400
 """The longest common period, in ball passes, that is looked for."""
@@ -79,7 +80,8 @@ class Orbit:
         displacement, velocity, acceleration of the inner, then of the outer ring over the period,
         tilts times r_d.
     cost
-        for "too many steps", how many it would have taken, in words. Empty otherwise.
+        for "too many steps", how many it would have taken, in words; without a static state to
+        start from, why there is none. Empty otherwise.
     """
 
     scene: Scene
@@ -263,7 +265,8 @@ def orbit(
     shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
     y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
     if y is None:
-        return replace(nothing, status=OrbitStatus.NO_START, period=period)
+        why = equilibrium(scene, [0.0], dofs).reason(0)
+        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.own(y)
     if start is not None:
         found = _newton(nothing, shooting, y, period, most_iterations)

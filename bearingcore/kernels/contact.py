@@ -19,6 +19,9 @@ from bearingcore.kernels.compiling import inlined
 # than this part of A0 to passing, rounding decides whether they have.
 GUARD = 1e-12
 
+STRAIGHT = 1e15
+"""Distance A0 [m] of the centres of straight races: no displacement turns their contact."""
+
 POINT_CONTACT = 1.5
 """Exponent of a ball between grooves (Hertz)."""
 
@@ -92,6 +95,23 @@ def touch(x, cj, sj, drop, j, contacts):
     r -= contacts.clearance[j]
     z += contacts.offset[j]
     return race_touch(r, z, drop, contacts.distance[j], j, contacts)
+
+
+@inlined
+def has_left(x, cj, sj, j, contacts):
+    """Whether the inner ring at contact j has left the outer one, whatever the ball has sunk by.
+
+    Where races are straight, it has moved along them by more than `Contacts.room`; else it has
+    moved back by all of the distance of the groove centres, where no groove is any more.
+    """
+    r, z = ring_at_ball(x, cj, sj, j, contacts)
+    r -= contacts.clearance[j]
+    z += contacts.offset[j]
+    ca = contacts.line_r[j]
+    sa = contacts.line_z[j]
+    if contacts.distance[j] >= STRAIGHT:
+        return abs(z * ca - r * sa) > contacts.room[j]
+    return r * ca + z * sa <= -contacts.distance[j]
 
 
 @inlined

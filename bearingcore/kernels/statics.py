@@ -8,10 +8,12 @@ import numpy as np
 
 from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.contact import (
+    STRAIGHT,
     carried,
     components,
     compression_under,
     contact_load,
+    has_left,
     tilting,
     touch,
 )
@@ -35,6 +37,9 @@ OPEN, REFUSED = -1, 5
 
 TOO_MANY = 6
 """Status of all cage angles where there are more of them than were to be solved."""
+
+BEYOND = 7
+"""Status of a balance of loads that only linear formulas have: see `Contacts.room`."""
 
 # A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
 # it is still taken below the second. The third is the least pivot, relative to the greatest
@@ -246,9 +251,11 @@ def with_factors(contacts, factor):
         contacts.distance,
         contacts.clearance,
         contacts.offset,
+        contacts.room,
         factor,
         contacts.exponent,
         contacts.rows,
+        contacts.most_tilt,
     )
 
 
@@ -290,6 +297,12 @@ def stiffest_contact(contacts):
         if contacts.factor[j] > contacts.factor[found]:
             found = j
     return found
+
+
+@inlined
+def curved_length(contacts, j):
+    """A0 [m] of a contact of curved races, along which the energy's valley is curved; else 0."""
+    return contacts.distance[j] if contacts.distance[j] < STRAIGHT else 0.0
 
 
 @inlined
@@ -437,7 +450,7 @@ def descend(q, place, contacts, load, work, most):
                 size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
                 if size == 0.0 or (axial and not preloaded):
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
-                lost = ROUNDING * (contacts.distance[hard] + contacts.clearance[hard])
+                lost = ROUNDING * (curved_length(contacts, hard) + contacts.clearance[hard])
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
                 nothing = max(RESIDUAL_AIM * size, least_load)
             # of one ball under all of the load
@@ -468,8 +481,9 @@ def minimise_energy(q, place, contacts, load, work):
     one = stiffest_contact(contacts)
     K = contacts.factor[one]
     exponent = contacts.exponent[one]
-    soft = contacts.distance[one]  # compression of one ball under all of the load, at this softness
     hard = compression_under(size, K, exponent)
+    # compression of one ball under all of the load, at this softness; a straight valley needs none
+    soft = max(curved_length(contacts, one), hard)
     start = work.start
     soft_factor = work.soft
     for i in active:
@@ -632,16 +646,27 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             memory.evaluations[k] = calls
             for i in range(5):
                 q[k, i] = state[i]
-            gone = status[e, k] >= NOT_CARRIED
-            loose = status[e, k] == NOTHING_TOUCHES
             count = 0
             most = 0.0
+            settled = status[e, k] == CONVERGED
             x = components(state)
+            beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
             for j in range(n_contacts):
-                loads[k, j], _, _ = carried(x, place, j, contacts)
-                if loads[k, j] > 0.0:
+                delta, _, _, bend = touch(x, place.c[j], place.s[j], d[j], j, contacts)
+                loads[k, j] = 0.0
+                if delta > 0.0:
+                    _, loads[k, j], _ = contact_load(
+                        delta, contacts.factor[j], contacts.exponent[j]
+                    )
                     count += 1
                     most = max(most, loads[k, j])
+                    beyond = beyond or delta > contacts.room[j]
+                    if settled and (bend == 0.0 or contacts.distance[j] >= STRAIGHT):
+                        beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
+            if beyond and (settled or status[e, k] == FREE_DIRECTION):
+                status[e, k] = BEYOND
+            gone = status[e, k] >= NOT_CARRIED
+            loose = status[e, k] == NOTHING_TOUCHES
             nowhere = gone or loose
             loaded[e, k] = 0 if nowhere else count
             greatest[e, k] = math.nan if gone else 0.0 if loose else most

@@ -53,10 +53,15 @@ class Contacts(NamedTuple):
         radial clearance r_L.
     offset [m]
         axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
+    room [m]
+        greatest compression, and where races are straight (`contact.STRAIGHT`) the greatest
+        displacement along them, that the geometry of the contact allows.
     factor [N/m^exponent], exponent
         of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
     rows : (k, 2)
         first contact of each row and how many it has.
+    most_tilt [m]
+        greatest rotation that is small, over which nothing here holds, times r_d.
     """
 
     angle: Array
@@ -68,9 +73,11 @@ class Contacts(NamedTuple):
     distance: Array
     clearance: Array
     offset: Array
+    room: Array
     factor: Array
     exponent: Array
     rows: Integers
+    most_tilt: float
 
 
 class Path(NamedTuple):

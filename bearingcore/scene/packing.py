@@ -19,6 +19,10 @@ from bearingcore.scene.scene import DOF_NAMES, Scene
 
 Array = NDArray[np.float64]
 
+SMALL_TILT = 0.2
+"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
+out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
+
 STANDARD_GRAVITY = 9.80665
 """[m/s²], along −y."""
 
@@ -70,9 +74,11 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         distance=each(*(one.distance for one in numbers)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
+        room=each(*(one.room for one in numbers)),
         factor=each(*(one.factor for one in numbers)),
         exponent=each(*(one.exponent for one in numbers)),
         rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
+        most_tilt=SMALL_TILT * lever,
     )
 
 

@@ -23,6 +23,7 @@ from bearingcore.statics.equilibrium import (
     Equilibrium,
     equilibrium,
 )
+from bearingcore.statics.shortage import explanation
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -91,7 +92,9 @@ class BallPositions:
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
         status = StaticStatus(int(self.status[i]))
-        return self.cost or status.sentence(" or ".join(self.dofs), float(self.residual[i]))
+        words = status.sentence(" or ".join(self.dofs), float(self.residual[i]))
+        at = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, at, self.dofs)
 
     def table(self) -> ResultTable:
         """A row a cage angle: displacements, stiffness, and of each ball both loads and angles."""
@@ -175,7 +178,9 @@ def ball_positions(
             static_balls(scene, races),
             packing.static_load(scene, active),
         )
-    status[massless.status == StaticStatus.NOT_CARRIED] = StaticStatus.NOT_CARRIED
+    status[_beyond_geometry(scene, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
+    for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
+        status[massless.status == none] = none
     left = _unbalanced(scene, races, massless.cage_angles, load, angle)
     status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
     residual = np.maximum(residual, left)
@@ -366,6 +371,22 @@ def _unbalanced(
     # a ball with next to no load in the gap has none left on it
     size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())
     return np.asarray(left / np.maximum(size, 1e-300) * (left > 0.0))
+
+
+def _beyond_geometry(
+    scene: Scene, q: Array, load: Array, status: NDArray[np.int8]
+) -> NDArray[np.bool_]:
+    """(n,) True where the formulas have a balance that the contacts' geometry does not allow.
+
+    See `kernels.Contacts.room`: each contact of a ball has all of it.
+    """
+    one = packing.contacts(scene.bearing)
+    races = packing.races(scene, 0.0, weight=False)
+    most = races.factor * one.room**one.exponent
+    outside = (load > most[:, None]).any(axis=(0, 2))
+    tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
+    converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
+    return np.asarray(converged & (outside | tilted) | free & outside)
 
 
 def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:

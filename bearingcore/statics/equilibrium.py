@@ -18,7 +18,7 @@ from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import is_unbounded
-from bearingcore.statics.passes import drops_at
+from bearingcore.statics.shortage import explanation, moved
 from bearingcore.statics.status import StaticStatus
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -42,6 +42,9 @@ TERM_SYMBOLS = {
 """Symbol of each stiffness term: "k xθy" for "k_xry"."""
 
 ANGLES_A_PERIOD = 121
+
+UNEXPLAINED = (StaticStatus.NOT_CONVERGED, StaticStatus.BEYOND_GEOMETRY)
+"""Ends of the descent that it may have come to as no contact can carry the load."""
 
 MOST_CONTACTS = 20_000_000
 """Contacts, those of all balls at all cage angles, that are solved at most by default:
@@ -113,14 +116,9 @@ class Equilibrium:
     def contact_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         contacts = packing.contacts(self.scene.bearing)
-        c, s = np.cos(self.ball_angle), np.sin(self.ball_angle)
-        x, y, z, rx, ry = self.state.T[..., None]
-        # Equations (8) to (12): the part along the unloaded line of contact only while positive
-        r = (x + contacts.arm * ry) * c + (y - contacts.arm * rx) * s - contacts.clearance
-        a = z + contacts.reach * (rx * s - ry * c) + contacts.offset
-        along = contacts.distance - drops_at(self.scene, self.cage_angles)
-        along += r * contacts.line_r + a * contacts.line_z
-        across = a * contacts.line_r - r * contacts.line_z
+        along, across = moved(self.scene, self.cage_angles, self.state)
+        # Equation (8): the part along the unloaded line of contact only while positive
+        along += contacts.distance
         unloaded = np.arctan2(contacts.line_z, contacts.line_r)
         angle = unloaded + np.arctan2(across, np.maximum(along, 0.0))
         return np.where(self.ball_load > 0.0, angle, math.nan)
@@ -156,7 +154,9 @@ class Equilibrium:
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
         status = StaticStatus(int(self.status[i]))
-        return self.cost or status.sentence(", ".join(free), float(self.residual[i]))
+        words = status.sentence(", ".join(free), float(self.residual[i]))
+        at = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, at, self.dofs, self.state[i])
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
@@ -314,7 +314,7 @@ def _explain(
             values, vectors = np.linalg.eigh(K)
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
-        elif status[k] == StaticStatus.NOT_CONVERGED and is_unbounded(
+        elif status[k] in UNEXPLAINED and is_unbounded(
             scene, angles[k], active, load.force[active]
         ):
             status[k] = StaticStatus.NOT_CARRIED

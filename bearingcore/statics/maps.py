@@ -24,10 +24,12 @@ from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     STIFFNESS_TERMS,
     TERM_UNITS,
+    UNEXPLAINED,
     default_cage_angles,
     too_many_contacts,
 )
 from bearingcore.statics.load_capacity import is_unbounded
+from bearingcore.statics.shortage import explanation
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -116,7 +118,9 @@ class Maps:
             return self.cost
         if self.status[i, k] == StaticStatus.REFUSED:
             return self.refusals[i]
-        return StaticStatus(int(self.status[i, k])).sentence(residual=float(self.residual[i, k]))
+        status = StaticStatus(int(self.status[i, k]))
+        words = status.sentence(residual=float(self.residual[i, k]))
+        return words + explanation(status, self.scene, float(self.cage_angles[k]), self.dofs)
 
 
 def stiffness_maps(
@@ -227,7 +231,7 @@ def _run_away(
     status: NDArray[np.int8],
 ) -> NDArray[np.int64]:
     """Indices of the cage angles without an answer at which nothing can carry the load."""
-    failed = np.flatnonzero((status == StaticStatus.NOT_CONVERGED).any(axis=0))
+    failed = np.flatnonzero(np.isin(status, UNEXPLAINED).any(axis=0))
     active, force = load.active, load.force[load.active]
     gone = [k for k in failed if is_unbounded(scene, float(angles[k]), active, force)]
     return np.array(gone, dtype=np.int64)

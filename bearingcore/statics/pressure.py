@@ -12,6 +12,7 @@ than this says: a corner has no ellipse.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -101,11 +102,14 @@ class ContactPressures:
         which ball it is, where and when.
     inner, outer
         its contact with each race.
+    reason
+        why no load is known, where none is; else empty.
     """
 
     ball: HeaviestBall
     inner: RacePressure
     outer: RacePressure
+    reason: str = ""
 
     def table(self) -> ResultTable:
         """A row a race: load and place of the ball, semi-axes, pressure."""
@@ -132,6 +136,7 @@ class ContactPressures:
                 [contact.greatest_pressure for contact in races],
                 "in the middle of the ellipse",
             ),
+            ("status", "", [self.reason or "known"] * 2),
         )
 
 
@@ -157,7 +162,11 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
-    return max(found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure))
+    worst = max(
+        found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
+    )
+    unknown = math.isnan(worst.ball.load) and state.cage_angles.size
+    return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
 
 
 def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:

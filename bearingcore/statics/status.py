@@ -24,6 +24,7 @@ class StaticStatus(enum.IntEnum):
     NOT_CONVERGED = kernels.NOT_CONVERGED
     REFUSED = kernels.REFUSED
     TOO_MANY_CONTACTS = kernels.TOO_MANY
+    BEYOND_GEOMETRY = kernels.BEYOND
 
     def sentence(self, free: str = "some direction", residual: float = math.nan) -> str:
         """The status in words, without a full stop.
@@ -45,5 +46,6 @@ class StaticStatus(enum.IntEnum):
 _SENTENCES = {
     StaticStatus.NOTHING_TOUCHES: "nothing touches: no load presses a ball",
     StaticStatus.NOT_CARRIED: "no contact can carry this load: the ring would move without end",
+    StaticStatus.BEYOND_GEOMETRY: "no equilibrium that the geometry of the contacts allows",
     StaticStatus.REFUSED: "this extent is not possible in this scene",
 }

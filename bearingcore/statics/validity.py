@@ -19,6 +19,8 @@ What the model leaves out and what is looked at here:
   by solving with it (`ball_positions`), and its size against the contact load. Gyroscopic moments,
   which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
 - the size of the contact: Hertz takes it for small against the ball;
+- thrust: a row that carries it one way alone and is pressed the other way, or with less than its
+  radial load induces (`thrust`);
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect;
@@ -55,6 +57,7 @@ from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
+from bearingcore.statics.thrust import thrust_limits
 
 ANGLES = 361
 """Cage angles in a ball spacing at which a scene is looked at."""
@@ -164,6 +167,7 @@ def limits(
             _compression_in_motion(scene, in_motion),
             _stiffness(scene),
         ]
+    found += thrust_limits(scene, state)
     found.append(_film(scene, film))
     if step_rate is not None:
         rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")

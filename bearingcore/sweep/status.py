@@ -32,6 +32,7 @@ class SweepStatus(Status):
     ARITHMETIC_FAILED = "arithmetic_failed"
     TOO_MANY_STEPS = "too_many_steps"
     TOO_MANY_CONTACTS = "too_many_contacts"
+    BEYOND_GEOMETRY = "beyond_geometry"
 
     @property
     def code(self) -> int:
@@ -51,7 +52,9 @@ _SENTENCES = {
     SweepStatus.COMPLETE: "this scene has no such mode",
     SweepStatus.NOTHING_TOUCHES: "nothing touches: no load presses a ball",
     SweepStatus.FREE_DIRECTION: "the ring can move without resistance in some direction",
-    SweepStatus.LOAD_NOT_CARRIED: "no contact can carry this load",
+    SweepStatus.LOAD_NOT_CARRIED: (
+        "no contact can carry this load: another bearing, held tilts or more axial load are missing"
+    ),
     SweepStatus.STATIC_STATE_NOT_CONVERGED: "no static state was found",
     SweepStatus.SCENE_REFUSED: "such a scene is not possible",
     SweepStatus.COMPUTATION_REFUSED: (
@@ -66,6 +69,7 @@ _SENTENCES = {
     SweepStatus.ARITHMETIC_FAILED: "the numbers are too extreme",
     SweepStatus.TOO_MANY_STEPS: "the motion takes too many steps",
     SweepStatus.TOO_MANY_CONTACTS: "there are too many contacts to solve",
+    SweepStatus.BEYOND_GEOMETRY: "no equilibrium that the geometry of the contacts allows",
 }
 
 OF_STATICS = {
@@ -76,6 +80,7 @@ OF_STATICS = {
     StaticStatus.NOT_CONVERGED: SweepStatus.STATIC_STATE_NOT_CONVERGED,
     StaticStatus.REFUSED: SweepStatus.SCENE_REFUSED,
     StaticStatus.TOO_MANY_CONTACTS: SweepStatus.TOO_MANY_CONTACTS,
+    StaticStatus.BEYOND_GEOMETRY: SweepStatus.BEYOND_GEOMETRY,
 }
 OF_MOTION = {
     MotionStatus.COMPLETED: SweepStatus.COMPLETE,

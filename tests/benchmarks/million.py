@@ -32,6 +32,7 @@ NAMES = {
     kernels.NOTHING_TOUCHES: "nothing touches",
     kernels.FREE_DIRECTION: "free",
     kernels.NOT_CARRIED: "not carried",
+    kernels.BEYOND: "beyond the geometry",
     kernels.NOT_CONVERGED: "NOT CONVERGED",
 }
 

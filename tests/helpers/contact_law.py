@@ -32,6 +32,9 @@ Array = NDArray[np.floating]
 
 GRAVITY = 9.80665
 
+NEARLY_STRAIGHT = 1e3
+"""[m] taken for centres of races that are straight: farther off a compression loses its digits."""
+
 
 def gradients(angle: Array, place: Array, reach: Array) -> tuple[Array, Array]:
     """Gradients (N_b, 5) of radial and axial displacement at angles [rad] (Eqs. 11, 12).
@@ -80,8 +83,10 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
             "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
             "reach": b.groove_center_radius, "A0": b.groove_center_distance,
             "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
-            "slack": b.radial_clearance + row.clearance,
+            "slack": b.radial_clearance + row.clearance, "D": b.ball_diameter,
         }  # fmt: skip
+        if b.kind.name == "tapered":
+            each["A0"] = NEARLY_STRAIGHT
         found.append(each)
         if not row.own:
             continue
@@ -95,6 +100,7 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
             b.n_balls, b.ball_diameter, b.pitch_diameter, b.inner_groove_radius,
             b.outer_groove_radius, contact_angle=b.contact_angle,
         )  # fmt: skip
+        each["D"] = D
         each["K"] *= drawn.load_deflection_factor / base.load_deflection_factor
         each["reach"] = 0.5 * pitch + (r_i - 0.5 * D) * math.cos(angle)
         each["A0"] = r_i + r_o - D

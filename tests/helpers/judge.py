@@ -110,6 +110,7 @@ def verdict(answer: Equilibrium, i: int) -> str:
         kernels.NOTHING_TOUCHES: _judge_nothing_touches,
         kernels.FREE_DIRECTION: _judge_free,
         kernels.NOT_CARRIED: _judge_not_carried,
+        kernels.BEYOND: _judge_beyond,
     }.get(int(answer.status[i]))
     if judge is None:
         return answer.reason(i)
@@ -167,9 +168,40 @@ def _judge_converged(answer: Equilibrium, i: int, balls: Balls, active: list[int
     if np.any(q[held] != 0.0) or not np.all(np.isfinite(q)):
         return "displacement moves where it is held, or is not a number"
     wrong = _judge_equilibrium(answer, i, balls, q, active)
+    if not wrong and (excess := beyond_geometry(balls, q)) > 1.0 + 1e-6:
+        return f"called converged, though {excess:.3g} of what the geometry allows"
     if not wrong and len(flat_directions(balls, q, active, TOO_FAINT, -ABOUT_TO_PASS)):
         return "called converged, though a direction is free"
     return wrong
+
+
+def beyond_geometry(balls: Balls, q: Array) -> float:
+    """How much a state has of the most that the contacts' geometry allows; above 1 is beyond it.
+
+    A tilt of 0.2 rad, half a ball or roller of compression, and as much of a way back of the inner
+    groove from a loaded ball as there is between the groove centres, whatever the ball has sunk by.
+    """
+    bearing = balls.scene.bearing
+    pressed = balls.compression(q)
+    room = np.concatenate([np.full(int(row["n"]), 0.5 * row["D"]) for row in balls.rows])
+    back = 1.0 - (balls.vector(q)[2] + balls.drop / balls.distance)
+    parts = [np.max(np.abs(q[3:])) / bearing.groove_center_radius / 0.2, np.max(pressed / room)]
+    parts.append(np.max(back[balls.ball_load(q) > 0.0], initial=0.0))
+    return float(max(parts))
+
+
+def _judge_beyond(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:
+    """A balance of the formulas, kept as a state alone, that the contacts' geometry excludes."""
+    q = answer.state[i].astype(Long)
+    parts = (answer.displacement[i], answer.stiffness[i], answer.ball_load[i])
+    if any(np.any(np.isfinite(part)) for part in parts) or answer.loaded_balls[i] != 0:
+        return "a state that is not has a number"
+    size = balls.whole_load(q, active)
+    left = balls.unbalanced(q, active) / size
+    if not left <= RESIDUAL + rounding_of_residual(balls, q) / size:
+        return f"called a balance of the formulas, with a residual of {left:.2e}"
+    part = beyond_geometry(balls, q)
+    return "" if part > 1.0 - 1e-6 else f"called beyond the geometry at {part:.3g} of it"
 
 
 def _judge_nothing_touches(answer: Equilibrium, i: int, balls: Balls, active: list[int]) -> str:

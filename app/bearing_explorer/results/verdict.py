@@ -47,6 +47,8 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     place where a machine stays.
     """
     static = of_statics(results)
+    if static.mood == "good" and "now" in shown:
+        static = of_now(results)
     if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
         return static
     try:
@@ -75,6 +77,14 @@ def of_statics(results: Results) -> Verdict:
     return Verdict(
         "bad", f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
     )
+
+
+def of_now(results: Results) -> Verdict:
+    """Whether there is a static equilibrium at the cage angle that is drawn."""
+    now = results.now
+    if now.converged[0]:
+        return Verdict("good", "Converged")
+    return Verdict("bad", f"No answer at this cage angle: {now.reason(0)}")
 
 
 def of_motion(results: Results) -> Verdict:

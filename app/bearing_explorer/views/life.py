@@ -205,10 +205,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         ),
         Fact(
             "at the speed of the scene",
-            hours_in_words(lasts.hours)
-            if math.isfinite(lasts.hours)
-            else "no hours: "
-            + ("the shaft is at rest" if results.scene.shaft_speed == 0.0 else "unlimited"),
+            _hours(lasts),
             "This life in hours.",
         ),
         Fact(
@@ -229,7 +226,17 @@ def _life(results: Results, found: Endurance) -> FactGroup:
         )
     words = _damaged_words(found.life) if results.scene.defects else ""
     profile = PROFILE if results.scene.bearing.kind.line_contact else ""
+    if not known and not words:
+        words = lasts.sentence
     return FactGroup(title, " ".join(filter(None, (words, profile, found.assumed))), facts)
+
+
+def _hours(lasts: Life) -> str:
+    if math.isfinite(lasts.hours):
+        return hours_in_words(lasts.hours)
+    if lasts.scene.shaft_speed == 0.0:
+        return "no hours: the shaft is at rest"
+    return "no hours: unlimited" if lasts.known else "not known"
 
 
 def _damaged_words(damaged: Life) -> str:
@@ -249,6 +256,8 @@ def _pressures(results: Results, found: Endurance) -> FactGroup:
     if found.pressures is None:
         return FactGroup(title, found.no_pressures, [])
     bearing = results.scene.bearing
+    if math.isnan(found.pressures.ball.load):
+        return FactGroup(title, f"Not known: {found.pressures.reason}.", [])
     facts = []
     for contact in (found.pressures.inner, found.pressures.outer):
         across = "half the length" if bearing.kind.line_contact else "across"

@@ -158,7 +158,8 @@ class NaturalFrequencies(View):
         bands, healthy = results.bands, results.healthy.bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
-            return "There is no static state to take natural frequencies from."
+            why = results.equilibrium.reason(0)
+            return f"There is no static state to take natural frequencies from: {why}."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
         words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in radial]
         turning = "shaft makes this turn" if results.over_shaft else "cage turns"

@@ -209,7 +209,9 @@ class SteadyOrbit(View):
                 "common period. Grey: the motion integrated in time."
             )
         if orbit.status is OrbitStatus.NO_START:
-            return "There is no static state to start from, so no orbit was searched."
+            return (
+                f"There is no static state to start from, so no orbit was searched: {orbit.cost}."
+            )
         if orbit.status is OrbitStatus.TOO_MANY_STEPS:
             return f"The search would take too long: {orbit.cost}."
         if orbit.status is OrbitStatus.NOT_CONVERGED and results.moving:

@@ -165,16 +165,18 @@ def test_an_unloaded_bearing_has_no_numbers_and_crosses_nothing() -> None:
 
 @pytest.mark.parametrize("name", list(presets))
 def test_each_sentence_holds_its_number(name: str) -> None:
-    """Read back from the words: pressure in GPa, angles in degrees, shares in percent."""
-    scale = {"Pa": 1e-9, "rad": 180.0 / math.pi, "": 100.0}
+    """Read back from the words: pressure in GPa, angles in degrees, shares in percent, kN."""
+    scale = {"Pa": 1e-9, "rad": 180.0 / math.pi, "": 100.0, "N": 1e-3}
     for limit in limits(presets[name], step_rate=16384.0):
         assert limit.sentence.endswith(".")
-        if math.isnan(limit.value):
+        if math.isnan(limit.value) or (limit.unit == "N" and limit.value == 0.0):
             continue
         shown = limit.value * (1.0 if "steps" in limit.name else scale[limit.unit])
         numbers = [
             float(text) for text in re.findall(r"\d+(?:\.\d+)?(?:e[+-]\d+)?", limit.sentence)
         ]
+        if limit.unit == "N":
+            numbers += [number / 1e3 for number in numbers]
         tolerance = 0.5 if "steps" in limit.name else 0.006 * shown + 0.011
         assert min(abs(number - shown) for number in numbers) <= tolerance, limit.sentence
 

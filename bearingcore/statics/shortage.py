@@ -1,0 +1,135 @@
+"""Why a scene has no equilibrium, in words: what it lacks, or what its contacts do not allow."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore import kernels
+from bearingcore.common.numbers import number, with_prefix
+from bearingcore.scene import packing
+from bearingcore.scene.scene import Scene
+from bearingcore.statics.load_capacity import is_unbounded
+from bearingcore.statics.passes import drops_at
+from bearingcore.statics.status import StaticStatus
+
+Array = NDArray[np.float64]
+
+_Z, _TILTS = 2, (3, 4)
+_TILTS_HELD = "the shaft's other bearing, or tilts that are held"
+
+
+def explanation(
+    status: int, scene: Scene, cage_angle: float, dofs: tuple[str, ...], state: Array | None = None
+) -> str:
+    """A clause that goes on after the sentence of the status of one cage angle; often empty.
+
+    Parameters
+    ----------
+    status
+        a `StaticStatus`.
+    scene, cage_angle, dofs
+        what was solved, at which angle [rad], along which directions.
+    state : (5,) [m]
+        as of `Equilibrium.state`; None where it was not kept.
+    """
+    if status == StaticStatus.BEYOND_GEOMETRY:
+        return "" if state is None else f": {_beyond(scene, cage_angle, state)}"
+    if status == StaticStatus.NOT_CARRIED:
+        lacks = _lacks(scene, cage_angle, dofs)
+        return f"; missing is {lacks}" if lacks else ""
+    lone = len(scene.bearing.all_rows) == 1 and _is_straight(scene).all()
+    if status == StaticStatus.FREE_DIRECTION and lone and {"rx", "ry"} & set(dofs):
+        return (
+            ", as the lines of contact of one row of tapered rollers meet in a point of the shaft; "
+            f"missing is {_TILTS_HELD}"
+        )
+    return ""
+
+
+def moved(scene: Scene, cage_angles: Array, state: Array) -> tuple[Array, Array]:
+    """Displacements (n, N_b) [m] along and across the unloaded lines of contact (Eqs. 9-12).
+
+    `state` (n, 5) [m] is that of `Equilibrium`; clearance and drop into defects are taken off.
+    """
+    one = packing.contacts(scene.bearing)
+    angle = packing.ball_angles(scene.bearing, cage_angles)
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, z, rx, ry = state.T[..., None]
+    r = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
+    a = z + one.reach * (rx * s - ry * c) + one.offset
+    along = r * one.line_r + a * one.line_z - drops_at(scene, cage_angles)
+    return along, a * one.line_r - r * one.line_z
+
+
+def _is_straight(scene: Scene) -> NDArray[np.bool_]:
+    """(N_b,) True for contacts between straight races."""
+    return packing.contacts(scene.bearing).distance >= kernels.STRAIGHT
+
+
+def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
+    """Tilts that are held, thrust, or both, with which the contacts would carry the load."""
+    active = packing.direction_numbers(dofs)
+    force = packing.static_load(scene, dofs).force
+    facing = float(np.sign(packing.contacts(scene.bearing).line_z.sum()))
+    pressed = force.copy()
+    pressed[_Z] = facing * 1e3 * np.abs(force).max()
+    level = np.setdiff1d(active, _TILTS)
+
+    def carries(free: NDArray[np.int64], load: Array) -> bool:
+        return not is_unbounded(scene, cage_angle, free, load[free])
+
+    if level.size < active.size and carries(level, force):
+        return _TILTS_HELD
+    if facing == 0.0 or _Z not in active:
+        return ""
+    thrust = _thrust(scene, math.hypot(*force[:2]), facing * force[_Z])
+    if carries(active, pressed):
+        return f"the shaft's other bearing, or {thrust}"
+    if level.size < active.size and carries(level, pressed):
+        return f"{_TILTS_HELD}, and {thrust}"
+    return ""
+
+
+def _thrust(scene: Scene, radial: float, thrust: float) -> str:
+    """Clause on the thrust that rows lack beside a radial load and a thrust [N] one way."""
+    if thrust < 0.0:
+        words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
+    else:
+        words = (
+            f"more axial load: {with_prefix(thrust, 'N')} let the inner ring leave the outer one"
+        )
+    if radial == 0.0 or len(scene.bearing.all_rows) > 1:
+        return words
+    least = with_prefix(radial * math.tan(scene.bearing.contact_angle), "N")
+    return f"{words}, and over {least} must hold it against the radial load"
+
+
+def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
+    """The first bound of the contacts' geometry that a state (5,) [m] is beyond."""
+    one = packing.contacts(scene.bearing)
+    element = scene.bearing.kind.element
+    tilt = float(np.abs(state[3:]).max()) / scene.bearing.groove_center_radius
+    if tilt > packing.SMALL_TILT:
+        most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
+        return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
+    along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
+    straight = _is_straight(scene)
+    apart = np.hypot(np.maximum(one.distance + along, 0.0), across)
+    pressed = np.where(straight, along, apart - one.distance)
+    deepest = int(np.argmax(pressed - one.room))
+    if pressed[deepest] > one.room[deepest]:
+        by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, one.room))
+        return f"a {element} would be compressed by {by}, and {most} is more than any can be"
+    left = np.where(straight & (pressed > 0.0), np.abs(across), 0.0)
+    if (left > one.room).any():
+        return (
+            f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "
+            f"off a {element} that is {with_prefix(2.0 * float(one.room.max()), 'm')} long"
+        )
+    return (
+        "the inner ring would move out of the outer one, past the "
+        f"{with_prefix(float(one.distance.min()), 'm')} between the groove centres"
+    )

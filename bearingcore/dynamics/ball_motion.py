@@ -70,6 +70,7 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     system = ball_system(scene, dofs)
     q, _, _, place, _, status, _, _ = kernels.ball_positions(
         massless.cage_angles,
+        massless.leads,
         massless.state,
         static_balls(scene, system.races),
         packing.static_load(scene, dofs),

@@ -158,7 +158,7 @@ def frequency_bands(
     state = over_all_positions(scene, n, most_contacts=most_contacts)
     if not state.converged.any():
         return modes_at(state).bands()
-    search = BandSearch(scene, state, found.weights)
+    search = BandSearch(state)
 
     def frequencies(cage_angles: Array, shaft_angles: Array) -> Array:
         return search.frequencies(equilibrium(scene, cage_angles, shaft_angles=shaft_angles))
@@ -171,9 +171,10 @@ def frequency_bands(
 
 
 class BandSearch:
-    """Undamped frequencies of the modes of a scene, followed by those of its mean stiffness."""
+    """Undamped frequencies of modes, followed by those of the mean of a state at all positions."""
 
-    def __init__(self, scene: Scene, state: Equilibrium, weights: Array) -> None:
+    def __init__(self, state: Equilibrium) -> None:
+        scene, weights = state.scene, state.shares
         dofs = scene.active_dofs
         self._terms = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
         self._support, self._mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
@@ -181,7 +182,8 @@ class BandSearch:
         known = np.isfinite(terms).all(axis=0) * weights
         mean = np.zeros((len(dofs), len(dofs)))
         row, column = np.triu_indices(len(dofs))
-        mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / known.sum()
+        share = max(float(known.sum()), 1e-300)
+        mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / share
         self.template = _undamped(two_body_matrix(mean, self._support), self._mass)[1]
         self.labels = _labels(self.template, self._mass, dofs)[0]
 
@@ -191,8 +193,8 @@ class BandSearch:
     def frequencies(self, state: Equilibrium) -> Array:
         """(m, n) [Hz] at the angles of `state`; NaN where it has no answer."""
         terms = self._of(state)
-        known = np.isfinite(terms).all(axis=0)
-        found = np.full((len(self.template), len(known)), math.nan)
+        known = np.asarray(np.isfinite(terms).all(axis=0))
+        found = np.full((len(self.template), known.size), math.nan)
         found[:, known] = _frequencies_like(
             self.template, terms[:, known], self._support, self._mass
         )

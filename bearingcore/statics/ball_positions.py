@@ -152,8 +152,8 @@ def ball_positions(
     Raises
     ------
     ValueError
-        for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft or
-        stiff that a computer has no numbers for them.
+        for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
+        or stiff that a computer has no numbers for them.
     """
     scene.bearing.kind.check_mass()
     massless = equilibrium(
@@ -339,10 +339,12 @@ def _within_range(scene: Scene) -> Iterator[None]:
         ) from None
 
 
-def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:
+def centrifugal_effect(
+    scene: Scene, cage_angles: ArrayLike | None = None, shaft_angles: ArrayLike | None = None
+) -> CentrifugalEffect:
     """Static states with and without centrifugal load, compared; see `ball_positions`."""
-    without = ball_positions(scene, cage_angles, centrifugal_load=0.0)
-    with_load = ball_positions(scene, without.cage_angles)
+    without = ball_positions(scene, cage_angles, shaft_angles=shaft_angles, centrifugal_load=0.0)
+    with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
     both = without.converged & with_load.converged
     if not both.all():
         nan = math.nan

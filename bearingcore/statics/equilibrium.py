@@ -80,6 +80,9 @@ class Equilibrium:
         how far the shaft is ahead of where the cage angle has it: see `shaft_angles`.
     cost
         what solving them would have taken, where that was too much to begin; else empty.
+    weights : (n,)
+        share of the time, where the angles stand for all positions that balls and shaft take:
+        `bearingcore.statics.positions`. None elsewhere.
     """
 
     scene: Scene
@@ -96,6 +99,7 @@ class Equilibrium:
     state: NDArray[np.float64] = field(repr=False)
     leads: NDArray[np.float64] = field(repr=False)
     cost: str = ""
+    weights: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -106,6 +110,12 @@ class Equilibrium:
     def shaft_angles(self) -> NDArray[np.float64]:
         """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
+
+    @property
+    def shares(self) -> NDArray[np.float64]:
+        """(n,) share of the time of each angle: `weights`, or all alike."""
+        n = len(self.cage_angles)
+        return np.full(n, 1.0 / n) if self.weights is None else self.weights
 
     @property
     def carries(self) -> NDArray[np.bool_]:

@@ -190,9 +190,7 @@ def stiffness_maps(
     memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
-        return kernels.static_maps(
-            angles, contacts, packed, load, (begin, end), memory, answers
-        )
+        return kernels.static_maps(angles, contacts, packed, load, (begin, end), memory, answers)
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.

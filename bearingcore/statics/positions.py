@@ -44,8 +44,9 @@ Array = NDArray[np.float64]
 
 TWO_PI = 2.0 * math.pi
 
-ALL_AROUND = 4
-"""So many times fewer cage angles to a ball spacing where they go all around, at least 8."""
+ALL_AROUND = {"balls": 4, "rollers": 1}
+"""So many times fewer cage angles to a ball spacing where they go all around, at least 8. The
+stiffness of a roller jumps as it comes to carry."""
 
 SINKING = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0, 1.25, 1.5, 2.0, 3.0)
 """Drops at which nodes are put on an edge, over the greatest compression of a ball in the bearing
@@ -58,9 +59,9 @@ rows turn against each other."""
 ROW_PLACES, FARTHEST = 16, 4096
 """Places of a row against the other, and of how many ball spacings they are picked."""
 
-ROUNDS, PARTS = 4, 3
-"""Of the search around an extreme: how often it becomes finer, and into how many parts it divides
-the distance to each neighbour."""
+STARTS, ROUNDS, PARTS = 3, 4, 3
+"""Of the search for an extreme: around how many of the lowest samples it looks, how often closer,
+and into how many parts it divides the distance to each neighbour."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ class Positions:
     Attributes
     ----------
     columns : (n,) [rad]
-        cage angles.
+        cage angles, rising.
     rows : (r,) [rad]
         shaft against cage, rising, within `period`; one number where nothing turns.
     alike : (r,)
@@ -79,8 +80,10 @@ class Positions:
         the pairs: all columns of the first row that differs, then of the next.
     weights : (m·n,)
         their share of the time; they sum to 1.
-    step, period [rad]
-        between two columns; of the rows.
+    steps : (2, n) [rad]
+        from each column to the one before and to the one after.
+    period [rad]
+        of the rows.
     pace
         turning of the shaft with the cage along a row.
     """
@@ -91,13 +94,9 @@ class Positions:
     cage_angles: Array
     shaft_angles: Array
     weights: Array
-    step: float
+    steps: Array
     period: float
     pace: float
-
-    def mean(self, values: Array) -> Array:
-        """(...,) mean over time of values (..., m·n)."""
-        return np.asarray(values @ self.weights)
 
 
 class Extremes(NamedTuple):
@@ -115,13 +114,21 @@ def turns(scene: Scene) -> bool:
 
 
 def over_all_positions(
-    scene: Scene, n: int = ANGLES_A_PERIOD, *, most_contacts: int = MOST_CONTACTS
+    scene: Scene,
+    n: int = ANGLES_A_PERIOD,
+    solve: Callable[..., Equilibrium] = equilibrium,
+    *,
+    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
-    """Static equilibrium at all pairs of `positions`."""
+    """Static equilibrium at all pairs of `positions`, with their weights.
+
+    `solve` is `equilibrium`, or `static_state` for balls with mass.
+    """
     found = positions(scene, n)
-    return equilibrium(
+    state = solve(
         scene, found.cage_angles, shaft_angles=found.shaft_angles, most_contacts=most_contacts
     )
+    return dataclasses.replace(state, weights=found.weights)
 
 
 def _bytes_of(found: Positions, scene: Scene, _: int) -> int:
@@ -133,30 +140,42 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     """The positions of a scene.
 
     n : cage angles to the bearing's period, ends included, where no defect turns with the shaft.
-    Else (n − 1)/ALL_AROUND to each ball spacing, all around.
+    Else (n − 1)/ALL_AROUND to each ball spacing, all around, with one where the ball is on the line
+    of the load, and further ones where it meets an edge of the outer race.
     """
     bearing = scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
     if not turns(scene):
         columns, weights = _cage_angles(bearing, n)
-        shaft, step = columns / ratio, float(columns[1] - columns[0])
+        steps = np.full((2, columns.size), columns[1] - columns[0])
         row = np.zeros(1), np.zeros(1, np.int64)
-        return Positions(columns, *row, columns, shaft, weights, step, period, 1.0 / ratio)
-    around = max((n - 1) // ALL_AROUND, 8) * bearing.n_balls
-    columns = TWO_PI / around * np.arange(around)
+        return Positions(
+            columns, *row, columns, columns / ratio, weights, steps, period, 1.0 / ratio
+        )
+    part = ALL_AROUND["rollers" if bearing.kind.line_contact else "balls"]
+    around = max((n - 1) // part, 8) * bearing.n_balls
+    load = scene.load
+    on_line = math.atan2(load.fy, load.fx) - bearing.all_rows[0].turn
+    columns: Array = (on_line + TWO_PI / around * np.arange(around)) % TWO_PI
     if bearing.has_one_cage_speed:
-        rows = _nodes(scene)
+        rows = _nodes(scene, "inner")
+        corners = _nodes(scene, "outer")
+        whole = period * np.arange(round(TWO_PI / period))
+        columns = np.concatenate([columns, (whole[:, None] - corners).ravel() % TWO_PI])
+        columns = np.asarray(np.unique(np.round(columns, 12)))
+        steps = _steps(columns, TWO_PI)
     else:
-        columns = (columns + _row_places(bearing)[:, None]).ravel()
+        steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
+        columns = (np.sort(columns) + _row_places(bearing)[:, None]).ravel()
         period = bearing.ball_spacing
         rows = period / ON_A_FLOOR * np.arange(ON_A_FLOOR)
-    share = 0.5 * ((np.roll(rows, -1) - np.roll(rows, 1)) % period if rows.size > 2 else period)
+    share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
     turning = scene.replace(defect=tuple(one for one in scene.defects if one.race == "inner"))
     drops = np.round(drops_at(turning, np.zeros(rows.size), leads=rows), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
-    shares = np.bincount(alike.ravel(), weights=np.broadcast_to(share, rows.shape))
+    shares = np.bincount(alike.ravel(), weights=share)
     cage = np.tile(columns, first.size)
     return Positions(
         columns,
@@ -164,11 +183,17 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
         alike.ravel(),
         cage,
         cage + np.repeat(rows[first], columns.size),
-        np.repeat(shares / (shares.sum() * columns.size), columns.size),
-        TWO_PI / around,
+        np.outer(shares / shares.sum(), of_columns / of_columns.sum()).ravel(),
+        steps,
         period,
         1.0,
     )
+
+
+def _steps(angles: Array, period: float) -> Array:
+    """Distances (2, n) [rad] of rising angles on a circle to those before and after them."""
+    after = np.diff(angles, append=angles[0] + period)
+    return np.stack([np.roll(after, 1), after])
 
 
 def _cage_angles(bearing: Bearing, n: int) -> tuple[Array, Array]:
@@ -194,12 +219,12 @@ def _row_places(bearing: Bearing) -> Array:
     return np.asarray(away.argmin(axis=1) * spacing)
 
 
-def _nodes(scene: Scene) -> Array:
-    """Shaft against cage [rad] over the period, rising: where balls meet an edge, and between."""
+def _nodes(scene: Scene, race: str) -> Array:
+    """Race against cage [rad] over the period, rising: where balls meet an edge, and between."""
     bearing, period = scene.bearing, scene.bearing.period
-    found = [np.zeros(1)]
+    found = [np.zeros(1 if race == "inner" else 0)]
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
-        if defect.race == "outer" or defect.row not in (None, k):
+        if defect.race != race or defect.row not in (None, k):
             continue
         own = bearing.of_row(k)
         balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
@@ -229,6 +254,18 @@ def _greatest_compression(scene: Scene, row: int) -> float:
     return typical_compression(bearing.of_row(row), float(loads.max(initial=0.0)))
 
 
+def _lowest(values: Array) -> NDArray[np.int64]:
+    """Places (STARTS, q) of the lowest of values (q, r, n) that are below those around them."""
+    q, r, n = values.shape
+    low = np.ones(values.shape, dtype=bool)
+    for axis, by in product((1, 2), (1, -1)):
+        low &= values <= np.roll(values, by, axis=axis)
+    order = np.where(low, values, math.inf).reshape(q, r * n)
+    found = np.argpartition(order, min(STARTS, r * n - 1), axis=1)[:, :STARTS].T
+    found[0] = values.reshape(q, r * n).argmin(axis=1)
+    return found
+
+
 def extremes(
     found: Positions,
     values: Array,
@@ -249,24 +286,22 @@ def extremes(
         how often closer: by PARTS times each.
     """
     r, n, q = found.rows.size, found.columns.size, len(values)
-    whole = values.reshape(q, -1, n)[:, found.alike].reshape(q, r * n)
+    whole = values.reshape(q, found.weights.size // n, n)[:, found.alike].reshape(q, r * n)
     signed = np.concatenate([whole, -whole])  # the least of each is looked for
     signed = np.where(np.isnan(signed), math.inf, signed)
-    # of rows that are alike and side by side both ends, from where it may go on falling
-    starts = np.stack([signed.argmin(axis=1), r * n - 1 - signed[:, ::-1].argmin(axis=1)])
+    starts = _lowest(signed.reshape(2 * q, r, n))
     best = np.take_along_axis(signed.T, starts, axis=0)
     changes = np.isfinite(best) & (signed.max(axis=1) > best)
     row, column = np.divmod(starts, n)
     c, u = found.columns[column], found.rows[row]
-    before = (found.rows - np.roll(found.rows, 1)) % found.period
-    after = (np.roll(found.rows, -1) - found.rows) % found.period
-    turn, ways = found.step, np.stack([before, np.zeros(r), after])[:, row]
+    turn, ways = found.steps[:, column], _steps(found.rows, found.period)[:, row]
     parts = np.arange(-PARTS, PARTS + 1) / PARTS
     across = parts if r > 1 else np.zeros(1)
+    side = np.sign(parts).astype(int).clip(0)
     of = np.broadcast_to(np.arange(2 * q), starts.shape)[changes]
     for _ in range(rounds if of.size else 0):
-        cs = c[changes][:, None] + turn * parts
-        us = u[changes][:, None] + ways[np.sign(across).astype(int) + 1][:, changes].T * across
+        cs = c[changes][:, None] + turn[side][:, changes].T * parts
+        us = u[changes][:, None] + ways[side[: across.size]][:, changes].T * across
         pairs = np.broadcast_arrays(cs[:, None, :], us[:, :, None])
         # many quantities have an extreme in common
         where, back = np.unique(np.stack([cs[:, 0], us[:, 0]]), axis=1, return_index=True,
@@ -287,6 +322,4 @@ def extremes(
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)
-    return Extremes(
-        least[:q], -least[q:], c.reshape(2, q), (found.pace * c + u).reshape(2, q)
-    )
+    return Extremes(least[:q], -least[q:], c.reshape(2, q), (found.pace * c + u).reshape(2, q))

@@ -156,19 +156,19 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     around = max((n - 1) // part, 8) * bearing.n_balls
     load = scene.load
     on_line = math.atan2(load.fy, load.fx) - bearing.all_rows[0].turn
-    columns: Array = (on_line + TWO_PI / around * np.arange(around)) % TWO_PI
+    even: Array = np.sort((on_line + TWO_PI / around * np.arange(around)) % TWO_PI)
     if bearing.has_one_cage_speed:
         rows = _nodes(scene, "inner")
         corners = _nodes(scene, "outer")
         whole = period * np.arange(round(TWO_PI / period))
-        columns = np.concatenate([columns, (whole[:, None] - corners).ravel() % TWO_PI])
-        columns = np.asarray(np.unique(np.round(columns, 12)))
+        every = np.concatenate([even, (whole[:, None] - corners).ravel() % TWO_PI])
+        columns = np.unique(np.round(every, 12))
         steps = _steps(columns, TWO_PI)
     else:
         steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
-        columns = (np.sort(columns) + _row_places(bearing)[:, None]).ravel()
+        columns = np.add.outer(_row_places(bearing), even).ravel()
         period = bearing.ball_spacing
-        rows = period / ON_A_FLOOR * np.arange(ON_A_FLOOR)
+        rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
     turning = scene.replace(defect=tuple(one for one in scene.defects if one.race == "inner"))
     drops = np.round(drops_at(turning, np.zeros(rows.size), leads=rows), 14)

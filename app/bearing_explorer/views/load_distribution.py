@@ -59,8 +59,8 @@ class LoadDistribution(View):
         "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
         "defect. Dots: balls now. With a defect of the inner race the curve is the most in "
         "all turns of the shaft. A second row is orange, and in grey dashed. Of balls with mass "
-        "the full line is the load at the outer race, where their centrifugal load comes on top, the "
-        "dashed one that at the inner race."
+        "the full line is the load at the outer race, where their centrifugal load comes on top, "
+        "the dashed one that at the inner race."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
 

@@ -1,0 +1,1 @@
+"""Numbers from outside: published tables, public programs, and short computations of their own."""

@@ -182,7 +182,8 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.fl
 
     The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
     eight times as many angles. A defect of the inner race turns with the shaft and breaks it: its
-    curves are given over the cage angle in which the shaft turns once.
+    curves are given over the cage angle in which the shaft turns once. That is one turn of many:
+    what holds for all is in `bearingcore.statics.positions`.
     """
     period = scene.bearing.period
     if any(defect.race == "inner" for defect in scene.defects):

@@ -165,8 +165,13 @@ def frequency_bands(
 
     ends = extremes(found, search.frequencies(state), frequencies, rounds=rounds)
     there = equilibrium(scene, ends.cage_angles.ravel(), shaft_angles=ends.shaft_angles.ravel())
-    least, greatest = np.split(modes_at(there, search.template).frequency, 2)
-    pairs = zip(np.diagonal(least).tolist(), np.diagonal(greatest).tolist(), strict=True)
+    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    if not (turns(scene) or coarse):
+        # dampers that come in with a ball move the ends a little: there are few samples here
+        every = modes_at(state, search.template).frequency
+        least = np.fmin(least, np.nanmin(every, axis=0))
+        greatest = np.fmax(greatest, np.nanmax(every, axis=0))
+    pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 
 

@@ -111,7 +111,7 @@ def test_a_defect_that_turns_is_taken_over_all_turns_of_the_shaft() -> None:
     assert not grid.in_rows
     assert not Grid.of(RIG.replace(race="inner", extent=0.0), over, STATIC, COARSE).in_rows
     status, numbers = grid.compute()
-    assert (status == 0).all()
+    assert (status == SweepStatus.COMPLETE.code).all()
     for name in ("k_xx_mean", "k_xx_least", "k_yy_greatest", "ball_load_greatest", "band_least"):
         first, second = np.moveaxis(numbers[name], 1, 0)
         np.testing.assert_allclose(first, second, rtol=2e-3, err_msg=name)

@@ -14,8 +14,9 @@ from bearingcore.dynamics.modes import contact_damping
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.ball_positions import static_balls
-from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import drops_at
+from bearingcore.statics.positions import over_all_positions
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -70,6 +71,7 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     system = ball_system(scene, dofs)
     q, _, _, place, _, status, _, _ = kernels.ball_positions(
         massless.cage_angles,
+        massless.leads,
         massless.state,
         static_balls(scene, system.races),
         packing.static_load(scene, dofs),
@@ -114,8 +116,8 @@ def resonances(scene: Scene, load: float) -> list[float]:
 
 @lru_cache(maxsize=512)
 def heaviest_load(scene: Scene) -> float:
-    """Greatest static load [N] of a ball over a period of cage angles; 0 where none is known."""
-    load = equilibrium(scene, default_cage_angles(scene, 31)).ball_load
+    """Greatest static load [N] of a ball over all positions; 0 where none is known."""
+    load = over_all_positions(scene, 31).ball_load
     known = load[np.isfinite(load)]
     return float(known.max()) if known.size else 0.0
 

@@ -20,9 +20,11 @@ from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     STIFFNESS_TERMS,
     Equilibrium,
-    default_cage_angles,
     equilibrium,
 )
+from bearingcore.statics.positions import ROUNDS, extremes, over_all_positions, positions, turns
+
+Array = NDArray[np.float64]
 
 DAMPING_OVER_STIFFNESS = 1e-5
 """β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
@@ -96,8 +98,8 @@ class Modes:
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
 
-        NaN for both where no angle has an answer. Nothing between the angles counts:
-        see `frequency_bands`.
+        NaN for both where no angle has an answer. Nothing between the angles counts, nor other
+        turns of the shaft: see `frequency_bands`.
         """
         return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
 
@@ -131,22 +133,20 @@ def modes(
 
 
 def frequency_bands(
-    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
+    scene: Scene, *, coarse: bool = False, most_contacts: int = MOST_CONTACTS
 ) -> dict[str, tuple[float, float]]:
-    """Least and greatest natural frequency [Hz] of each mode over all cage angles.
+    """Least and greatest natural frequency [Hz] of each mode over all positions of the bearing.
 
-    Unlike those of `Modes.bands` they do not depend on the places of the samples: around each least
-    and greatest sample it is looked for ever closer, to 1/64 of the distance between them.
-    A dip or peak that lies wholly between two samples is missed: with a defect of the inner race,
-    whose period is a turn of the shaft, ends are within 0.2 % of those of 40,001 angles on the
-    fan rig.
+    Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
+    them: see `bearingcore.statics.positions`. Around each least and greatest sample it is looked
+    for ever closer, without damping; the frequency there is the damped one, as in `Modes`.
 
     Parameters
     ----------
     scene
         as of `modes`.
-    cage_angles : (n,)
-        [rad] between the first and the last of which it is looked; None takes one period.
+    coarse
+        a third of the cage angles, and half as often closer.
     most_contacts
         as of `equilibrium`, of the first samples. Where there are more nothing is begun.
 
@@ -160,35 +160,64 @@ def frequency_bands(
     ValueError
         where the support lacks a number, by its name.
     """
-    if cage_angles is None:
-        cage_angles = default_cage_angles(scene, 3 * ANGLES_A_PERIOD - 2)
-    first = modes(scene, np.unique(np.asarray(cage_angles, float)), most_contacts=most_contacts)
-    angles, frequency = first.cage_angles, first.frequency
-    if not np.isfinite(frequency).any():
-        return first.bands()
-    for _ in range(_ROUNDS):
-        at = np.concatenate([np.nanargmin(frequency, axis=0), np.nanargmax(frequency, axis=0)])
-        gaps = np.unique(np.concatenate([at - 1, at]))
-        gaps = gaps[(gaps >= 0) & (gaps < len(angles) - 1)]
-        if not gaps.size:
-            break
-        wide = angles[gaps + 1] - angles[gaps]
-        between = (angles[gaps][:, None] + wide[:, None] * _QUARTERS).ravel()
-        found = modes_at(equilibrium(scene, between), like=first)
-        angles = np.concatenate([angles, between])
-        order = np.argsort(angles, kind="stable")
-        angles, frequency = angles[order], np.concatenate([frequency, found.frequency])[order]
-    return dict(zip(first.label, map(_band, frequency.T), strict=True))
+    n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
+    n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
+    found = positions(scene, n)
+    state = over_all_positions(scene, n, most_contacts=most_contacts)
+    if not state.converged.any():
+        return modes_at(state).bands()
+    search = BandSearch(state)
+
+    def frequencies(cage_angles: Array, shaft_angles: Array) -> Array:
+        return search.frequencies(equilibrium(scene, cage_angles, shaft_angles=shaft_angles))
+
+    ends = extremes(found, search.frequencies(state), frequencies, rounds=rounds)
+    there = equilibrium(scene, ends.cage_angles.ravel(), shaft_angles=ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    if not (turns(scene) or coarse):
+        # dampers that come in with a ball move the ends a little: there are few samples here
+        every = modes_at(state, search.template).frequency
+        least = np.fmin(least, np.nanmin(every, axis=0))
+        greatest = np.fmax(greatest, np.nanmax(every, axis=0))
+    pairs = zip(least.tolist(), greatest.tolist(), strict=True)
+    return dict(zip(search.labels, pairs, strict=True))
 
 
-_ROUNDS = 3
-_QUARTERS = np.array([0.25, 0.5, 0.75])
+class BandSearch:
+    """Undamped frequencies of modes, followed by those of the mean of a state at all positions."""
+
+    def __init__(self, state: Equilibrium) -> None:
+        scene, weights = state.scene, state.shares
+        dofs = scene.active_dofs
+        self._terms = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
+        self._support, self._mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
+        terms = self._of(state)
+        known = np.isfinite(terms).all(axis=0) * weights
+        mean = np.zeros((len(dofs), len(dofs)))
+        row, column = np.triu_indices(len(dofs))
+        share = max(float(known.sum()), 1e-300)
+        mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / share
+        self.template = _undamped(two_body_matrix(mean, self._support), self._mass)[1]
+        self.labels = _labels(self.template, self._mass, dofs)[0]
+
+    def _of(self, state: Equilibrium) -> Array:
+        return np.stack([state.term(name) for name in self._terms])
+
+    def frequencies(self, state: Equilibrium) -> Array:
+        """(m, n) [Hz] at the angles of `state`; NaN where it has no answer."""
+        terms = self._of(state)
+        known = np.asarray(np.isfinite(terms).all(axis=0))
+        found = np.full((len(self.template), known.size), math.nan)
+        found[:, known] = _frequencies_like(
+            self.template, terms[:, known], self._support, self._mass
+        )
+        return found
 
 
-def modes_at(state: Equilibrium, like: Modes | None = None) -> Modes:
+def modes_at(state: Equilibrium, template: Array | None = None) -> Modes:
     """The modes at static states that are already known.
 
-    They are followed by those `like` which they are to be, else by those of their mean stiffness.
+    They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -217,7 +246,8 @@ def modes_at(state: Equilibrium, like: Modes | None = None) -> Modes:
         if known.any()
         else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
     )
-    template = _undamped(mean, mass)[1] if like is None else like.mean_shape
+    if template is None:
+        template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
         frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
@@ -311,14 +341,13 @@ def _frequencies_like(
 
 @kept(512, 32_000_000, lambda _, scene: 1000 + floor_bytes(scene.defects))
 def highest_natural_frequency(scene: Scene) -> float:
-    """The greatest undamped natural frequency [Hz] of a scene over one period of cage angles.
+    """The greatest undamped natural frequency [Hz] of a scene over all its positions.
 
     NaN where no angle has a static state. It decides how finely a motion must be stepped.
     """
     dofs = scene.active_dofs
     index = [DOF_NAMES.index(name) for name in dofs]
-    angles = default_cage_angles(scene, 31)
-    K_b = equilibrium(scene, angles, dofs).stiffness[:, index][:, :, index]
+    K_b = over_all_positions(scene, 31).stiffness[:, index][:, :, index]
     known = np.isfinite(K_b).all(axis=(1, 2))
     if not known.any():
         return math.nan

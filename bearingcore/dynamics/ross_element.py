@@ -11,7 +11,7 @@ from bearingcore.common import checks
 from bearingcore.dynamics.modes import contact_damping, loaded_directions
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import static_state
-from bearingcore.statics.equilibrium import default_cage_angles
+from bearingcore.statics.positions import over_all_positions
 
 ALONG = {
     "xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2),
@@ -67,14 +67,15 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
 
 
 def _mean_matrices(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Means over the cage angles of K_b and C_b, (5, 5), balls with mass where it is known."""
+    """Means over all positions of K_b and C_b, (5, 5), balls with mass where it is known."""
     if not scene.bearing.kind.mass_unknown:
         scene = scene.replace(balls=WITH_MASS)
-    state = static_state(scene, default_cage_angles(scene)[:-1])  # the last is the first again
+    state = over_all_positions(scene, solve=static_state)
     if not state.converged.all():
         k = int(np.argmin(state.converged))
         raise checks.refuse(
             "scene", f"at {scene.shaft_speed:g} rad/s {state.reason(k)}", "one static state"
         )
     damping = contact_damping(scene) * loaded_directions(state)
-    return state.stiffness.mean(axis=0), damping.mean(axis=0)
+    stiffness = np.tensordot(state.shares, state.stiffness, 1)
+    return stiffness, np.tensordot(state.shares, damping, 1)

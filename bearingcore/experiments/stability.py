@@ -31,7 +31,7 @@ from bearingcore.experiments.points import NOT_WATCHED, Reference, Watch
 from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
 from bearingcore.signals.spectrum_difference import BAND
-from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
+from bearingcore.statics.positions import over_all_positions
 
 Array = NDArray[np.float64]
 
@@ -125,11 +125,14 @@ def linear_limits(scene: Scene) -> dict[str, float]:
     """
     dofs = scene.active_dofs
     index = [DOF_NAMES.index(name) for name in dofs]
-    state = equilibrium(scene, default_cage_angles(scene, 31), dofs)
+    state = over_all_positions(scene, 31)
     mass = scene.support.inertias(dofs)
     damping = contact_damping(scene) * loaded_directions(state)
     systems = []
-    for k in np.flatnonzero(state.converged):
+    # the softer ones of thousands of positions need no eigenvalues
+    size = (state.stiffness[:, index, index] / mass[: len(dofs)]).sum(axis=1)
+    hardest = np.argsort(-np.where(state.converged, size, -math.inf))[:31]
+    for k in hardest[state.converged[hardest]]:
         K = two_body_matrix(state.stiffness[k][np.ix_(index, index)], scene.support.stiffness(dofs))
         C = two_body_matrix(damping[k][np.ix_(index, index)], scene.support.damping(dofs))
         systems.append((K / mass[:, None], C / mass[:, None]))

@@ -282,7 +282,10 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Fo
     load = kernels.StaticLoad(problem.force, problem.active)
     path = packing.path(problem.scene)
     parts = [problem.angles] if warm else np.split(problem.angles, len(problem.angles))
-    states = [kernels.static_states(part, problem.packed, path, load) for part in parts]
+    states = [
+        kernels.static_states(part, np.zeros_like(part), problem.packed, path, load)
+        for part in parts
+    ]
     q, status, evaluations = (np.concatenate([one[i] for one in states]) for i in (0, 4, 7))
     return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
 

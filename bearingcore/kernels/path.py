@@ -72,10 +72,11 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
 
 
 @called
-def path_drop(angle, cage_angle, row, path):
+def path_drop(angle, cage_angle, lead, row, path):
     """Drop [m] of a ball of a row at `angle`, and its derivative with its cage's turning [m/rad].
 
-    `cage_angle` is that of the row's own cage, as is what a defect's `turn_ratio` is against.
+    `cage_angle` is that of the row's own cage, as is what a defect's `turn_ratio` is against. Those
+    that turn are a further angle `lead` ahead, as cage and shaft can be at any angle to each other.
     Defects of one race do not overlap here (those that do share a table); drops into both races
     add.
     """
@@ -89,6 +90,8 @@ def path_drop(angle, cage_angle, row, path):
         turn = defects[i, TURN_RATIO]
         half = defects[i, HALF_EXTENT]
         x = angle - defects[i, CENTER] - turn * cage_angle
+        if turn != 0.0:
+            x -= lead
         x -= 2.0 * math.pi * math.floor(x / (2.0 * math.pi) + 0.5)
         if abs(x) > half:
             continue
@@ -126,7 +129,7 @@ def ball_path(ball_angles, cage_angles, row, path):
 def fill_drops(ball_angles, cage_angles, row, path, drops):
     """Body of `ball_path`."""
     for i in range(ball_angles.size):
-        drops[i], _ = path_drop(ball_angles[i], cage_angles[i], row, path)
+        drops[i], _ = path_drop(ball_angles[i], cage_angles[i], 0.0, row, path)
 
 
 def roll_over(surface, circle):
@@ -205,11 +208,11 @@ def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last):
 
 
 @inlined
-def drops_of_balls(cage, contacts, path, d, slope):
+def drops_of_balls(cage, lead, contacts, path, d, slope):
     """Drop [m] of every ball into d (n,) and its derivative [m/rad] with the cage's turning.
 
     Only balls at a defect are computed: from the first one after the defect's beginning to the
-    last one before its end.
+    last one before its end. Defects that turn are an angle `lead` [rad] ahead, see `path_drop`.
     """
     defects = path.defects
     rows = contacts.rows
@@ -228,20 +231,21 @@ def drops_of_balls(cage, contacts, path, d, slope):
             pace = contacts.pace[first]
             turned = pace * cage
             start = turned + contacts.angle[first]
-            begin = (defects[k, CENTER] + turn * turned - half - start) / spacing
+            ahead = lead if turn != 0.0 else 0.0
+            begin = (defects[k, CENTER] + turn * turned + ahead - half - start) / spacing
             ball = math.ceil(begin - 1e-9)
             end = min(begin + 2.0 * half / spacing + 1e-9, ball + n - 0.5)
             while ball <= end:
                 j = first + int(ball) % n
-                d[j], rise = path_drop(start + spacing * ball, turned, row, path)
+                d[j], rise = path_drop(start + spacing * ball, turned, lead, row, path)
                 slope[j] = pace * rise
                 ball += 1.0
 
 
 @called
-def lay_out_drops(cage, contacts, path, d, slope):
+def lay_out_drops(cage, lead, contacts, path, d, slope):
     """`drops_of_balls`, called."""
-    drops_of_balls(cage, contacts, path, d, slope)
+    drops_of_balls(cage, lead, contacts, path, d, slope)
 
 
 def new_passage(instants, angle):
@@ -291,6 +295,6 @@ def lay_out_drops_and_rates(start, turn, count, cage_speed, contacts, path, pass
     """Drops with their rates at `count` cage angles, into a passage."""
     for i in range(count):
         rate = passage.d_rate[i]
-        drops_of_balls(start + i * turn, contacts, path, passage.d[i], rate)
+        drops_of_balls(start + i * turn, 0.0, contacts, path, passage.d[i], rate)
         for j in range(rate.size):
             rate[j] *= cage_speed

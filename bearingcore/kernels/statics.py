@@ -616,7 +616,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             if status[e, k] != OPEN:
                 drops[k, 0] = math.nan
                 continue
-            lay_out_drops(cage_angles[k], contacts, path, d, work.slope)
+            lay_out_drops(cage_angles[k], paths.leads[e, k], contacts, path, d, work.slope)
             same = True
             for j in range(n_contacts):
                 same = same and drops[k, j] == d[j]
@@ -682,8 +682,10 @@ _TERMS = np.zeros((5, 5), dtype=np.int64)
 _TERMS[np.triu_indices(5)] = _TERMS.T[np.triu_indices(5)] = np.arange(15)
 
 
-def static_states(cage_angles, contacts, path, load):
+def static_states(cage_angles, leads, contacts, path, load):
     """Static equilibrium at each cage angle (n,) [rad], each started from those before it.
+
+    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
 
     A map of one row. Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded
     contacts, status, residual, iterations and evaluations (n,), tilts and moments scaled as at the
@@ -696,7 +698,7 @@ def static_states(cage_angles, contacts, path, load):
     static_maps(
         cage_angles,
         contacts,
-        MapPaths(path.defects[None], count, path.tables),
+        MapPaths(path.defects[None], count, path.tables, leads[None]),
         load,
         (0, 1),
         memory,

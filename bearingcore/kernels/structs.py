@@ -182,11 +182,15 @@ class MapWork(NamedTuple):
 
 
 class MapPaths(NamedTuple):
-    """Paths of the e rows of a map: defects (e, m, columns), counts (e,) of them used; tables."""
+    """Paths of the e rows of a map: defects (e, m, columns), counts (e,) of them used; tables.
+
+    leads (e, n) [rad]: how far defects that turn are ahead, at each of n cage angles.
+    """
 
     defects: Array
     counts: Integers
     tables: Array
+    leads: Array
 
 
 class MapMemory(NamedTuple):

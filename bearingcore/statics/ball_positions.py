@@ -61,7 +61,7 @@ class BallPositions:
     stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
     status, residual, iterations : (n,)
         as of `Equilibrium`; a load that no contact can carry is not solved again.
-    cost
+    leads, cost
         as of `Equilibrium`.
     """
 
@@ -77,6 +77,7 @@ class BallPositions:
     status: NDArray[np.int8]
     residual: Array
     iterations: NDArray[np.int64]
+    leads: Array
     cost: str = ""
 
     @cached_property
@@ -123,6 +124,7 @@ def ball_positions(
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
     *,
+    shaft_angles: ArrayLike | None = None,
     centrifugal_load: float | None = None,
     weight: bool = False,
     most_contacts: int = MOST_CONTACTS,
@@ -136,7 +138,7 @@ def ball_positions(
 
     Parameters
     ----------
-    scene, cage_angles, dofs
+    scene, cage_angles, dofs, shaft_angles
         as of `equilibrium`.
     centrifugal_load
         F_c [N] of each ball; None: at the scene's speed.
@@ -153,11 +155,13 @@ def ball_positions(
     Raises
     ------
     ValueError
-        for cage angles that are not finite, unknown names in `dofs`, or contacts so soft or
-        stiff that a computer has no numbers for them.
+        for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
+        or stiff that a computer has no numbers for them.
     """
     scene.bearing.kind.check_mass()
-    massless = equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
+    massless = equilibrium(
+        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
+    )
     active = massless.dofs
     with _within_range(scene):
         races = packing.races(scene, 0.0, weight=weight)
@@ -168,12 +172,13 @@ def ball_positions(
         return BallPositions(
             scene, active, massless.cage_angles, float(races.centrifugal[0]),
             massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
-            massless.status, massless.residual, massless.iterations, massless.cost,
+            massless.status, massless.residual, massless.iterations, massless.leads, massless.cost,
         )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     with _within_range(scene):
         q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
             massless.cage_angles,
+            massless.leads,
             start,
             static_balls(scene, races),
             packing.static_load(scene, active),
@@ -206,6 +211,7 @@ def ball_positions(
         status.astype(np.int8),
         residual,
         iterations,
+        massless.leads,
     )
 
 
@@ -250,6 +256,7 @@ def static_state(
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
     *,
+    shaft_angles: ArrayLike | None = None,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium by the model of the scene.
@@ -259,8 +266,12 @@ def static_state(
     are those of `equilibrium`.
     """
     if scene.balls != WITH_MASS:
-        return equilibrium(scene, cage_angles, dofs, most_contacts=most_contacts)
-    found = ball_positions(scene, cage_angles, dofs, most_contacts=most_contacts)
+        return equilibrium(
+            scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
+        )
+    found = ball_positions(
+        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
+    )
     known = found.status < StaticStatus.NOT_CARRIED
     carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
     return EquilibriumWithMass(
@@ -276,6 +287,7 @@ def static_state(
         iterations=found.iterations,
         evaluations=found.iterations,
         state=found.displacement * packing.length_units(scene),
+        leads=found.leads,
         cost=found.cost,
         positions=found,
     )
@@ -332,10 +344,12 @@ def _within_range(scene: Scene) -> Iterator[None]:
         ) from None
 
 
-def centrifugal_effect(scene: Scene, cage_angles: ArrayLike | None = None) -> CentrifugalEffect:
+def centrifugal_effect(
+    scene: Scene, cage_angles: ArrayLike | None = None, shaft_angles: ArrayLike | None = None
+) -> CentrifugalEffect:
     """Static states with and without centrifugal load, compared; see `ball_positions`."""
-    without = ball_positions(scene, cage_angles, centrifugal_load=0.0)
-    with_load = ball_positions(scene, without.cage_angles)
+    without = ball_positions(scene, cage_angles, shaft_angles=shaft_angles, centrifugal_load=0.0)
+    with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
     both = without.converged & with_load.converged
     if not both.all():
         nan = math.nan

@@ -79,8 +79,13 @@ class Equilibrium:
         Newton steps, and how often the energy was evaluated.
     state : (n, 5) [m]
         the last displacement reached, tilts times r_d, whatever became of it.
+    leads : (n,) [rad]
+        how far the shaft is ahead of where the cage angle has it: see `shaft_angles`.
     cost
         what solving them would have taken, where that was too much to begin; else empty.
+    weights : (n,)
+        share of the time, where the angles stand for all positions that balls and shaft take:
+        `bearingcore.statics.positions`. None elsewhere.
     """
 
     scene: Scene
@@ -95,12 +100,25 @@ class Equilibrium:
     iterations: NDArray[np.int64]
     evaluations: NDArray[np.int64]
     state: NDArray[np.float64] = field(repr=False)
+    leads: NDArray[np.float64] = field(repr=False)
     cost: str = ""
+    weights: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """(n,) True where there is one equilibrium and it was found."""
         return self.status == StaticStatus.CONVERGED
+
+    @property
+    def shaft_angles(self) -> NDArray[np.float64]:
+        """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
+        return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
+
+    @property
+    def shares(self) -> NDArray[np.float64]:
+        """(n,) share of the time of each angle: `weights`, or all alike."""
+        n = len(self.cage_angles)
+        return np.full(n, 1.0 / n) if self.weights is None else self.weights
 
     @property
     def carries(self) -> NDArray[np.bool_]:
@@ -116,7 +134,7 @@ class Equilibrium:
     def contact_angle(self) -> NDArray[np.float64]:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         contacts = packing.contacts(self.scene.bearing)
-        along, across = moved(self.scene, self.cage_angles, self.state)
+        along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
         # Equation (8): the part along the unloaded line of contact only while positive
         along += contacts.distance
         unloaded = np.arctan2(contacts.line_z, contacts.line_r)
@@ -164,7 +182,8 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.fl
 
     The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
     eight times as many angles. A defect of the inner race turns with the shaft and breaks it: its
-    curves are given over the cage angle in which the shaft turns once.
+    curves are given over the cage angle in which the shaft turns once. That is one turn of many:
+    what holds for all is in `bearingcore.statics.positions`.
     """
     period = scene.bearing.period
     if any(defect.race == "inner" for defect in scene.defects):
@@ -183,6 +202,7 @@ def equilibrium(
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
     *,
+    shaft_angles: ArrayLike | None = None,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
@@ -193,11 +213,14 @@ def equilibrium(
         what to solve.
     cage_angles : (n,)
         [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
-        order are cheapest; the answer does not depend on the order. The shaft, and with it an
-        inner-race defect, has turned ω_s/ω_c times as far.
+        order are cheapest; the answer does not depend on the order.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
         directions that are held are carried by what holds them.
+    shaft_angles : (n,)
+        [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
+        None: ω_s/ω_c times as far as the cage, which is one run of many: see
+        `bearingcore.statics.positions`.
     most_contacts
         contacts that may be solved: cage angles times balls. Where there are more nothing is
         begun, and `reason` says how many there would be.
@@ -211,19 +234,25 @@ def equilibrium(
     Raises
     ------
     ValueError
-        for cage angles that are not finite or unknown names in `dofs`.
+        for angles that are not finite or not as many, or unknown names in `dofs`.
     """
     if cage_angles is None:
         angles = default_cage_angles(scene)
     else:
         angles = checks.finite("cage_angles", cage_angles, "rad")
+    leads = np.zeros_like(angles)
+    if shaft_angles is not None:
+        leads = checks.finite("shaft_angles", shaft_angles, "rad")
+        if leads.shape != angles.shape:
+            raise checks.refuse("shaft_angles", leads.size, f"{angles.size}, one a cage angle")
+        leads = leads - angles / scene.bearing.cage_ratio
     free = scene.free_dofs(dofs)
     if cost := too_many_contacts(scene, angles.size, most_contacts):
-        return _not_begun(scene, free, angles, cost)
+        return _not_begun(scene, free, angles, leads, cost)
     units = packing.length_units(scene)
     load = packing.static_load(scene, free)
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
-        angles, packing.contacts(scene.bearing), packing.path(scene), load
+        angles, leads, packing.contacts(scene.bearing), packing.path(scene), load
     )
     displacement = q / units
     failed = np.flatnonzero(status)
@@ -252,6 +281,7 @@ def equilibrium(
         iterations=iterations,
         evaluations=evaluations,
         state=q,
+        leads=leads,
     )
 
 
@@ -267,7 +297,11 @@ def too_many_contacts(scene: Scene, points: int, most: int) -> str:
 
 
 def _not_begun(
-    scene: Scene, dofs: tuple[str, ...], angles: NDArray[np.float64], cost: str
+    scene: Scene,
+    dofs: tuple[str, ...],
+    angles: NDArray[np.float64],
+    leads: NDArray[np.float64],
+    cost: str,
 ) -> Equilibrium:
     """NaN everywhere, without the memory of it."""
     n = angles.size
@@ -290,6 +324,7 @@ def _not_begun(
         iterations=none,
         evaluations=none,
         state=all_of(math.nan, 5),
+        leads=leads,
         cost=cost,
     )
 

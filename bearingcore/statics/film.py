@@ -49,8 +49,9 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
+from bearingcore.statics.positions import over_all_positions
 from bearingcore.statics.pressure import RACES, HeaviestBall, heaviest_balls
 
 TOUCHING, PARTED = 1.0, 3.0
@@ -243,7 +244,7 @@ def film(
         σ [m], root mean square, of each surface, rollers too; usual ones of honed races by default.
         The root of the sum of squares counts, and must be above 0.
     state
-        the scene's static equilibrium, if it is there already; None computes one period.
+        the scene's static equilibrium, if it is there already; None computes it at all positions.
 
     Raises
     ------
@@ -267,7 +268,7 @@ def film(
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
     if state is None:
-        state = equilibrium(scene)
+        state = over_all_positions(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]

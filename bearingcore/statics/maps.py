@@ -185,6 +185,7 @@ def stiffness_maps(
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
     answers = kernels.new_answers(*shape)
+    packed = paths.packed._replace(leads=np.zeros(shape))
     status = answers.status
     refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
     status[refused] = StaticStatus.REFUSED
@@ -193,9 +194,7 @@ def stiffness_maps(
     memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
-        return kernels.static_maps(
-            angles, contacts, paths.packed, load, (begin, end), memory, answers
-        )
+        return kernels.static_maps(angles, contacts, packed, load, (begin, end), memory, answers)
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.
@@ -269,7 +268,7 @@ def _paths(
         rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
         rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
         counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
-        return _Paths(kernels.MapPaths(rows, counts, np.zeros(0)), ("",) * sizes.size)
+        return _Paths(kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size)
     found: list[tuple[Array, Array]] = []
     refusals = []
     for extent in extents:
@@ -289,8 +288,10 @@ def _paths(
         all_rows[i, : len(rows), _TABLE_START] += size
         size += table.size
     tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
-    return _Paths(kernels.MapPaths(all_rows, counts, tables), tuple(refusals))
+    return _Paths(kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals))
 
+
+_NO_LEADS = np.zeros((0, 0))
 
 _HALF_EXTENT, _FLOOR_ANGLE, _TABLE_START = (
     kernels.PATH_COLUMNS.index(name)

@@ -60,13 +60,22 @@ def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> NDArr
 
 
 def drops_at(
-    scene: Scene, cage_angles: NDArray[np.float64], race: str | None = None
+    scene: Scene,
+    cage_angles: NDArray[np.float64],
+    race: str | None = None,
+    leads: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
-    """Drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row."""
+    """Drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row.
+
+    leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
+    """
     angles = ball_angles(scene.bearing, cage_angles)
+    turned = cage_angles
+    if leads is not None:
+        turned = cage_angles + scene.bearing.cage_ratio * leads
     return np.concatenate(
         [
-            ball_drop(scene, angles[:, own], cage_angles[:, None], race, row)
+            ball_drop(scene, angles[:, own], turned[:, None], race, row)
             for row, own in enumerate(scene.bearing.balls_of_rows)
         ],
         axis=1,

@@ -22,14 +22,15 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.equilibrium import Equilibrium
+from bearingcore.statics.positions import over_all_positions
 
 RACES = ("inner", "outer")
 
 
 @dataclass(frozen=True)
 class HeaviestBall:
-    """Where a ball carries most, over the cage angles looked at. NaN where nothing is known.
+    """Where a ball carries most, over the positions looked at. NaN where nothing is known.
 
     Attributes
     ----------
@@ -50,7 +51,7 @@ class HeaviestBall:
 def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
     """The heaviest loaded ball of each row that is unlike the others; one where all are alike.
 
-    Over all cage angles whose loads are known.
+    Over all positions whose loads are known.
     """
     return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
 
@@ -141,7 +142,9 @@ class ContactPressures:
 
 
 def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
-    """Ellipse and pressure at each race, where a ball carries most over all cage angles.
+    """Ellipse and pressure at each race, where a ball carries most over all positions.
+
+    That is over all cage angles, and over all shaft angles where a defect turns with the shaft.
 
     Of rows that are unlike, that of the row whose heaviest ball presses hardest.
 
@@ -150,7 +153,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     scene
         what to look at; its bearing needs its groove radii.
     state
-        its static equilibrium, if it is there already; None computes one period of cage angles.
+        its static equilibrium, if it is there already; None computes it at all positions.
 
     Raises
     ------
@@ -158,7 +161,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         for a bearing without groove radii, or the equilibrium of another scene.
     """
     if state is None:
-        state = equilibrium(scene)
+        state = over_all_positions(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]

@@ -49,10 +49,13 @@ def explanation(
     return ""
 
 
-def moved(scene: Scene, cage_angles: Array, state: Array) -> tuple[Array, Array]:
+def moved(
+    scene: Scene, cage_angles: Array, state: Array, leads: Array | None = None
+) -> tuple[Array, Array]:
     """Displacements (n, N_b) [m] along and across the unloaded lines of contact (Eqs. 9-12).
 
-    `state` (n, 5) [m] is that of `Equilibrium`; clearance and drop into defects are taken off.
+    `state` (n, 5) [m] and `leads` (n,) [rad] are those of `Equilibrium`; clearance and drop into
+    defects are taken off.
     """
     one = packing.contacts(scene.bearing)
     angle = packing.ball_angles(scene.bearing, cage_angles)
@@ -60,7 +63,7 @@ def moved(scene: Scene, cage_angles: Array, state: Array) -> tuple[Array, Array]
     x, y, z, rx, ry = state.T[..., None]
     r = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
     a = z + one.reach * (rx * s - ry * c) + one.offset
-    along = r * one.line_r + a * one.line_z - drops_at(scene, cage_angles)
+    along = r * one.line_r + a * one.line_z - drops_at(scene, cage_angles, leads=leads)
     return along, a * one.line_r - r * one.line_z
 
 

@@ -47,20 +47,17 @@ from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
-from bearingcore.statics.equilibrium import (
-    Equilibrium,
-    default_cage_angles,
-    equilibrium,
-    has_long_period,
-)
+from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
+from bearingcore.statics.positions import over_all_positions, positions, turns
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
 
 ANGLES = 361
-"""Cage angles in a ball spacing at which a scene is looked at."""
+"""Cage angles in a ball spacing at which a scene is looked at; a third of them go into the
+positions of a defect that turns."""
 
 CENTRIFUGAL_SHARE = {"least": 1.0}
 """Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
@@ -70,7 +67,7 @@ CENTRIFUGAL_CHANGE = 0.1
 """Part by which centrifugal force may change loads, over the heaviest, and stiffness: neither is
 usually known better than to a tenth."""
 
-_CHANGE_ANGLES = 31
+_CHANGE_ANGLES, _MOST_CHANGES = 31, 240
 
 GREATEST_COMPRESSION = 0.2
 """Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
@@ -89,14 +86,13 @@ def usual_shoulder_height(contact_angle: float) -> float:
     return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
 
 
-def looked_at(scene: Scene) -> NDArray[np.float64]:
-    """Cage angles [rad] at which `limits` looks: fine, and always the same.
+def looked_at(scene: Scene) -> Equilibrium:
+    """The static equilibrium at all positions of `limits`: fine, and always the same.
 
-    A verdict must not depend on the resolution of a figure. A defect that turns with the shaft, and
-    rows of unlike balls, have a period eight times as long, or more, and a third of the angles for
-    each part of it.
+    A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
+    the shaft began: see `bearingcore.statics.positions`.
     """
-    return default_cage_angles(scene, (ANGLES - 1) // 3 + 1 if has_long_period(scene) else ANGLES)
+    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if turns(scene) else ANGLES)
 
 
 def limits(
@@ -115,8 +111,8 @@ def limits(
     scene
         what to look at.
     state
-        its static equilibrium at cage angles of your own; None takes those of `looked_at`, so that
-        one scene has one verdict. Loads and angles are the greatest over the cage angles.
+        its static equilibrium at cage angles of your own; None takes that of `looked_at`, so that
+        one scene has one verdict. Loads and angles are the greatest over its angles.
     dynamic_load
         greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
         none was simulated: what depends on it is then not known.
@@ -144,7 +140,7 @@ def limits(
     if shoulder_height is not None:
         checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
-        state = equilibrium(scene, looked_at(scene))
+        state = looked_at(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     if film is not None and film.scene != scene:
@@ -335,10 +331,10 @@ def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
 
 def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
     """Centrifugal force against the load of the least loaded of some balls."""
-    loads = state.ball_load[_known(state), balls]
+    loads = state.ball_load[:, balls]
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
-    lightest = lightest[np.isfinite(lightest)]
-    median = float(np.median(lightest)) if lightest.size else math.nan
+    carried = _known(state) & np.isfinite(lightest)
+    median = _median(lightest[carried], state.shares[carried])
     element = bearing.kind.element
     return _share(
         f"least loaded {element}",
@@ -349,12 +345,23 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     )
 
 
+def _median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:
+    """Median of numbers (n,) with weights (n,); NaN of none."""
+    if not values.size:
+        return math.nan
+    order = np.argsort(values)
+    below = np.cumsum(weights[order]) - 0.5 * weights[order]
+    return float(np.interp(0.5 * weights.sum(), below, values[order]))
+
+
 def _centrifugal_change(scene: Scene) -> Limit:
     """Change of loads and stiffness by centrifugal load, found by solving with it."""
     force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     try:
-        effect = centrifugal_effect(scene, default_cage_angles(scene, _CHANGE_ANGLES))
+        found = positions(scene, _CHANGE_ANGLES)
+        some = slice(None, None, max(found.weights.size // _MOST_CHANGES, 1))
+        effect = centrifugal_effect(scene, found.cage_angles[some], found.shaft_angles[some])
     except ValueError as error:
         return unknown(name, limit, "", str(error))
     if not effect.converged:

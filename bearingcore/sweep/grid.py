@@ -151,8 +151,10 @@ class Grid:
 
     @property
     def in_rows(self) -> bool:
-        """True where scenes that differ in extent alone are solved together."""
-        return set(self.needs) <= IN_ROWS and "extent" in self.dims
+        """True where scenes that differ in extent alone are solved together: no defect turns."""
+        several = self.scene.defect if isinstance(self.scene.defect, tuple) else [self.scene.defect]
+        standing = all(defect.race == "outer" for defect in several)
+        return set(self.needs) <= IN_ROWS and "extent" in self.dims and standing
 
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
@@ -242,7 +244,7 @@ class Grid:
             scene = self.scene_at(index)
         except ValueError:
             return SweepStatus.SCENE_REFUSED.code, {}
-        return of_scene(scene, self.needs, self.labels, self.settings)
+        return of_scene(scene, self.needs, self.labels, self.settings, self.outputs)
 
     def _rows(self) -> Iterator[tuple[Any, Any, Numbers]]:
         row = self.dims.index("extent")

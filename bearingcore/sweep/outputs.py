@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.ball_comparison import mass_share
-from bearingcore.dynamics.modes import undamped_bands
+from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_run import SETTLING
@@ -24,12 +24,19 @@ from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,
     TERM_UNITS,
-    default_cage_angles,
     equilibrium,
 )
 from bearingcore.statics.life import dynamic_load_rating, life
 from bearingcore.statics.maps import stiffness_maps
+from bearingcore.statics.positions import (
+    ROUNDS,
+    extremes,
+    over_all_positions,
+    positions,
+    turns,
+)
 from bearingcore.statics.pressure import contact_pressures
+from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, static_ranges
 from bearingcore.statics.status import StaticStatus
 from bearingcore.sweep.status import (
     OF_MOTION,
@@ -45,8 +52,8 @@ STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion"
 
 SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 5e-4, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
 """Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
-a task. Five directions cost about ten times as much, but for statics, modes and life; life takes
-fifteen times as long with a defect of the inner race."""
+a task. Five directions cost about ten times as much, but for statics, modes and life; with a
+defect of the inner race statics and modes take thirty times as long, life fifteen times."""
 
 SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
 """[s] where the extent varies: a row of extents is solved together."""
@@ -96,7 +103,7 @@ _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 def _table() -> dict[str, Output]:
     table: dict[str, Output] = {}
-    over = "over the cage angles of a period"
+    over = "over all positions of the balls and of a defect that turns"
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
@@ -119,9 +126,9 @@ def _table() -> dict[str, Output]:
     )
     table["converged_share"] = Output(
         "1",
-        "share of the cage angles that have one static state, and it was found",
+        "share of the positions that have one static state, and it was found",
         "Balls",
-        "cage angles with a static state, share",
+        "positions with a static state, share",
         STATICS,
     )
     for race in ("inner", "outer"):
@@ -226,7 +233,8 @@ class Settings:
     Parameters
     ----------
     cage_angles
-        how many in a period, ends included; eight times as many for inner-race defects.
+        how many in a period, ends included. With an inner-race defect a quarter as many to a ball
+        spacing all around, at each place where a ball meets an edge.
     duration
         [s] of simulated motions; their first half is left out as transient.
     sample_rate
@@ -267,27 +275,33 @@ Numbers = dict[str, Array]
 
 
 def of_scene(
-    scene: Scene, needs: Iterable[str], labels: tuple[str, ...], settings: Settings
+    scene: Scene,
+    needs: Iterable[str],
+    labels: tuple[str, ...],
+    settings: Settings,
+    outputs: Iterable[str] = OUTPUTS,
 ) -> tuple[int, Numbers]:
     """Code of what became of one scene, and its outputs: those of the computations in `needs`.
 
-    `labels` are the modes that the band edges are given for.
+    `labels` are the modes that the band edges are given for. With a defect that turns the ends of
+    no other stiffness than in `outputs` are looked for.
     """
     ended: list[SweepStatus] = []
     numbers: Numbers = {}
     if STATICS in needs or MODES in needs:
-        state = equilibrium(scene, default_cage_angles(scene, settings.cage_angles))
-        terms = np.stack([state.term(name) for name in STIFFNESS_TERMS])
-        code, numbers = _statics(
-            state.status, terms, state.loaded_balls, state.ball_load.max(axis=1)
+        found = static_ranges(
+            scene,
+            [name for name in (*STIFFNESS_TERMS, BALL_LOAD) if _ends_of(name) & set(outputs)],
+            settings.cage_angles,
+            rounds=ROUNDS if turns(scene) else 0,
         )
+        code, numbers = _of_ranges(found)
         ended.append(STATUSES[int(code)])
     try:
         if LIFE in needs:
             ended.append(_life(scene, settings, numbers))
         if MODES in needs:
-            edges = _bands(scene, terms[:, None], labels)
-            numbers |= {name: values[0] for name, values in edges.items()}
+            numbers |= _bands_over_all_positions(found, labels, settings.cage_angles)
         if MOTION in needs:
             ended.append(_motion(scene, settings, numbers))
         if MASS in needs:
@@ -302,15 +316,53 @@ def of_scene(
             )
             numbers["mass_share"] = np.array(share)
         if ORBIT in needs:
-            found = orbit(scene)
-            numbers["floquet_multiplier_greatest"] = np.array(found.largest_multiplier)
-            ended.append(OF_ORBIT[found.status])
+            motion = orbit(scene)
+            numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
+            ended.append(OF_ORBIT[motion.status])
     except ValueError:
         ended.append(SweepStatus.COMPUTATION_REFUSED)
     except (ArithmeticError, np.linalg.LinAlgError):
         ended.append(SweepStatus.ARITHMETIC_FAILED)
     known = SweepStatus.COMPLETE
     return next((status for status in ended if status is not known), known).code, numbers
+
+
+def _ends_of(name: str) -> set[str]:
+    """Outputs that are the ends of a number of `static_ranges`."""
+    return {f"{name}_least", f"{name}_greatest"}
+
+
+def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
+    """`_statics` of one scene, with the ends that were looked for between the positions."""
+    state = found.state
+    terms = np.stack([state.term(name) for name in STIFFNESS_TERMS])
+    greatest_load = state.ball_load.max(axis=1)
+    code, numbers = _statics(state.status, terms, state.loaded_balls, greatest_load, state.shares)
+    for which, ends in (("least", found.least), ("greatest", found.greatest)):
+        for name, value in ends.items():
+            key = f"{name}_{which}"
+            if key in numbers and np.isfinite(numbers[key]):
+                numbers[key] = np.array(value)
+    return code, numbers
+
+
+def _bands_over_all_positions(found: StaticRanges, labels: tuple[str, ...], n: int) -> Numbers:
+    """Edges (len(labels),) of the bands of one scene."""
+    scene = found.state.scene
+    if not turns(scene):
+        terms = np.stack([found.state.term(name) for name in STIFFNESS_TERMS])
+        return {name: values[0] for name, values in _bands(scene, terms[:, None], labels).items()}
+    search = BandSearch(found.state)
+
+    def at(cage_angles: Array, shaft_angles: Array) -> Array:
+        return search.frequencies(equilibrium(scene, cage_angles, shaft_angles=shaft_angles))
+
+    ends = extremes(positions(scene, n), search.frequencies(found.state), at)
+    edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
+    return {
+        f"band_{which}": np.array([own.get(label, math.nan) for label in labels])
+        for which, own in zip(("least", "greatest"), edges, strict=True)
+    }
 
 
 IN_ROWS = frozenset({STATICS, MODES})
@@ -322,10 +374,13 @@ def of_row(
 ) -> tuple[NDArray[np.int8], Numbers]:
     """Codes (m,) and outputs (m, ...) of `scene` with each of the extents, solved together.
 
-    `needs` are of IN_ROWS, `labels` the modes that the band edges are given for.
+    `needs` are of IN_ROWS, `labels` the modes that the band edges are given for. No defect turns.
     """
-    maps = stiffness_maps(scene, extents, default_cage_angles(scene, settings.cage_angles))
-    codes, numbers = _statics(maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load)
+    found = positions(scene, settings.cage_angles)
+    maps = stiffness_maps(scene, extents, found.cage_angles)
+    codes, numbers = _statics(
+        maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load, found.weights
+    )
     if MODES in needs:
         try:
             numbers |= _bands(scene, maps.stiffness, labels)
@@ -351,23 +406,25 @@ def _statics(
     stiffness: Array,
     loaded_balls: NDArray[np.int64],
     greatest_load: Array,
+    weights: Array,
 ) -> tuple[NDArray[np.int8], Numbers]:
-    """Codes and numbers (...) from the cage angles (..., n) of a period, stiffness (15, ..., n).
+    """Codes and numbers (...) from positions (..., n) with weights (n,), stiffness (15, ..., n).
 
-    NaN at any of the angles makes NaN of the statistic: a mean over what happens to be known would
-    look like that of a period.
+    NaN at any of the positions makes NaN of the statistic: a mean over what happens to be known
+    would look like that of all.
     """
     gone = status >= StaticStatus.NOT_CARRIED
     balls = np.where(gone, math.nan, loaded_balls)
+    known = status == StaticStatus.CONVERGED
     numbers: Numbers = {
         "ball_load_greatest": np.where(gone, math.nan, greatest_load).max(axis=-1),
-        "converged_share": np.asarray(np.mean(status == StaticStatus.CONVERGED, axis=-1)),
-        "loaded_balls_mean": _period_mean(balls),
+        "converged_share": np.where(known.all(axis=-1), 1.0, known @ weights),
+        "loaded_balls_mean": np.asarray(balls @ weights),
         "loaded_balls_least": balls.min(axis=-1),
         "loaded_balls_greatest": balls.max(axis=-1),
     }
     statistics = (
-        ("mean", _period_mean(stiffness)),
+        ("mean", stiffness @ weights),
         ("least", stiffness.min(axis=-1)),
         ("greatest", stiffness.max(axis=-1)),
     )
@@ -392,8 +449,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     numbers["life_turns"] = np.array(turns if known else math.nan)
     numbers["life_hours"] = np.array(found.hours if known else math.nan)
     numbers["life_share_of_healthy"] = np.array(found.share_of_healthy if known else math.nan)
-    state = equilibrium(scene, default_cage_angles(scene, settings.cage_angles))
-    pressures = contact_pressures(scene, state)
+    pressures = contact_pressures(scene, over_all_positions(scene, settings.cage_angles))
     for contact in (pressures.inner, pressures.outer):
         numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)
     if math.isinf(turns):
@@ -401,12 +457,6 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     if known and math.isnan(found.hours):
         return SweepStatus.COMPUTATION_REFUSED
     return OF_STATICS[StaticStatus(found.status)]
-
-
-def _period_mean(values: Array) -> Array:
-    """Mean over a period whose both ends are given: each counts half."""
-    inner = values[..., 1:-1].sum(axis=-1) + 0.5 * (values[..., 0] + values[..., -1])
-    return np.asarray(inner / (values.shape[-1] - 1))
 
 
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearing_explorer.results.compiling import StillCompiling
 from bearing_explorer.results.excerpt import why_ended
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.statics.ranges import BALL_LOAD
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -41,12 +41,12 @@ class Peak:
 
 @dataclass(frozen=True)
 class Chain:
-    """Results of a scene at each link of the chain, over all cage angles.
+    """Results of a scene at each link of the chain, over all positions of the bearing.
 
     Attributes
     ----------
     answered
-        part of the cage angles that have an equilibrium; `reason` is why the first of the others
+        part of the positions that have an equilibrium; `reason` is why the first of the others
         has none.
     off_line : [rad]
         mean angle between the balls and the direction of the radial load, each ball weighted by
@@ -90,7 +90,7 @@ class Chain:
             ("greatest_load", "N", [self.greatest_load], "greatest load of a ball"),
             ("loaded_balls", "1", [self.loaded_balls], "mean number of balls with a load"),
             *(
-                (term, TERM_UNITS[term], [value], "mean over the cage angles")
+                (term, TERM_UNITS[term], [value], "mean over all positions")
                 for term, value in self.stiffness.items()
             ),
             *(
@@ -111,7 +111,8 @@ class Chain:
 
 def chain(results: Results) -> Chain:
     """The chain of the scene that `results` are of."""
-    found = results.equilibrium
+    ranges = results.ranges
+    found = ranges.state
     bad = np.flatnonzero(~found.converged)
     bands: dict[str, tuple[float, float]] = {}
     peaks: dict[str, Peak] = {}
@@ -128,38 +129,24 @@ def chain(results: Results) -> Chain:
     except ValueError as error:
         silent = str(error)
     terms = [f"k_{dof}{dof}" for dof in found.dofs]
-    loads = found.ball_load[found.converged]
     return Chain(
-        answered=1.0 - bad.size / found.converged.size,
+        answered=1.0 - float(found.shares[bad].sum()),
         reason=found.reason(int(bad[0])) if bad.size else "",
         off_line=off_line(found, results.scene),
         direction=direction(results.scene),
-        greatest_load=float(loads.max(initial=0.0)) if loads.size else math.nan,
-        loaded_balls=over_turn(found.cage_angles, _known(found, found.loaded_balls)),
-        stiffness={term: over_turn(found.cage_angles, found.term(term)) for term in terms},
+        greatest_load=ranges.greatest[BALL_LOAD],
+        loaded_balls=ranges.mean(np.where(found.converged, found.loaded_balls, math.nan)),
+        stiffness={term: ranges.mean(found.term(term)) for term in terms},
         bands=bands,
         peaks=peaks,
         silent=silent,
     )
 
 
-def over_turn(angles: NDArray[np.float64], values: NDArray[np.float64]) -> float:
-    """Mean over cage angles, equally spaced or not.
-
-    Angles without a value do not count; NaN where none has one.
-    """
-    known = np.isfinite(values)
-    angles, values = angles[known], values[known]
-    if angles.size < 2:
-        return float(values.mean()) if values.size else math.nan
-    middles = 0.5 * (values[1:] + values[:-1])
-    return float(middles @ np.diff(angles) / (angles[-1] - angles[0]))
-
-
 def off_line(found: Equilibrium, scene: Scene) -> float:
     """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
     load = scene.load
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0)
+    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
     total = carried.sum()
     if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
         return math.nan
@@ -181,7 +168,3 @@ def loudest(spectrum: Spectrum) -> Peak:
     most = inside[np.argmax(density[inside])]
     level = 10.0 * math.log10(max(float(density[most]), LEVEL_FLOOR))
     return Peak(float(frequency[most]), level, float(frequency[1] - frequency[0]))
-
-
-def _known(found: Equilibrium, values: NDArray[np.int64]) -> NDArray[np.float64]:
-    return np.where(found.converged, values, math.nan)

@@ -16,7 +16,6 @@ from bearingcore import (
     Scene,
     contact_pressures,
     dynamic_load_rating,
-    equilibrium,
     film,
     life,
 )
@@ -109,7 +108,7 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
             no_life = sentence_of(error)
-    state = equilibrium(scene, looked_at(scene))
+    state = looked_at(scene)
     pressures, no_pressures = None, ""
     try:
         pressures = contact_pressures(scene, state)
@@ -171,7 +170,7 @@ def limits(
     motion; None: there is none.
     """
     compiling.need(compiling.STATICS)
-    state = equilibrium(scene, looked_at(scene))
+    state = looked_at(scene)
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, state)

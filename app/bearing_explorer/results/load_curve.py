@@ -28,7 +28,7 @@ def load_curve(
 
     With a defect at rest the load depends on the ball's angle alone and this is one
     curve. A defect of the inner race comes by everywhere, and where rows are of unlike balls those
-    of the other row do: then the greatest load at each half degree is given.
+    of the other row do: then the greatest load at each angle, or half degree, is given.
     """
     own = equilibrium.scene.bearing.balls_of_rows[row]
     angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
@@ -63,11 +63,17 @@ def curves_table(curves: Sequence[Curve]) -> ResultTable:
 
 
 def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:
-    """The greatest finite load in each of `BINS` equal parts of the turn; NaN where none is."""
-    part = np.minimum((angle / TWO_PI * BINS).astype(int), BINS - 1)
-    most: NDArray[np.float64] = np.full(BINS, -np.inf)
+    """The greatest finite load at each angle; NaN where none is.
+
+    In each of `BINS` equal parts of the turn, where there are more angles.
+    """
+    middles, part = np.unique(np.round(angle, 9), return_inverse=True)
+    part = part.ravel()
+    if middles.size > BINS:
+        middles = (np.arange(BINS, dtype=np.float64) + 0.5) * (TWO_PI / BINS)
+        part = np.minimum((angle / TWO_PI * BINS).astype(int), BINS - 1)
+    most: NDArray[np.float64] = np.full(middles.size, -np.inf)
     known = np.isfinite(load)
     np.maximum.at(most, part[known], load[known])
     most[most == -np.inf] = np.nan
-    middles = (np.arange(BINS, dtype=np.float64) + 0.5) * (TWO_PI / BINS)
     return middles, most

@@ -39,11 +39,9 @@ from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
 from bearingcore.statics.ball_positions import EquilibriumWithMass
-from bearingcore.statics.equilibrium import (
-    ANGLES_A_PERIOD,
-    default_cage_angles,
-    has_long_period,
-)
+from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
+from bearingcore.statics.positions import turns
+from bearingcore.statics.ranges import StaticRanges, ranges_of
 
 Compute = TypeVar("Compute", bound=Callable[..., object])
 
@@ -167,7 +165,7 @@ class Results:
     @property
     def over_shaft(self) -> bool:
         """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
-        return any(defect.race == "inner" for defect in self.scene.defects)
+        return turns(self.scene)
 
     @cached_property
     def stretch(self) -> tuple[float, float, int]:
@@ -209,15 +207,26 @@ class Results:
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
+    @of_kind(OVER_STRETCH)
+    def ranges(self) -> StaticRanges:
+        """Least, greatest and mean of static answers, over all positions of the bearing.
+
+        Where a defect turns with the shaft they are more than the turn that curves are over.
+        """
+        if self.over_shaft or (self._like is not None and self._like.over_shaft):
+            return statics.ranges(self.scene, self.moving)
+        return ranges_of(self.equilibrium)
+
+    @cached_property
     def load_curves(self) -> list[Curve]:
-        """Load [N] of a ball over its angle [rad], a curve a row."""
+        """Load [N] of a ball over its angle [rad], a curve a row; see `load_curve`."""
         rows = range(len(self.scene.bearing.all_rows))
-        return [load_curve(self.equilibrium, row) for row in rows]
+        return [load_curve(self.ranges.state, row) for row in rows]
 
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
         """The same at the inner race, where balls with mass carry less; none of massless ones."""
-        found = self.equilibrium
+        found = self.ranges.state
         if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
             return []
         rows = range(len(found.scene.bearing.all_rows))
@@ -242,16 +251,12 @@ class Results:
     @cached_property
     @of_kind(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
-        """Between which frequencies [Hz] each mode moves over the stretch.
+        """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
 
-        Looked for between the cage angles too: the same however finely curves are drawn. While a
-        slider moves it is what `modes` give.
+        Looked for between the angles too, and in all turns of the shaft: the same however finely
+        curves are drawn. Coarser while a slider moves.
         """
-        if self.moving:
-            return self.modes.bands()
-        first, last, _ = self.stretch
-        samples = default_cage_angles((self._like or self).scene, 3 * ANGLES_A_PERIOD - 2)
-        return statics.bands(self.scene, first, last, samples.size)
+        return statics.bands(self.scene, self.moving)
 
     @property
     def extent(self) -> float:

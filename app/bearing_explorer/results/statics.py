@@ -10,7 +10,10 @@ from bearing_explorer.results import compiling
 from bearing_explorer.results.cache import cached
 from bearingcore import Equilibrium, Maps, Modes, Scene
 from bearingcore.scene.defect import RACES
+from bearingcore.statics.equilibrium import ANGLES_A_PERIOD
 from bearingcore.statics.passes import drops_now
+from bearingcore.statics.positions import ROUNDS
+from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, static_ranges
 
 
 @cached
@@ -35,10 +38,21 @@ def modes(scene: Scene, first: float, last: float, n: int) -> Modes:
 
 
 @cached
-def bands(scene: Scene, first: float, last: float, n: int) -> dict[str, tuple[float, float]]:
-    """Least and greatest natural frequency [Hz] of each mode, by its label."""
+def bands(scene: Scene, coarse: bool) -> dict[str, tuple[float, float]]:
+    """Least and greatest natural frequency [Hz] of each mode over all positions, by its label."""
     compiling.need(compiling.STATICS, scene)
-    return core.frequency_bands(scene, np.linspace(first, last, n))
+    return core.frequency_bands(scene, coarse=coarse)
+
+
+@cached
+def ranges(scene: Scene, coarse: bool) -> StaticRanges:
+    """Least, greatest and mean of loads and of the stiffness that counts, over all positions."""
+    compiling.need(compiling.STATICS, scene)
+    dofs = scene.active_dofs
+    free = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
+    names = dict.fromkeys((*free, "k_xx", "k_yy", BALL_LOAD))
+    n, rounds = (ANGLES_A_PERIOD // 3 + 1, 1) if coarse else (ANGLES_A_PERIOD, ROUNDS)
+    return static_ranges(scene, names, n, rounds=rounds, solve=core.static_state)
 
 
 @cached

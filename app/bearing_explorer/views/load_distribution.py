@@ -57,12 +57,12 @@ class LoadDistribution(View):
     title = "Load distribution"
     about = (
         "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in a "
-        "turn of the shaft. A second row is orange, and in grey dashed. Of balls with mass the "
-        "full line is the load at the outer race, where their centrifugal load comes on top, the "
-        "dashed one that at the inner race."
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in "
+        "all turns of the shaft. A second row is orange, and in grey dashed. Of balls with mass "
+        "the full line is the load at the outer race, where their centrifugal load comes on top, "
+        "the dashed one that at the inner race."
     )
-    needs = frozenset({"equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now", "ranges"})
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
@@ -135,7 +135,7 @@ class LoadDistribution(View):
             parts.append(part)
         words = ", ".join(parts)
         if results.over_shaft:
-            words += " (the most at each angle while the shaft makes this turn)"
+            words += " (the most at each angle in all turns of the shaft)"
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
@@ -151,7 +151,7 @@ class LoadDistribution(View):
         tables = [curves_table(results.load_curves)]
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
-            tables += [_at_both_races(results.equilibrium, row) for row in rows]
+            tables += [_at_both_races(results.ranges.state, row) for row in rows]
         tables.append(curves_table(results.healthy.load_curves).prefixed("healthy"))
         return reduce(or_, tables).in_units().named()
 

@@ -199,7 +199,8 @@ class StiffnessMaps(View):
                 where += ", the longest of the map"
             words = (
                 f"Fewest {names} carry load {where}: "
-                f"{least:.1f} of {n_balls} on average over the cage angle"
+                f"{least:.1f} of {n_balls} on average over "
+                f"{'the turn of the shaft shown' if results.over_shaft else 'the cage angle'}"
             )
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"

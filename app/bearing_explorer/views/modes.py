@@ -91,7 +91,8 @@ class NaturalFrequencies(View):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns. Blue x, orange y. A mode is named after the "
-        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now."
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now. "
+        "With a defect of the inner race lines are those of the turn of now, bands of all turns."
     )
     needs = frozenset({"modes", "bands"})
 
@@ -162,8 +163,8 @@ class NaturalFrequencies(View):
             return f"There is no static state to take natural frequencies from: {why}."
         radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
         words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in radial]
-        turning = "shaft makes this turn" if results.over_shaft else "cage turns"
-        text = f"As the {turning} the natural frequencies move: {style.list_words(words)}"
+        turning = "In all turns of the shaft" if results.over_shaft else "As the cage turns"
+        text = f"{turning} the natural frequencies move: {style.list_words(words)}"
         first = radial[0]
         if results.reference_label and np.isfinite(healthy.get(first, (np.nan,))[0]):
             text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"

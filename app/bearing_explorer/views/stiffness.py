@@ -18,7 +18,6 @@ from bearing_explorer.plots.element_words import elements
 from bearing_explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.plots.ranges import ROOM, StickyRange
 from bearing_explorer.plots.style import in_degrees, with_prefix, words_of
-from bearing_explorer.results.chain import over_turn
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources, View
@@ -55,9 +54,10 @@ class Stiffness(View):
     about = (
         "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
         "5×5 stiffness matrix: displacements are the columns, "
-        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}."
+        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}. A defect that "
+        "turns with the shaft meets the balls elsewhere in each turn: drawn is the turn of now."
     )
-    needs = frozenset({"equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now", "ranges"})
     cells = matrix_cells.named_cells(_FRAMES)
 
     def build(self, packed: PackedSource) -> Any:
@@ -149,22 +149,22 @@ class Stiffness(View):
 
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
-        found, healthy = results.equilibrium, results.healthy.equilibrium
+        ranges, healthy = results.ranges, results.healthy.ranges
+        found = ranges.state
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
-            values, healthy_values = found.term(term), healthy.term(term)
-            least, most = np.nanmin(values), np.nanmax(values)
+            least, most = ranges.least[term], ranges.greatest[term]
             line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
-            if results.reference_label and healthy.converged.any():
-                mean = over_turn(healthy.cage_angles, healthy_values)
+            if results.reference_label and healthy.state.converged.any():
+                mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
         balls = found.loaded_balls[found.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
         at = in_degrees(results.cage_angle)
-        over = " Curves are over a turn of the shaft, with which a defect turns."
+        over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(found.scene.bearing)} carry load"
         return f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}." + (
             over if results.over_shaft else ""

@@ -217,7 +217,7 @@ class Simulator:
         """The static state (4, nd) at cage angle 0, or None."""
         load = self._load._replace(force=force)
         q, _, _, _, status, *_ = kernels.static_states(
-            np.zeros(1), system.contacts, system.path, load
+            np.zeros(1), np.zeros(1), system.contacts, system.path, load
         )
         if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
             return None

@@ -429,8 +429,10 @@ def new_places(n_balls):
     )
 
 
-def ball_positions(cage_angles, start, balls, load):
+def ball_positions(cage_angles, leads, start, balls, load):
     """Static equilibrium with free balls at each cage angle, from the rings' places `start` (n, 5).
+
+    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
 
     Returns q (n, 5), loads (2, n, n_balls), contact angles (2, n, n_balls) [rad], places
     (n, 2, n_balls) [m], stiffness (n, 5, 5), status, residual and iterations (n,); tilts and
@@ -449,7 +451,7 @@ def ball_positions(cage_angles, start, balls, load):
         np.zeros(n, dtype=np.int64),
     )
     work = new_map_work(balls.contacts.angle), new_places(n_balls)
-    find_positions(cage_angles, start, balls, load, found, work)
+    find_positions(cage_angles, leads, start, balls, load, found, work)
     return found
 
 
@@ -467,7 +469,7 @@ class PositionAnswers(NamedTuple):
 
 
 @compiled
-def find_positions(cage_angles, start, balls, load, found, work):
+def find_positions(cage_angles, leads, start, balls, load, found, work):
     """Body of `ball_positions`, with work space."""
     turning, places = work
     descent = turning.descent
@@ -480,7 +482,8 @@ def find_positions(cage_angles, start, balls, load, found, work):
         place_balls(cage, balls.contacts, circle_c, turning.circle_s, places.c, places.s)
         for race in range(2):
             path = balls.inner_path if race == INNER else balls.outer_path
-            lay_out_drops(cage, balls.contacts, path, places.drop[race], turning.slope)
+            drop = places.drop[race]
+            lay_out_drops(cage, leads[k], balls.contacts, path, drop, turning.slope)
         if k > 0 and status[k - 1] == CONVERGED:
             # what the balls' loads moved the ring by, and the balls, at the angle before
             for a in range(5):

@@ -92,7 +92,7 @@ class OverviewStiffness(View):
         "those that vary, or differ from the grey ones. Grey: {grey}. “Fixed”: the ring does not "
         "move along this direction in this scene."
     )
-    needs = frozenset({"equilibrium", "now"})
+    needs = frozenset({"equilibrium", "now", "ranges"})
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "stiffness"
@@ -164,17 +164,17 @@ class OverviewStiffness(View):
         }, {}
 
     def sentence(self, results: Results) -> str:
-        found, healthy = results.equilibrium, results.healthy.equilibrium
+        found, healthy, ranges = results.equilibrium, results.healthy.equilibrium, results.ranges
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))
         named = [
             f"k_{TERM_SYMBOLS[term][2:]} from "
-            f"{style.with_prefix(np.nanmin(values), TERM_UNITS[term])} to "
-            f"{style.with_prefix(np.nanmax(values), TERM_UNITS[term])}"
+            f"{style.with_prefix(ranges.least[term], TERM_UNITS[term])} to "
+            f"{style.with_prefix(ranges.greatest[term], TERM_UNITS[term])}"
             for term, scale in zip(STIFFNESS_TERMS, scales, strict=True)
             if term in free_terms(found.dofs)
-            and is_lively(values := found.term(term), healthy.term(term), scale)
+            and is_lively(found.term(term), healthy.term(term), scale)
         ]
         return f"As the bearing turns these vary: {style.list_words(named) or 'none'}."
 

@@ -1,0 +1,157 @@
+"""A defect that turns with the shaft: what is said of it is over all turns, wherever it began.
+
+Numbers that an independent program found, and a computation of its own: `plane.py`, the
+equations of Petersen, Howard & Prime (2014) for many angles at once.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import (
+    Defect,
+    Scene,
+    contact_pressures,
+    equilibrium,
+    frequency_bands,
+    limits,
+    presets,
+)
+from bearingcore.statics.ranges import BALL_LOAD, static_ranges
+from bearingcore.sweep.grid import Grid
+from tests.outside.plane import Plane, hertz, undamped
+
+FAN = presets["fan-rig"].replace(race="inner")
+DEEP_GROOVE = presets["6205"].replace(
+    race="inner", extent=math.radians(8.0), depth=100e-6, edge="exact", fy=-1000.0, fz=0.0
+)
+TURNS, ANGLES = 80, 20_000
+
+
+@pytest.mark.parametrize("center", [270.0, 0.0, 90.0, 280.0])
+def test_the_fan_rigs_band_is_that_of_many_turns(center: float) -> None:
+    """An independent program over 60 turns: x₁ 298.3 to 480.3 Hz, whatever the centre."""
+    low, high = frequency_bands(FAN.replace(center=math.radians(center)))["x1"]
+    assert low == pytest.approx(298.3, rel=2e-3)
+    assert high == pytest.approx(480.3, rel=2e-3)
+
+
+def test_a_deep_groove_bearing_over_many_turns() -> None:
+    """The same: x₁ 376 to 774 Hz, k_xx 12.1 MN/m at the least, 803 N on a ball, 2 balls loaded."""
+    assert frequency_bands(DEEP_GROOVE)["x1"] == pytest.approx((376.0, 774.0), rel=2e-3)
+    grid = Grid.of(
+        DEEP_GROOVE, {"fz": [0.0]}, ["k_xx_least", "ball_load_greatest", "loaded_balls_least"]
+    )
+    _, found = grid.compute()
+    assert found["k_xx_least"][0] == pytest.approx(12.1e6, rel=5e-3)
+    assert found["ball_load_greatest"][0] == pytest.approx(803.0, rel=2e-3)
+    assert found["loaded_balls_least"][0] == 2
+    assert contact_pressures(DEEP_GROOVE).ball.load == pytest.approx(803.0, rel=2e-3)
+    (pressure,) = [x for x in limits(DEEP_GROOVE) if x.name == "contact pressure, inner race"]
+    assert "load 803 N" in pressure.sentence
+
+
+@pytest.mark.parametrize("center", [0.3, 4.0])
+def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center: float) -> None:
+    """80 turns of the fan rig at 20,000 angles; its numbers are those of the paper's Table."""
+    plane = Plane(14, 8e-3, 45e-3, 5453e6, 3e-6)
+    shaft = np.linspace(0.0, TURNS * 2.0 * math.pi, ANGLES)
+    defect = math.radians(12.9), 50e-6, "inner", "published"
+    loads, k, _ = plane.solve(100.0, plane.cage * shaft, shaft + center, defect)
+    own = undamped(k, 2.0, 212.2e6)
+    found = frequency_bands(FAN)
+    for mode, label in enumerate(("x1", "y1", "x2", "y2")):
+        ends = own[:, mode].min(), own[:, mode].max()
+        assert found[label] == pytest.approx(ends, rel=5e-3), label
+    ranges = static_ranges(FAN, ("k_xx", "k_yy", BALL_LOAD))
+    for name, values in (
+        ("k_xx", k[:, 0, 0]),
+        ("k_yy", k[:, 1, 1]),
+        (BALL_LOAD, loads.max(axis=1)),
+    ):
+        assert ranges.greatest[name] == pytest.approx(values.max(), rel=0.01), name
+        if name != BALL_LOAD:
+            assert ranges.least[name] == pytest.approx(values.min(), rel=0.01), name
+            mean = ranges.mean(ranges.state.term(name))
+            assert mean == pytest.approx(values.mean(), rel=5e-3), name
+
+
+def test_exact_edges_of_a_deep_groove_bearing_by_the_same_computation() -> None:
+    """6205 of its drawing: Hertz's K by elliptic integrals, a ball on a convex race's corner."""
+    ball, pitch = 7.94e-3, 39.04e-3
+    plane = Plane(9, ball, pitch, hertz(ball, pitch, (0.52 * ball, 0.53 * ball)), 5e-6)
+    shaft = np.linspace(0.0, TURNS * 2.0 * math.pi, ANGLES)
+    defect = math.radians(8.0), 100e-6, "inner", "exact"
+    loads, k, _ = plane.solve(1000.0, plane.cage * shaft, shaft + 1.0, defect)
+    ranges = static_ranges(DEEP_GROOVE, ("k_xx", "k_yy", BALL_LOAD))
+    assert ranges.greatest[BALL_LOAD] == pytest.approx(loads.max(), rel=0.01)
+    for i, name in enumerate(("k_xx", "k_yy")):
+        values = k[:, i, i]
+        ends = ranges.least[name], ranges.greatest[name]
+        assert ends == pytest.approx((values.min(), values.max()), rel=0.01), name
+        assert ranges.mean(ranges.state.term(name)) == pytest.approx(values.mean(), rel=5e-3)
+
+
+SCENES = {
+    "fan rig": FAN,
+    "exact edges": DEEP_GROOVE,
+    "thrust": presets["liew-lim"].replace(race="inner"),
+    "both races": FAN.replace(defect=(FAN.defects[0], Defect(0.2, 50e-6, math.radians(250.0)))),
+    "two on one race": FAN.replace(
+        defect=(FAN.defects[0], Defect(0.1, 30e-6, math.radians(80.0), "inner"))
+    ),
+    "two rows": presets["7208-back-to-back"].replace(race="inner", extent=0.15),
+}
+
+
+def turned(scene: Scene, angle: float) -> Scene:
+    """The scene with its defects of the inner race elsewhere by an angle [rad]."""
+    defects = [
+        Defect(d.extent, d.depth, d.center + angle * (d.race == "inner"), d.race, d.edge)
+        for d in scene.defects
+    ]
+    return scene.replace(defect=tuple(defects))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_nothing_depends_on_where_the_defect_began(name: str) -> None:
+    """An invariance: in time the shaft is at every angle to the cage."""
+    scene = turned(SCENES[name], 0.0)
+    first, second = (
+        static_ranges(one, ("k_xx", "k_yy", BALL_LOAD)) for one in (scene, turned(scene, 1.234))
+    )
+    for term in ("k_xx", "k_yy", BALL_LOAD):
+        assert first.least[term] == pytest.approx(second.least[term], rel=2e-3), term
+        assert first.greatest[term] == pytest.approx(second.greatest[term], rel=2e-3), term
+    for term in ("k_xx", "k_yy"):
+        means = [one.mean(one.state.term(term)) for one in (first, second)]
+        assert means[0] == pytest.approx(means[1], rel=2e-3), term
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_many_turns_one_after_the_other_go_no_farther(name: str) -> None:
+    """80 turns at 60,000 angles, solved one after the other: within 1 %."""
+    scene = SCENES[name]
+    cage = np.linspace(0.0, TURNS * 2.0 * math.pi * scene.bearing.cage_ratio, 60_000)
+    state = equilibrium(scene, cage)
+    ranges = static_ranges(scene, ("k_xx", "k_yy", BALL_LOAD))
+    for term in ("k_xx", "k_yy"):
+        values = state.term(term)
+        assert ranges.least[term] == pytest.approx(values.min(), rel=0.01), term
+        assert ranges.greatest[term] == pytest.approx(values.max(), rel=0.01), term
+        assert ranges.mean(ranges.state.term(term)) == pytest.approx(values.mean(), rel=5e-3), term
+    assert ranges.greatest[BALL_LOAD] == pytest.approx(state.ball_load.max(), rel=2e-3)
+
+
+def test_shaft_and_cage_may_be_at_any_angle() -> None:
+    """Turning everything by a ball spacing changes nothing; a cage a spacing on is the same one."""
+    cage, shaft = np.array([0.1, 0.2, 0.3]), np.array([5.0, 0.4, 2.0])
+    first = equilibrium(FAN, cage, shaft_angles=shaft)
+    other = equilibrium(
+        FAN, cage + 3.0 * FAN.bearing.ball_spacing, shaft_angles=shaft + 2.0 * math.pi
+    )
+    np.testing.assert_allclose(first.stiffness, other.stiffness, rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(first.shaft_angles, shaft, rtol=1e-12)
+    with pytest.raises(ValueError, match="shaft_angles"):
+        equilibrium(FAN, cage, shaft_angles=shaft[:2])

@@ -198,7 +198,8 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
     heaviest = [float(state.ball_load[:, own].max()) for own in scene.bearing.balls_of_rows]
     speeds = [rolling_speed(own, scene.shaft_speed) for own in rows]
     row = speeds.index(oil.rolling_speed)
-    assert oil.inner.load == pytest.approx(heaviest[row])
+    # each looks at cage angles of its own: cages that turn apart never meet the same places again
+    assert oil.inner.load == pytest.approx(heaviest[row], rel=1e-3)
     p = max(
         float(own.race_contact("inner").greatest_pressure(load))
         for own, load in zip(rows, heaviest, strict=True)

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bearingcore import kernels
@@ -21,12 +20,14 @@ from bearingcore.dynamics.ball_motion import (
     loads_of_races,
     place_parts,
 )
+from bearingcore.dynamics.low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
+from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.status import StaticStatus
 
 STEPS_A_CYCLE = 16.0
@@ -45,6 +46,9 @@ minutes of marching in two directions, hours in five."""
 
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
+
+KEPT = 4
+"""Rows a sample, at most, that a motion of balls with mass is filtered from."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +70,13 @@ class Motion:
     inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
     inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
-        the outer one is what a sensor on the housing measures.
+        the outer one is what a sensor on the housing measures. Both are filtered as a recorder
+        does before it samples (`low_pass`): right within 0.1 dB up to `bandwidth`, and nothing from
+        half the sample rate on. So a peak is that of what lies below: strikes of balls with mass
+        are shorter than a sample, and greater the more of them is recorded.
+    bandwidth [Hz]
+        up to where accelerations hold what the motion has: 0.4 of the sample rate, or of the step
+        rate where that is less.
     ball_load : (n, N_b) [N] or None
         elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; of balls with mass
         those of the outer race.
@@ -123,13 +133,28 @@ class Motion:
 
     @cached_property
     def inner_acceleration(self) -> NDArray[np.float64]:
-        """(n, len(dofs)) [m/s², rad/s²]"""
-        return self._sampled("inner", 2)
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("inner")
 
     @cached_property
     def outer_acceleration(self) -> NDArray[np.float64]:
-        """(n, len(dofs)) [m/s², rad/s²]"""
-        return self._sampled("outer", 2)
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("outer")
+
+    @property
+    def bandwidth(self) -> float:
+        """[Hz] up to where sampled accelerations hold what the motion has."""
+        return bandwidth(self.sample_rate, self.step_rate)
+
+    def spectrum(self, resolution: float = 32.0, since: float = 0.0) -> Spectrum:
+        """`bearingcore.spectrum` of the housing's acceleration up to `bandwidth`.
+
+        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] from `since` [s] on. Raises ValueError
+        where the motion did not stay finite, or what is left is shorter than 1/resolution.
+        """
+        first = max(math.ceil(since * self.sample_rate - 1e-6), 0)
+        signal = self.outer_acceleration[first:]
+        return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
     @cached_property
     def ball_position(self) -> NDArray[np.float64]:
@@ -228,6 +253,13 @@ class Motion:
         """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
         return self.step_rate if self.ball_place is None else self.sample_rate
 
+    def _accelerations(self, body: str) -> NDArray[np.float64]:
+        if self.ball_place is not None:  # filtered as they were kept
+            return self._sampled(body, 2)
+        n, first = len(self.time), 0 if body == "inner" else 3
+        scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
+        return scaled / packing.length_units(self.scene, self.dofs)
+
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""
         rate = self._history_rate
@@ -309,7 +341,11 @@ def simulate(
             f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
         )
     n = max(round(duration * sample_rate), 1)
-    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
+    # balls with mass take many steps a sample, of which accelerations do not need every one
+    kept = max(k for k in range(1, KEPT + 1) if a_sample % k == 0) if with_mass else a_sample
+    every = a_sample // kept
+    rows = rows_needed(n, sample_rate, step_rate / every)  # the last samples need what follows
+    n_steps = (rows - 1) * every
     time = np.arange(n) / sample_rate
     n_balls = packing.contacts(scene.bearing).angle.size
     if n_steps > most_steps:
@@ -328,16 +364,15 @@ def simulate(
             nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
-    stride, place = 1, None
+    place = None
     y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
+    history = np.empty((rows, 6, len(dofs)))
     if with_mass:
-        stride = a_sample
-        place = np.full((n, place_parts(scene, dofs), n_balls), math.nan)
-        history = np.empty((n, 6, len(dofs)))
-    else:
-        history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
+        place = np.empty((-(-rows // kept), place_parts(scene, dofs), n_balls))
     if y is None:
         history[:] = math.nan
+        if place is not None:
+            place[:] = math.nan
         reason = equilibrium(scene, [0.0], dofs).reason(0)
         done, status, detail = 0, MotionStatus.NO_START, f": {reason}"
     else:
@@ -345,15 +380,17 @@ def simulate(
             done = march_from(scene, y, h, history)
         else:
             system = ball_system(scene, dofs)
-            done = int(kernels.march_balls(y, h, 0.0, stride, system, history, place))
+            done = int(kernels.march_balls(y, h, 0.0, every, system, history, place))
         status, detail = MotionStatus.COMPLETED, ""
         if done < n_steps:
-            history[done // stride + 1 :] = math.nan
+            history[done // every + 1 :] = math.nan
             if place is not None:
-                place[done // stride + 1 :] = math.nan
+                place[done // a_sample + 1 :] = math.nan
             rate = thousands(step_rate)
             status = MotionStatus.DIVERGED
             detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+    if place is not None:
+        history, place = _samples_alone(history, n, sample_rate, kept), place[:n]
     motion = Motion(
         scene=scene,
         dofs=dofs,
@@ -368,6 +405,16 @@ def simulate(
         detail=detail,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
+
+
+def _samples_alone(
+    history: NDArray[np.float64], n: int, sample_rate: float, kept: int
+) -> NDArray[np.float64]:
+    """Rows of n samples, with filtered accelerations, out of `kept` rows a sample."""
+    samples = history[::kept][:n].copy()
+    for body in (0, 3):
+        samples[:, body + 2] = low_passed(history, body, n, sample_rate, kept * sample_rate)
+    return samples
 
 
 def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[np.float64]) -> int:
@@ -476,32 +523,3 @@ def _sample(
     weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
     kernels.between_steps(history, first, weights, start, out)
     return out
-
-
-_HERMITE = tuple(
-    (Polynomial(coefficients), power)
-    for coefficients, power in (
-        ([1, 0, 0, -10, 15, -6], 0),
-        ([0, 1, 0, -6, 8, -3], 1),
-        ([0, 0, 0.5, -1.5, 1.5, -0.5], 2),
-        ([0, 0, 0, 10, -15, 6], 0),
-        ([0, 0, 0, -4, 7, -3], 1),
-        ([0, 0, 0, 0.5, -1, 0.5], 2),
-    )
-)
-
-
-def hermite_weights(
-    fraction: NDArray[np.float64], derivative: int, h: float
-) -> NDArray[np.float64]:
-    """Quintic weights (n, 6) of x, v, a at both ends of a step of h [s], at fractions (n,) of it.
-
-    `derivative` 0, 1, 2 gives displacement, velocity, acceleration.
-    """
-    return np.stack(
-        [
-            (p.deriv(derivative) if derivative else p)(fraction) * h ** (power - derivative)
-            for p, power in _HERMITE
-        ],
-        axis=1,
-    )

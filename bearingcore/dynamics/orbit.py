@@ -22,12 +22,12 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.low_pass import hermite_weights
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     default_step_rate,
-    hermite_weights,
     moving_system,
     static_start,
 )

@@ -80,6 +80,35 @@ def bandwidth(sample_rate: float, step_rate: float) -> float:
     return PASSED * min(sample_rate, step_rate)
 
 
+def acceleration_lines(history: Array, body: int, step: float, count: int) -> Array:
+    """Fourier coefficients 0 to count − 1, (count, directions), of a body's periodic acceleration.
+
+    history (steps + 1, 6, directions) is a period in steps of `step` [s], its ends alike. The
+    coefficients are those of the acceleration between steps, not of samples: nothing folds back,
+    and they reach as far as `bandwidth` does.
+    """
+    steps = len(history) - 1
+    number = np.arange(count)
+    turn = 2j * math.pi * number / steps
+    part, weight = _in_a_step()
+    waves = np.exp(-np.outer(turn, part)) * weight
+    kept = history[:-1, body : body + 3] - history[0, body : body + 3] * np.array([[1.0], [0], [0]])
+    sums = np.fft.fft(kept, axis=0)[number % steps] / steps
+    lines = np.zeros((count, history.shape[2]), dtype=complex)
+    for column, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
+        moment = waves @ polynomial(part) * step ** (power - 2)
+        if column >= 3:  # of the end of each step, the begin of the next
+            moment = moment * np.exp(turn)
+        lines += moment[:, None] * sums[:, column % 3]
+    return lines
+
+
+def _in_a_step() -> tuple[Array, Array]:
+    """Places in a step of length 1, and their weights in an integral over it."""
+    part, weight = np.polynomial.legendre.leggauss(8)
+    return 0.5 + 0.5 * part, 0.5 * weight
+
+
 class _Filter(NamedTuple):
     """Weights (samples a step, rows, 3) of x, v, a in rows around a sample's step.
 
@@ -98,12 +127,11 @@ def _filter(sample_rate: float, step_rate: float) -> _Filter:
     stride = max(round(step_rate / sample_rate), 1)
     samples = sample_rate / step_rate  # in a step
     before = math.ceil(REACH / samples) + 1
-    part, weight = np.polynomial.legendre.leggauss(8)
-    part, weight = 0.5 + 0.5 * part, 0.5 * weight * samples
+    part, weight = _in_a_step()
     step = np.arange(-before, before + 1)
     weights = np.zeros((a_step, len(step) + 1, 3))
     for phase in range(a_step):
-        kept = _kernel((step[:, None] + part) * samples - phase) * weight
+        kept = _kernel((step[:, None] + part) * samples - phase) * weight * samples
         for number, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
             rows = slice(number // 3, number // 3 + len(step))  # of a step's begin, or of its end
             scale = step_rate ** (2 - power)

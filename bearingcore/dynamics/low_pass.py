@@ -80,6 +80,11 @@ def bandwidth(sample_rate: float, step_rate: float) -> float:
     return PASSED * min(sample_rate, step_rate)
 
 
+PASSED_OF_ORBITS = 0.15
+"""Of the step rate of a periodic motion: balls touch at the same place of a step in each period,
+and what is too sharp there and too smooth elsewhere does not average out as in a motion."""
+
+
 def acceleration_lines(history: Array, body: int, step: float, count: int) -> Array:
     """Fourier coefficients 0 to count − 1, (count, directions), of a body's periodic acceleration.
 
@@ -140,7 +145,7 @@ def _filter(sample_rate: float, step_rate: float) -> _Filter:
 
 
 def _kernel(time: Array) -> Array:
-    """g at times in samples: a sinc in Kaiser's window."""
+    """G at times in samples: a sinc in Kaiser's window."""
     inside = np.maximum(1.0 - (time / REACH) ** 2, 0.0)
     window = np.where(inside > 0.0, np.i0(_BETA * np.sqrt(inside)) / np.i0(_BETA), 0.0)
     return np.asarray(2.0 * _CUTOFF * np.sinc(2.0 * _CUTOFF * time) * window)
@@ -153,9 +158,7 @@ def rows_needed(n: int, sample_rate: float, step_rate: float) -> int:
     return (n - 1) // a_step * kept.stride + kept.weights.shape[1] - kept.before
 
 
-def low_passed(
-    history: Array, body: int, n: int, sample_rate: float, step_rate: float
-) -> Array:
+def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate: float) -> Array:
     """Accelerations (n, directions) of a body in a history (rows, 6, directions), one row a step.
 
     Up to PASSED of the sample rate they are those of the motion, from half of it on there is
@@ -172,10 +175,9 @@ def low_passed(
     out = np.empty((groups, a_step, nd))
     rows = np.zeros((nd, 3 * stride, groups + columns))
     kernels.side_by_side(history, body, kept.before, rows)
-    filled = np.zeros((a_step, columns * stride, 3))
-    filled[:, :taps] = kept.weights
-    weights = filled.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
-    weights = weights.reshape(a_step, 3 * stride, columns)
+    padded = np.pad(kept.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
+    beside = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
+    weights = beside.reshape(a_step, 3 * stride, columns)
     for direction in range(nd):
         for phase in range(a_step):
             sums = np.zeros(groups)

@@ -25,9 +25,9 @@ from bearingcore.dynamics.modes import contact_damping, highest_natural_frequenc
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.status import StaticStatus
 
 STEPS_A_CYCLE = 16.0
@@ -296,7 +296,8 @@ def simulate(
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
-        hundreds of millions a second.
+        hundreds of millions a second. Those of REACH more samples (`low_pass`), which the filter of
+        the last accelerations needs, are not counted.
 
     Returns
     -------
@@ -346,15 +347,16 @@ def simulate(
     every = a_sample // kept
     rows = rows_needed(n, sample_rate, step_rate / every)  # the last samples need what follows
     n_steps = (rows - 1) * every
+    shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # without what follows
     time = np.arange(n) / sample_rate
     n_balls = packing.contacts(scene.bearing).angle.size
-    if n_steps > most_steps:
+    if shown > most_steps:
         # NaN everywhere, without the memory of it
         nothing = np.broadcast_to(
-            np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
+            np.float64(math.nan), (n if with_mass else shown + 1, 6, len(dofs))
         )
         detail = (
-            f": {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
             f"allowed are most_steps = {thousands(most_steps)}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
@@ -487,6 +489,12 @@ def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float
     if needed <= sample_rate:
         return sample_rate / math.floor(sample_rate / needed)
     return sample_rate * math.ceil(needed / sample_rate - 1e-9)
+
+
+def fine_step_rate(scene: Scene, sample_rate: float) -> float:
+    """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
+    highest = highest_natural_frequency(scene)
+    return max(default_step_rate(scene, sample_rate, highest), sample_rate)
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:

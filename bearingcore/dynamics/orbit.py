@@ -22,7 +22,12 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.low_pass import acceleration_lines, bandwidth, hermite_weights
+from bearingcore.dynamics.low_pass import (
+    PASSED,
+    PASSED_OF_ORBITS,
+    acceleration_lines,
+    hermite_weights,
+)
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
@@ -147,16 +152,21 @@ class Orbit:
         return np.einsum("nw,nwd->nd", weights, ends)
 
     def spectrum(
-        self, sample_rate: float = 65536.0, resolution: float = 32.0, duration: float = 1.4
+        self,
+        sample_rate: float = 65536.0,
+        resolution: float = 32.0,
+        duration: float = 1.4,
+        since: float = 0.0,
     ) -> Spectrum:
         """`bearingcore.spectrum` of the housing's acceleration while the period repeats.
 
-        It ends where the orbit is no longer known: at 0.4 of the sample rate, or of the steps a
-        second that the orbit has where those are fewer (`low_pass.bandwidth`).
+        It ends where it is no longer right within 0.1 dB: at 0.4 of the sample rate, or at 0.15 of
+        the steps that the orbit has in a second where that is less.
 
         Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
-        begins with the period, without making the record: each Fourier line of the orbit is seen
-        through the Hann window, and lines beat with each other from segment to segment.
+        begins `since` [s] after the period, without making the record: each Fourier line of the
+        orbit is seen through the Hann window, and lines beat with each other from segment to
+        segment.
 
         ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
         """
@@ -171,11 +181,12 @@ class Orbit:
         segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
         frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
         steps = len(self.history) - 1
-        top = bandwidth(sample_rate, steps / self.period)
+        top = min(PASSED * sample_rate, PASSED_OF_ORBITS * steps / self.period)
         frequency = frequency[frequency <= top]
         count = math.ceil((top + WINDOW_REACH * resolution) * self.period) + 1
         lines = acceleration_lines(self.history, 3, self.period / steps, count)
         lines /= packing.length_units(self.scene, self.dofs)
+        lines *= np.exp(2j * math.pi * since / self.period * np.arange(len(lines)))[:, None]
         # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
         # the Hann window's transform, half sinc(x)/(1 − x²) a sample, x bins away, is real
         spacing = 1.0 / (self.period * resolution)

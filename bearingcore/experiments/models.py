@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from bearingcore.common.numbers import level_difference
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import LOSSES, orbit
@@ -29,8 +30,8 @@ from bearingcore.experiments.points import (
 from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import DOF_NAMES, Scene
-from bearingcore.signals.spectrum import spectrum
-from bearingcore.signals.spectrum_difference import BAND, lines_that_count, spectrum_difference
+from bearingcore.signals.spectrum import Spectrum, spectrum
+from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.equilibrium import equilibrium
 
 MODEL_ERRORS = {
@@ -228,18 +229,18 @@ class _Models:
 
     def _orbit(self) -> Point:
         """The periodic motion by shooting, where it is proven stable."""
-        _, truth = self._settled()
+        first, truth = self._settled()
         found, seconds, runs = least_time(lambda: orbit(self.scene))
         words = f"{found.ball_passes} ball pass" + ("es" if found.ball_passes != 1 else "")
         if not found.stable:
             why = found.status + (f": {LOSSES[found.through]}" if found.through else "")
             return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
-        true = spectrum(truth, self.sample_rate)
-        mine = found.spectrum(self.sample_rate).density[:, :2]
-        level = 10.0 * math.log10(mine.sum() / true.density.sum())
-        counts = lines_that_count(true, self.band)
-        decibel = np.abs(10.0 * np.log10(mine[counts] / true.density[counts]))
-        errors = {"spectrum": float(decibel.max()), "level": abs(level)}
+        rate = self.sample_rate
+        lines = found.spectrum(rate, duration=len(truth) / rate, since=first / rate)
+        mine = Spectrum(lines.frequency, lines.density[:, :2])
+        true = spectrum(truth, self.sample_rate).up_to(float(lines.frequency[-1]))
+        level = level_difference(mine.density.sum(), true.density.sum())
+        errors = {"spectrum": density_difference(mine, true, self.band), "level": abs(float(level))}
         return Point(
             "orbit", words, float(found.ball_passes), errors, seconds, runs,
             found.right_hand_side_calls,

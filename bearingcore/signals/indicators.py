@@ -144,7 +144,7 @@ def velocity_rms(
     of the signal are summed: by Parseval's theorem their squares are the mean square, every moment
     counts alike, and no window lets the ends of the signal count less. Tones at either end of the
     band are kept within 3 % from 5 of their periods on. Motion below the band leaks in where the
-    signal ends amidst its periods: of its velocity about 5 % in 1 s, 2 % in 10 s.
+    signal ends amidst its periods: up to a tenth of its velocity in 1 s, a twentieth in 10 s.
 
     Parameters
     ----------

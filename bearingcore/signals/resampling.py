@@ -22,5 +22,5 @@ def oversampled(signal: NDArray[np.float64], factor: int) -> NDArray[np.float64]
     if factor == 1:
         return signal
     taps = firwin(2 * REACH * factor + 1, 1.0 / factor, window=("kaiser", 8.0))
-    made = resample_poly(signal, factor, 1, axis=0, window=taps, padtype="line")
+    made = resample_poly(signal, factor, 1, axis=0, window=taps, padtype="line")  # type: ignore[call-overload]
     return cast("NDArray[np.float64]", made)

@@ -354,7 +354,7 @@ def between_steps(history, body, weights, first, out):
 
 @compiled
 def side_by_side(history, body, before, rows):
-    """x − x of the first row, v and acceleration of a body into rows (n, 3 stride, m), which is 0.
+    """Displacement since the first row, v and a of a body into rows (n, 3 stride, m), which is 0.
 
     Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
     stride-th row: what is `stride` rows apart in time then lies side by side.

@@ -1,0 +1,1 @@
+"""Numbers from outside: printed tables, public programs, short computations of their own."""

@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from bearingcore.common.numbers import level_difference
+from bearingcore.dynamics.low_pass import REACH, low_passed
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import LOSSES, orbit
@@ -172,14 +173,24 @@ class _Models:
 
     def _errors(self, against: str, acceleration: Array, inner: Array) -> dict[str, float]:
         """Of signals (n, 2) along x and y."""
-        history = self._by_name[against].history[: len(acceleration)]
-        truth, place = history[:, 5, :2], history[:, 0, :2]
+        history = self._by_name[against].history
+        truth = self._sensed(history)
+        acceleration, truth = acceleration[: len(truth)], truth[: len(acceleration)]
+        place = history[: len(inner), 0, :2]
         swing = float(np.abs(place - place.mean(axis=0)).max())
         return {
             "spectrum": spectrum_difference(acceleration, truth, self.sample_rate, self.band),
             "level": _level_error(acceleration, truth),
             "displacement": float(np.abs(inner - place).max()) / swing,
         }
+
+    def _sensed(self, history: Array) -> Array:
+        """The housing's acceleration (n, 2) of a reference, filtered as that of a motion is.
+
+        Shorter than the history, as the filter of the last samples would need what follows.
+        """
+        n = len(history) - REACH - 2
+        return low_passed(history, 3, n, self.sample_rate, self.sample_rate)[:, :2]
 
     def _quasi_static(self) -> Point:
         """The static state at the cage angle of each instant: the housing rests in its springs."""
@@ -203,7 +214,7 @@ class _Models:
         """First sample after the transient, and the housing's acceleration from there on."""
         history = self._by_name[SETTLED].history
         first = round(SETTLING * len(history))
-        return first, history[first:-1, 5, :2]
+        return first, self._sensed(history)[first:]
 
     def _transient(self) -> Point:
         """Marching and dropping the first part."""

@@ -36,9 +36,7 @@ SHORTEST = 0.1
 COARSE_STEPS = 0.55
 """Part of the usual steps that is taken while a slider moves, where all of them take too long.
 Against short steps over the same stretch of time, spectra of fan-rig, liew-lim, 6205 and 6206 are
-then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB. Where
-samples fall makes up to 0.8 dB of the 6205's, 35 dB below its loudest line: acceleration jumps as
-balls touch, which 65,536 samples a second fold back (four times as many: 0.001 dB)."""
+then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB."""
 
 PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
 """[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part

@@ -95,6 +95,7 @@ class Motion:
     history: NDArray[np.float64] = field(repr=False)
     ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
     detail: str = ""
+    filtered: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @property
     def completed(self) -> bool:
@@ -140,6 +141,13 @@ class Motion:
     def outer_acceleration(self) -> NDArray[np.float64]:
         """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
         return self._accelerations("outer")
+
+    def instant_acceleration(self, body: str) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
+
+        As the forces of the instant give it, unfiltered: for balances, not for spectra.
+        """
+        return self._sampled(body, 2)
 
     @property
     def bandwidth(self) -> float:
@@ -254,10 +262,13 @@ class Motion:
         return self.step_rate if self.ball_place is None else self.sample_rate
 
     def _accelerations(self, body: str) -> NDArray[np.float64]:
-        if self.ball_place is not None:  # filtered as they were kept
-            return self._sampled(body, 2)
         n, first = len(self.time), 0 if body == "inner" else 3
-        scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
+        if self.filtered is not None:  # of balls with mass not every step is kept
+            scaled = self.filtered[first // 3]
+        elif self.status is MotionStatus.TOO_MANY_STEPS:
+            scaled = np.full((n, len(self.dofs)), math.nan)
+        else:
+            scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
         return scaled / packing.length_units(self.scene, self.dofs)
 
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
@@ -366,7 +377,7 @@ def simulate(
             nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
-    place = None
+    place = filtered = None
     y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
     history = np.empty((rows, 6, len(dofs)))
     if with_mass:
@@ -392,7 +403,9 @@ def simulate(
             status = MotionStatus.DIVERGED
             detail = f" after {number(done * h)} s: {rate} steps a second are too few"
     if place is not None:
-        history, place = _samples_alone(history, n, sample_rate, kept), place[:n]
+        both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
+        filtered, place = np.stack(both), place[:n]
+        history = history[::kept][:n].copy()
     motion = Motion(
         scene=scene,
         dofs=dofs,
@@ -405,18 +418,9 @@ def simulate(
         history=history,
         ball_place=place,
         detail=detail,
+        filtered=filtered,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
-
-
-def _samples_alone(
-    history: NDArray[np.float64], n: int, sample_rate: float, kept: int
-) -> NDArray[np.float64]:
-    """Rows of n samples, with filtered accelerations, out of `kept` rows a sample."""
-    samples = history[::kept][:n].copy()
-    for body in (0, 3):
-        samples[:, body + 2] = low_passed(history, body, n, sample_rate, kept * sample_rate)
-    return samples
 
 
 def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[np.float64]) -> int:

@@ -201,7 +201,7 @@ class Experiment:
 
     @staticmethod
     def _unbounded(point: Point) -> str:
-        """What the status adds where an error is infinite."""
+        """End of the status where an error is infinite."""
         endless = not point.failed and math.inf in point.errors.values()
         return "; without vibration, so no error in dB" if endless else ""
 

@@ -198,7 +198,7 @@ def test_what_mass_adds_in_each_band(speed: float, table: tuple[float, ...]) -> 
     massless = simulate(scene.replace(balls="massless"), 1.4, RATE, step_rate=4 * RATE)
     heavy = simulate(scene.replace(contact_law="no tension"), 1.4, RATE)
     assert heavy.completed
-    assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.15)
+    assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.2)
 
 
 @cache

@@ -176,8 +176,8 @@ def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate:
     rows = np.zeros((nd, 3 * stride, groups + columns))
     kernels.side_by_side(history, body, kept.before, rows)
     padded = np.pad(kept.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
-    beside = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
-    weights = beside.reshape(a_step, 3 * stride, columns)
+    joined = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
+    weights = joined.reshape(a_step, 3 * stride, columns)
     for direction in range(nd):
         for phase in range(a_step):
             sums = np.zeros(groups)

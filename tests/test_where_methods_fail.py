@@ -171,7 +171,7 @@ def pushes(motion: Motion) -> tuple[Array, Array]:
     x = motion.inner_displacement - motion.outer_displacement
     v = motion.inner_velocity - motion.outer_velocity
     felt = (
-        support.outer_mass * motion.outer_acceleration
+        support.outer_mass * motion.instant_acceleration("outer")
         + support.damping("xy") * motion.outer_velocity
         + support.stiffness("xy") * motion.outer_displacement
     )

@@ -1,6 +1,6 @@
 import math
 
-from bearingcore import equilibrium, modes, presets, simulate, spectrum
+from bearingcore import equilibrium, modes, presets, simulate
 
 scene = presets["fan-rig"].replace(extent=math.radians(38.6))
 
@@ -10,5 +10,5 @@ print(found.term("k_yy").mean(), "N/m on average")
 print(modes(scene).bands(), "Hz")
 
 motion = simulate(scene, 1.4, 65536.0)  # s, samples a second
-frequency, density = spectrum(motion.outer_acceleration, motion.sample_rate)
+frequency, density = motion.spectrum()
 print(motion.dofs, frequency[density.argmax(axis=0)], "Hz: the loudest lines")

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 """SI prefixes by their power of ten."""
 
@@ -116,6 +119,14 @@ def decibels(level: float, digits: int = 2) -> str:
     if 0.0 < abs(level) < 0.001:
         return "below 0.001 dB"
     return f"{number(level, digits)} dB"
+
+
+def level_difference(power: ArrayLike, reference: ArrayLike) -> NDArray[np.float64]:
+    """10 log10(power/reference) [dB]; NaN where one of them is nothing: there is no such level."""
+    both = np.broadcast_arrays(np.asarray(power, dtype=float), np.asarray(reference, dtype=float))
+    known = (both[0] > 0.0) & (both[1] > 0.0)
+    ratio = np.divide(both[0], both[1], out=np.full(known.shape, math.nan), where=known)
+    return np.asarray(10.0 * np.log10(ratio))
 
 
 def count(n: int, thing: str, plural: str = "") -> str:

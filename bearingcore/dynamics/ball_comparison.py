@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.numbers import number, with_prefix
+from bearingcore.common.numbers import level_difference, number, with_prefix
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.motion import Motion, fine_step_rate, simulate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 
@@ -116,10 +116,15 @@ def compare_balls(
     motions, seconds = [], []
     for balls in (MASSLESS, WITH_MASS):
         begin = time.thread_time()  # others may be using the processor
-        motion = simulate(scene.replace(balls=balls), SETTLING + duration, sample_rate)
+        motion = _marched(scene.replace(balls=balls), SETTLING + duration, sample_rate)
         seconds.append((time.thread_time() - begin) / (SETTLING + duration))
         motions.append(motion)
     return compare_motions(motions[0], motions[1], budget, seconds[0], seconds[1])
+
+
+def _marched(scene: Scene, duration: float, sample_rate: float) -> Motion:
+    """The motion, known up to 0.4 of the sample rate whatever balls there are."""
+    return simulate(scene, duration, sample_rate, step_rate=fine_step_rate(scene, sample_rate))
 
 
 def compare_motions(
@@ -145,15 +150,14 @@ def compare_motions(
     ValueError
         where a motion did not reach its end.
     """
-    edges = third_octave_edges(with_mass.sample_rate)
+    edges = third_octave_edges(min(massless.bandwidth, with_mass.bandwidth))
     powers = []
     for motion in (massless, with_mass):
         if not motion.completed:
             balls = motion.scene.balls
             raise checks.refuse("scene", motion.reason, f"one that moves with balls {balls}")
         powers.append(band_powers(motion, edges))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        added = 10.0 * np.log10(powers[1] / powers[0])
+    added = level_difference(powers[1], powers[0])
     loudest = max(float(power.max(initial=0.0)) for power in powers)
     counts = np.maximum(*powers) > QUIET * loudest
     within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
@@ -163,9 +167,9 @@ def compare_motions(
     return BallComparison(scene, budget, edges, added, up_to, massless_seconds, seconds)
 
 
-def third_octave_edges(sample_rate: float) -> Array:
-    """[Hz] from LOWEST to below half the sample rate."""
-    count = math.floor(3.0 * math.log2(0.49 * sample_rate / LOWEST))
+def third_octave_edges(highest: float) -> Array:
+    """[Hz] from LOWEST to at most `highest`."""
+    count = math.floor(3.0 * math.log2(highest / LOWEST) + 1e-9)
     return LOWEST * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
 
 
@@ -190,7 +194,7 @@ def mass_share(scene: Scene, low: float, high: float, duration: float, sample_ra
     """
     edges = np.array([low, high])
     massless, heavy = (
-        band_powers(simulate(scene.replace(balls=balls), duration, sample_rate), edges).sum()
+        band_powers(_marched(scene.replace(balls=balls), duration, sample_rate), edges).sum()
         for balls in (MASSLESS, WITH_MASS)
     )
     return float(1.0 - massless / heavy) if heavy > 0.0 else math.nan

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bearingcore import kernels
@@ -21,10 +20,12 @@ from bearingcore.dynamics.ball_motion import (
     loads_of_races,
     place_parts,
 )
+from bearingcore.dynamics.low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.status import StaticStatus
@@ -46,6 +47,9 @@ minutes of marching in two directions, hours in five."""
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
+KEPT = 4
+"""Rows a sample, at most, that a motion of balls with mass is filtered from."""
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -66,7 +70,13 @@ class Motion:
     inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
     inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
-        the outer one is what a sensor on the housing measures.
+        the outer one is what a sensor on the housing measures. Both are filtered as a recorder
+        does before it samples (`low_pass`): right within 0.1 dB up to `bandwidth`, and nothing from
+        half the sample rate on. So a peak is that of what lies below: strikes of balls with mass
+        are shorter than a sample, and greater the more of them is recorded.
+    bandwidth [Hz]
+        up to where accelerations hold what the motion has: 0.4 of the sample rate, or of the step
+        rate where that is less.
     ball_load : (n, N_b) [N] or None
         elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; of balls with mass
         those of the outer race.
@@ -85,6 +95,7 @@ class Motion:
     history: NDArray[np.float64] = field(repr=False)
     ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
     detail: str = ""
+    filtered: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @property
     def completed(self) -> bool:
@@ -123,13 +134,35 @@ class Motion:
 
     @cached_property
     def inner_acceleration(self) -> NDArray[np.float64]:
-        """(n, len(dofs)) [m/s², rad/s²]"""
-        return self._sampled("inner", 2)
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("inner")
 
     @cached_property
     def outer_acceleration(self) -> NDArray[np.float64]:
-        """(n, len(dofs)) [m/s², rad/s²]"""
-        return self._sampled("outer", 2)
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("outer")
+
+    def instant_acceleration(self, body: str) -> NDArray[np.float64]:
+        """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
+
+        As the forces of the instant give it, unfiltered: for balances, not for spectra.
+        """
+        return self._sampled(body, 2)
+
+    @property
+    def bandwidth(self) -> float:
+        """[Hz] up to where sampled accelerations hold what the motion has."""
+        return bandwidth(self.sample_rate, self.step_rate)
+
+    def spectrum(self, resolution: float = 32.0, since: float = 0.0) -> Spectrum:
+        """`bearingcore.spectrum` of the housing's acceleration up to `bandwidth`.
+
+        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] from `since` [s] on. Raises ValueError
+        where the motion did not stay finite, or what is left is shorter than 1/resolution.
+        """
+        first = max(math.ceil(since * self.sample_rate - 1e-6), 0)
+        signal = self.outer_acceleration[first:]
+        return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
     @cached_property
     def ball_position(self) -> NDArray[np.float64]:
@@ -228,6 +261,16 @@ class Motion:
         """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
         return self.step_rate if self.ball_place is None else self.sample_rate
 
+    def _accelerations(self, body: str) -> NDArray[np.float64]:
+        n, first = len(self.time), 0 if body == "inner" else 3
+        if self.filtered is not None:  # of balls with mass not every step is kept
+            scaled = self.filtered[first // 3]
+        elif self.status is MotionStatus.TOO_MANY_STEPS:
+            scaled = np.full((n, len(self.dofs)), math.nan)
+        else:
+            scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
+        return scaled / packing.length_units(self.scene, self.dofs)
+
     def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""
         rate = self._history_rate
@@ -264,7 +307,8 @@ def simulate(
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
-        hundreds of millions a second.
+        hundreds of millions a second. Those of REACH more samples (`low_pass`), which the filter of
+        the last accelerations needs, are not counted.
 
     Returns
     -------
@@ -309,16 +353,21 @@ def simulate(
             f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
         )
     n = max(round(duration * sample_rate), 1)
-    n_steps = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)
+    # balls with mass take many steps a sample, of which accelerations do not need every one
+    kept = max(k for k in range(1, KEPT + 1) if a_sample % k == 0) if with_mass else a_sample
+    every = a_sample // kept
+    rows = rows_needed(n, sample_rate, step_rate / every)  # the last samples need what follows
+    n_steps = (rows - 1) * every
+    shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # without what follows
     time = np.arange(n) / sample_rate
     n_balls = packing.contacts(scene.bearing).angle.size
-    if n_steps > most_steps:
+    if shown > most_steps:
         # NaN everywhere, without the memory of it
         nothing = np.broadcast_to(
-            np.float64(math.nan), (n if with_mass else n_steps + 1, 6, len(dofs))
+            np.float64(math.nan), (n if with_mass else shown + 1, 6, len(dofs))
         )
         detail = (
-            f": {thousands(n_steps)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
             f"allowed are most_steps = {thousands(most_steps)}"
         )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
@@ -328,16 +377,15 @@ def simulate(
             nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
-    stride, place = 1, None
+    place = filtered = None
     y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
+    history = np.empty((rows, 6, len(dofs)))
     if with_mass:
-        stride = a_sample
-        place = np.full((n, place_parts(scene, dofs), n_balls), math.nan)
-        history = np.empty((n, 6, len(dofs)))
-    else:
-        history = np.empty((max(n_steps, 1) + 1, 6, len(dofs)))
+        place = np.empty((-(-rows // kept), place_parts(scene, dofs), n_balls))
     if y is None:
         history[:] = math.nan
+        if place is not None:
+            place[:] = math.nan
         reason = equilibrium(scene, [0.0], dofs).reason(0)
         done, status, detail = 0, MotionStatus.NO_START, f": {reason}"
     else:
@@ -345,15 +393,19 @@ def simulate(
             done = march_from(scene, y, h, history)
         else:
             system = ball_system(scene, dofs)
-            done = int(kernels.march_balls(y, h, 0.0, stride, system, history, place))
+            done = int(kernels.march_balls(y, h, 0.0, every, system, history, place))
         status, detail = MotionStatus.COMPLETED, ""
         if done < n_steps:
-            history[done // stride + 1 :] = math.nan
+            history[done // every + 1 :] = math.nan
             if place is not None:
-                place[done // stride + 1 :] = math.nan
+                place[done // a_sample + 1 :] = math.nan
             rate = thousands(step_rate)
             status = MotionStatus.DIVERGED
             detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+    if place is not None:
+        both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
+        filtered, place = np.stack(both), place[:n]
+        history = history[::kept][:n].copy()
     motion = Motion(
         scene=scene,
         dofs=dofs,
@@ -366,6 +418,7 @@ def simulate(
         history=history,
         ball_place=place,
         detail=detail,
+        filtered=filtered,
     )
     return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
 
@@ -442,6 +495,12 @@ def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float
     return sample_rate * math.ceil(needed / sample_rate - 1e-9)
 
 
+def fine_step_rate(scene: Scene, sample_rate: float) -> float:
+    """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
+    highest = highest_natural_frequency(scene)
+    return max(default_step_rate(scene, sample_rate, highest), sample_rate)
+
+
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
     """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
     step_rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
@@ -476,32 +535,3 @@ def _sample(
     weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
     kernels.between_steps(history, first, weights, start, out)
     return out
-
-
-_HERMITE = tuple(
-    (Polynomial(coefficients), power)
-    for coefficients, power in (
-        ([1, 0, 0, -10, 15, -6], 0),
-        ([0, 1, 0, -6, 8, -3], 1),
-        ([0, 0, 0.5, -1.5, 1.5, -0.5], 2),
-        ([0, 0, 0, 10, -15, 6], 0),
-        ([0, 0, 0, -4, 7, -3], 1),
-        ([0, 0, 0, 0.5, -1, 0.5], 2),
-    )
-)
-
-
-def hermite_weights(
-    fraction: NDArray[np.float64], derivative: int, h: float
-) -> NDArray[np.float64]:
-    """Quintic weights (n, 6) of x, v, a at both ends of a step of h [s], at fractions (n,) of it.
-
-    `derivative` 0, 1, 2 gives displacement, velocity, acceleration.
-    """
-    return np.stack(
-        [
-            (p.deriv(derivative) if derivative else p)(fraction) * h ** (power - derivative)
-            for p, power in _HERMITE
-        ],
-        axis=1,
-    )

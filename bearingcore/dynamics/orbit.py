@@ -22,12 +22,17 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.low_pass import (
+    PASSED,
+    PASSED_OF_ORBITS,
+    acceleration_lines,
+    hermite_weights,
+)
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     default_step_rate,
-    hermite_weights,
     moving_system,
     static_start,
 )
@@ -116,7 +121,11 @@ class Orbit:
         )
 
     def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
-        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated."""
+        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
+
+        That of the instant, as the equations of motion give it: it jumps as balls touch, and
+        samples of it fold back what is above half their rate. `spectrum` has no such samples.
+        """
         time = np.asarray(time, dtype=float).ravel() % self.period
         return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
 
@@ -145,13 +154,21 @@ class Orbit:
         return np.einsum("nw,nwd->nd", weights, ends)
 
     def spectrum(
-        self, sample_rate: float = 65536.0, resolution: float = 32.0, duration: float = 1.4
+        self,
+        sample_rate: float = 65536.0,
+        resolution: float = 32.0,
+        duration: float = 1.4,
+        since: float = 0.0,
     ) -> Spectrum:
         """`bearingcore.spectrum` of the housing's acceleration while the period repeats.
 
+        It ends where it is no longer right within 0.1 dB: at 0.4 of the sample rate, or at 0.15 of
+        the steps that the orbit has in a second where that is less.
+
         Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
-        begins with the period, without making the record: each Fourier line of the orbit is seen
-        through the Hann window, and lines beat with each other from segment to segment.
+        begins `since` [s] after the period, without making the record: each Fourier line of the
+        orbit is seen through the Hann window, and lines beat with each other from segment to
+        segment.
 
         ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
         """
@@ -166,10 +183,12 @@ class Orbit:
         segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
         frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
         steps = len(self.history) - 1
-        # of the velocity, as the acceleration jumps where balls touch, and its samples would alias
-        velocity = self.history[:-1, 4] / packing.length_units(self.scene, self.dofs)
-        lines = np.fft.rfft(velocity, axis=0) / steps
-        lines *= (2j * math.pi / self.period) * np.arange(len(lines))[:, None]
+        top = min(PASSED * sample_rate, PASSED_OF_ORBITS * steps / self.period)
+        frequency = frequency[frequency <= top]
+        count = math.ceil((top + WINDOW_REACH * resolution) * self.period) + 1
+        lines = acceleration_lines(self.history, 3, self.period / steps, count)
+        lines /= packing.length_units(self.scene, self.dofs)
+        lines *= np.exp(2j * math.pi * since / self.period * np.arange(len(lines)))[:, None]
         # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
         # the Hann window's transform, half sinc(x)/(1 − x²) a sample, x bins away, is real
         spacing = 1.0 / (self.period * resolution)
@@ -177,15 +196,15 @@ class Orbit:
         # lines within WINDOW_REACH bins of a frequency are what a segment sees there
         reach = max(math.ceil(WINDOW_REACH / spacing), 2)
         k = np.rint(frequency * self.period).astype(int)[:, None] + np.arange(-reach, reach + 1)
-        known = (k > 0) & (k < min(len(lines), 0.5 * sample_rate * self.period))
+        known = (k > 0) & (k < count)
         x = k * spacing - frequency[:, None] / resolution
         edge = np.abs(np.abs(x) - 1.0) < 1e-9
         seen = np.where(edge, 0.25, 0.5 * np.sinc(x) / np.where(edge, 1.0, 1.0 - x * x)) * known
-        density = np.zeros((len(frequency), velocity.shape[1]))
+        density = np.zeros((len(frequency), lines.shape[1]))
         turn = 2.0 * math.pi * hop / (sample_rate * self.period)  # of a line from the next, a hop
         beats = np.exp(1j * turn * np.outer(np.arange(2 * reach + 1), np.arange(segments)))
         beats = beats.mean(axis=1)
-        for axis in range(velocity.shape[1]):
+        for axis in range(lines.shape[1]):
             part = lines[np.where(known, k, 0), axis] * seen
             density[:, axis] = np.einsum("fk,fk->f", part, part.conj()).real
             for apart in range(1, 2 * reach + 1):

@@ -13,19 +13,20 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import frequency_bands, highest_natural_frequency
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
     default_step_rate,
+    fine_step_rate,
     simulate,
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene.scene import MASSLESS, Scene
-from bearingcore.signals.spectrum import spectrum
 
 SETTLING = 0.5
 """Part of a marched motion that is left out of its spectrum as transient."""
@@ -41,8 +42,9 @@ class SpeedRun:
         what runs up, and the directions of `density`'s last axis.
     shaft_speed : (n,) [rad/s]
     frequency : (m,) [Hz]
+        to where the spectrum of any speed is known.
     density : (n, m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz]
-        NaN where a speed was not computed.
+        NaN where a speed was not computed, and above the frequency up to which its motion is known.
     ball_pass_frequency : (n,) [Hz]
         of the race the first defect is in; its multiples are the lines.
     from_orbit : (n,)
@@ -141,6 +143,7 @@ def speed_run(
     dofs = scene.active_dofs
     segment = round(sample_rate / resolution)
     frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
+    frequency = frequency[frequency <= PASSED * sample_rate]
     inner = any(defect.race == "inner" for defect in scene.defects)
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
 
@@ -149,7 +152,7 @@ def speed_run(
             scene=scene,
             dofs=dofs,
             shaft_speed=speeds,
-            frequency=frequency,
+            frequency=frequency[: density.shape[1]],
             density=density,
             ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
             **more,
@@ -184,10 +187,12 @@ def speed_run(
                 raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
             found = None
             if at.balls == MASSLESS:
-                found = orbit(at, start=nearby, most_steps=min(most_steps, left))
+                may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
+                found = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
                 left -= found.right_hand_side_calls // 4
             if found is not None and found.stable:
-                density[i] = found.spectrum(sample_rate, resolution, duration).density
+                lines = found.spectrum(sample_rate, resolution, duration).density
+                density[i, : len(lines)] = lines
                 proven[i] = True
                 nearby = found
                 continue
@@ -199,13 +204,14 @@ def speed_run(
         except ValueError as error:
             refusals[i] = error
             continue
-        late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
-        if np.all(np.isfinite(late)):
-            density[i] = spectrum(late, sample_rate, resolution).density
+        if motion.completed:
+            lines = motion.spectrum(resolution, SETTLING * lasting).density
+            density[i, : len(lines)] = lines
     if len(refusals) == speeds.size:
         raise refusals[0]
+    known = np.flatnonzero(np.isfinite(density).any(axis=(0, 2)))
     return run_of(
-        density,
+        density[:, : known[-1] + 1] if known.size else density,
         from_orbit=proven,
         bands=frequency_bands(scene),
         completed=done == speeds.size,

@@ -19,7 +19,7 @@ from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import common_ball_passes, orbit
 from bearingcore.scene.scene import DOF_NAMES, MASSLESS, WITH_MASS, Scene
-from bearingcore.signals.spectrum_difference import BAND, spectrum_difference
+from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles
 
@@ -259,12 +259,10 @@ class _Measure:
             return replace(_without(name, own_seconds, why), seconds=seconds)
         half = len(own.time) // 2
         band = BAND * highest_natural_frequency(self.scene)
-        error = spectrum_difference(
-            found.outer_acceleration(own.time[half:]),
-            own.outer_acceleration[half:],
-            own.sample_rate,
-            band,
-        )
+        since, rate = float(own.time[half]), own.sample_rate
+        settled = own.spectrum(since=since)
+        lines = found.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
+        error = density_difference(lines, settled, band)
         return Alternative(name, SPECTRUM, error, seconds, own_seconds)
 
     def _quasi_static(self, own: Motion, own_seconds: float) -> Alternative:

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.numbers import level_difference
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
+from bearingcore.dynamics.low_pass import low_passed, rows_needed
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate, simulate
 from bearingcore.experiments.points import (
@@ -64,9 +66,9 @@ LEFT_OUT = (
 
 @dataclass(frozen=True)
 class BallMarch:
-    """A motion of the rings, (samples, 6, 2), what it cost, and why it failed, if it did."""
+    """Accelerations of the housing (samples, directions), their cost, and why it failed, if so."""
 
-    history: Array
+    acceleration: Array
     calls: int
     failure: str
 
@@ -75,6 +77,9 @@ Report = Callable[[float], object]
 
 Marcher = Callable[[Scene, int, float, float, Report], BallMarch]
 """(scene, steps a sample, duration [s], sample rate [Hz], report of the part done) -> BallMarch"""
+
+MOST_KEPT = 8
+"""Steps of a sample, at most, from which it is filtered."""
 
 PIECE = 2**19
 """Steps after which the march in velocities reports, so that it can be cancelled."""
@@ -89,39 +94,56 @@ def _by_own_steps(
 ) -> BallMarch:
     """In one piece: its variables are none that it could begin from again."""
     dofs = scene.active_dofs
-    history, place, y = _empty(scene, duration, sample_rate, place_parts(scene, dofs))
+    kept = _kept(stride)
+    history, place, y = _empty(scene, duration, kept * sample_rate, kept, place_parts(scene, dofs))
+    every = stride // kept
     done = kernels.march_balls(
-        y, 1.0 / (stride * sample_rate), 0.0, stride, ball_system(scene, dofs), history, place
+        y, 1.0 / (stride * sample_rate), 0.0, every, ball_system(scene, dofs), history, place
     )
-    return BallMarch(history, 4 * done, _failure(done, stride * (len(history) - 1)))
+    failure = _failure(done, every * (len(history) - 1))
+    return BallMarch(_sampled(history, duration, sample_rate, kept), 4 * done, failure)
+
+
+def _kept(stride: int) -> int:
+    """Of the steps of a sample those from which it is filtered."""
+    return max(k for k in range(1, MOST_KEPT + 1) if stride % k == 0)
+
+
+def _sampled(history: Array, duration: float, sample_rate: float, kept: int) -> Array:
+    """The housing's accelerations, filtered: what is above half the rate may not fold back."""
+    n = round(duration * sample_rate)
+    return low_passed(history, 3, n, sample_rate, kept * sample_rate)
 
 
 def _in_velocities(
     scene: Scene, stride: int, duration: float, sample_rate: float, report: Report = _unreported
 ) -> BallMarch:
     system = ball_system(scene, scene.active_dofs, velocities=True)
-    history, place, y = _empty(scene, duration, sample_rate, 2)
-    last, piece, done = len(history) - 1, max(PIECE // stride, 1), 0
+    kept = _kept(stride)
+    rate, every = kept * sample_rate, stride // kept
+    history, place, y = _empty(scene, duration, rate, 1, 2)
+    last, piece, done = len(history) - 1, max(PIECE // every, 1), 0
     for first in range(0, last, piece):
         report(first / last)
         rows = slice(first, min(first + piece, last) + 1)
-        angle = scene.cage_speed * first / sample_rate
+        angle = scene.cage_speed * first / rate
         made = kernels.march_balls(
-            y, 1.0 / (stride * sample_rate), angle, stride, system, history[rows], place[rows]
+            y, 1.0 / (stride * sample_rate), angle, every, system, history[rows], place[rows]
         )
         done += made
-        if made < stride * (rows.stop - 1 - first):
+        if made < every * (rows.stop - 1 - first):
             break
-    return BallMarch(history, 4 * done, _failure(done, stride * last))
+    failure = _failure(done, every * last)
+    return BallMarch(_sampled(history, duration, sample_rate, kept), 4 * done, failure)
 
 
 def _empty(
-    scene: Scene, duration: float, sample_rate: float, parts: int
+    scene: Scene, duration: float, rate: float, kept: int, parts: int
 ) -> tuple[Array, Array, Array]:
     """History of the rings and places of the balls, still empty, and the state to begin from."""
-    n = round(duration * sample_rate)
+    n = rows_needed(round(duration * rate / kept), rate / kept, rate)
     history = np.full((n, 6, len(scene.active_dofs)), math.nan)
-    return history, np.empty((n, parts, scene.bearing.n_balls)), _start(scene, parts)
+    return history, np.empty((-(-n // kept), parts, scene.bearing.n_balls)), _start(scene, parts)
 
 
 def _start(scene: Scene, parts: int) -> Array:
@@ -147,17 +169,20 @@ NO_MASS = "massless balls"
 
 
 def third_octaves(acceleration: Array, sample_rate: float) -> dict[str, Array]:
-    """Power in third octaves [dB] of the housing's acceleration (samples, 2), by band."""
+    """Power in third octaves of the housing's filtered acceleration (samples, 2), by band."""
     found = spectrum(acceleration, sample_rate)
     return {
-        name: 10.0 * np.log10(found.powers(third_octave_edges(low, high)))
-        for name, (low, high) in BANDS.items()
+        name: found.powers(third_octave_edges(low, high)) for name, (low, high) in BANDS.items()
     }
 
 
 def apart(one: dict[str, Array], other: dict[str, Array]) -> dict[str, float]:
-    """Greatest difference [dB] in each band."""
-    return {name: float(np.abs(one[name] - other[name]).max()) for name in BANDS}
+    """Greatest difference [dB] in each band; NaN where nothing moves."""
+    away = {name: np.abs(level_difference(one[name], other[name])) for name in BANDS}
+    return {
+        name: float(np.nanmax(off)) if np.any(off >= 0.0) else math.nan
+        for name, off in away.items()
+    }
 
 
 def balls_experiment(
@@ -208,7 +233,7 @@ def balls_experiment(
         report = watch.within(_SHARE_OF_REFERENCE * begin, _SHARE_OF_REFERENCE * end)
         report(0.0)
         march = BALL_METHODS[method](at, finest, duration, sample_rate, report)
-        return third_octaves(march.history[:, 5, sensed], sample_rate)
+        return third_octaves(march.acceleration[:, sensed], sample_rate)
 
     truth = levels("RK4", 0.0, 0.1)
     heavier = scene.replace(density=1.0001 * scene.bearing.density)
@@ -234,7 +259,7 @@ def balls_experiment(
         words = f"{rate:.0f} steps/s"
         if march.failure:
             return failed(name, words, rate, march.failure, seconds, march.calls)
-        errors = apart(third_octaves(march.history[:, 5, sensed], sample_rate), truth)
+        errors = apart(third_octaves(march.acceleration[:, sensed], sample_rate), truth)
         in_use = name == "RK4" and rate == usual
         return Point(name, words, rate, errors, seconds, runs, march.calls, in_use=in_use)
 

@@ -13,6 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from bearingcore.common.numbers import level_difference
+from bearingcore.dynamics.low_pass import REACH, low_passed
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import LOSSES, orbit
@@ -29,8 +31,8 @@ from bearingcore.experiments.points import (
 from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import DOF_NAMES, Scene
-from bearingcore.signals.spectrum import spectrum
-from bearingcore.signals.spectrum_difference import BAND, lines_that_count, spectrum_difference
+from bearingcore.signals.spectrum import Spectrum, spectrum
+from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.equilibrium import equilibrium
 
 MODEL_ERRORS = {
@@ -171,14 +173,24 @@ class _Models:
 
     def _errors(self, against: str, acceleration: Array, inner: Array) -> dict[str, float]:
         """Of signals (n, 2) along x and y."""
-        history = self._by_name[against].history[: len(acceleration)]
-        truth, place = history[:, 5, :2], history[:, 0, :2]
+        history = self._by_name[against].history
+        truth = self._sensed(history)
+        acceleration, truth = acceleration[: len(truth)], truth[: len(acceleration)]
+        place = history[: len(inner), 0, :2]
         swing = float(np.abs(place - place.mean(axis=0)).max())
         return {
             "spectrum": spectrum_difference(acceleration, truth, self.sample_rate, self.band),
             "level": _level_error(acceleration, truth),
             "displacement": float(np.abs(inner - place).max()) / swing,
         }
+
+    def _sensed(self, history: Array) -> Array:
+        """The housing's acceleration (n, 2) of a reference, filtered as that of a motion is.
+
+        Shorter than the history, as the filter of the last samples would need what follows.
+        """
+        n = len(history) - REACH - 2
+        return low_passed(history, 3, n, self.sample_rate, self.sample_rate)[:, :2]
 
     def _quasi_static(self) -> Point:
         """The static state at the cage angle of each instant: the housing rests in its springs."""
@@ -202,7 +214,7 @@ class _Models:
         """First sample after the transient, and the housing's acceleration from there on."""
         history = self._by_name[SETTLED].history
         first = round(SETTLING * len(history))
-        return first, history[first:-1, 5, :2]
+        return first, self._sensed(history)[first:]
 
     def _transient(self) -> Point:
         """Marching and dropping the first part."""
@@ -228,18 +240,18 @@ class _Models:
 
     def _orbit(self) -> Point:
         """The periodic motion by shooting, where it is proven stable."""
-        _, truth = self._settled()
+        first, truth = self._settled()
         found, seconds, runs = least_time(lambda: orbit(self.scene))
         words = f"{found.ball_passes} ball pass" + ("es" if found.ball_passes != 1 else "")
         if not found.stable:
             why = found.status + (f": {LOSSES[found.through]}" if found.through else "")
             return failed("orbit", words, math.nan, why, seconds, found.right_hand_side_calls)
-        true = spectrum(truth, self.sample_rate)
-        mine = found.spectrum(self.sample_rate).density[:, :2]
-        level = 10.0 * math.log10(mine.sum() / true.density.sum())
-        counts = lines_that_count(true, self.band)
-        decibel = np.abs(10.0 * np.log10(mine[counts] / true.density[counts]))
-        errors = {"spectrum": float(decibel.max()), "level": abs(level)}
+        rate = self.sample_rate
+        lines = found.spectrum(rate, duration=len(truth) / rate, since=first / rate)
+        mine = Spectrum(lines.frequency, lines.density[:, :2])
+        true = spectrum(truth, self.sample_rate).up_to(float(lines.frequency[-1]))
+        level = level_difference(mine.density.sum(), true.density.sum())
+        errors = {"spectrum": density_difference(mine, true, self.band), "level": abs(float(level))}
         return Point(
             "orbit", words, float(found.ball_passes), errors, seconds, runs,
             found.right_hand_side_calls,

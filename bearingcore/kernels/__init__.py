@@ -15,6 +15,8 @@ from bearingcore.kernels.motion.march import (
     elastic_loads,
     march,
     motion_rates,
+    side_by_side,
+    sliding_sums,
     turn_smooth,
 )
 from bearingcore.kernels.path import (
@@ -100,6 +102,8 @@ __all__ = [
     "new_answers",
     "new_memory",
     "roll_over",
+    "side_by_side",
+    "sliding_sums",
     "static_maps",
     "static_states",
     "turn_smooth",

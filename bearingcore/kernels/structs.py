@@ -354,9 +354,12 @@ class Recorded(NamedTuple):
     ----------
     history : (samples, 6, n)
         displacement, velocity and acceleration of the inner ring, then of the outer one.
-    places : (samples, k, balls) [m]
+    places : (places, k, balls) [m]
         of balls with mass: radial, and axial unless the motion is planar.
+    every
+        samples from place to place.
     """
 
     history: Array
     places: Array
+    every: int

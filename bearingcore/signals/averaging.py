@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.signals.order_tracking import followed, smooth_lag
+from bearingcore.signals.resampling import oversampled
 from bearingcore.signals.shaft_tones import without_shaft_tones
 
 FEWEST_PASSES = 6
@@ -283,12 +284,8 @@ def _upsampled(
     signal: NDArray[np.float64], sample_rate: float, highest: float
 ) -> tuple[NDArray[np.float64], float]:
     """The signal with so many samples a cycle that a spline follows it."""
-    from scipy.signal import resample_poly
-
-    factor = math.ceil(SAMPLES_A_CYCLE * highest / sample_rate)
-    if factor <= 1:
-        return signal, sample_rate
-    return np.asarray(resample_poly(signal, factor, 1, axis=0), dtype=float), factor * sample_rate
+    factor = max(math.ceil(SAMPLES_A_CYCLE * highest / sample_rate), 1)
+    return oversampled(signal, factor), factor * sample_rate
 
 
 def _noise_density(

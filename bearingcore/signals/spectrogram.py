@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.signals.resampling import oversampled
 
 OVERLAP = 0.75
 """Of neighbouring segments."""
 
 FEWEST_SEGMENTS = 4
 """That fit into a signal one after the other, at least."""
+
+
+OVERSAMPLED = 4
+"""Times as many samples through which a spline is laid: then it is right within 0.1 % of power."""
 
 
 class Spectrogram(NamedTuple):
@@ -109,5 +114,8 @@ def order_map(
     # as fine as the slowest turn was sampled, so that nothing folds back
     per_turn = next_fast_len(math.ceil(rate / float(each.min())), real=True)
     places = np.arange(0.0, turns[-1], 1.0 / per_turn)
-    resampled = CubicSpline(at, samples)(np.interp(places, turns, at))
+    # a spline through the samples themselves would damp what has few of them a period
+    fine = oversampled(samples, OVERSAMPLED)
+    between = CubicSpline(np.arange(len(fine)) / (OVERSAMPLED * rate), fine)
+    resampled = between(np.interp(places, turns, at))
     return spectrogram(resampled, per_turn, resolution)

@@ -30,6 +30,11 @@ class Spectrum(NamedTuple):
     frequency: NDArray[np.float64]
     density: NDArray[np.float64]
 
+    def up_to(self, frequency: float) -> Spectrum:
+        """The same, ending at a frequency [Hz]."""
+        end = int(np.searchsorted(self.frequency, frequency, side="right"))
+        return Spectrum(self.frequency[:end], self.density[:end])
+
     def powers(self, edges: ArrayLike) -> NDArray[np.float64]:
         """Power (n,) or (n, k) [(unit of the signal)²] in bands between n + 1 edges [Hz]."""
         ends = np.searchsorted(self.frequency, edges)

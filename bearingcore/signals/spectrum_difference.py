@@ -51,11 +51,22 @@ def spectrum_difference(
         counts = _strong(true.density)
     else:
         counts = lines_that_count(true, band)
+    return _greatest(mine.density, true.density, counts)
+
+
+def density_difference(found: Spectrum, expected: Spectrum, band: float) -> float:
+    """`spectrum_difference` of two spectra of the same lines, as far as both go."""
+    known = min(len(found.frequency), len(expected.frequency))
+    true = Spectrum(expected.frequency[:known], expected.density[:known])
+    return _greatest(found.density[:known], true.density, lines_that_count(true, band))
+
+
+def _greatest(found: Array, expected: Array, counts: NDArray[np.bool_]) -> float:
+    """Greatest difference [dB] where it counts: infinite where there is nothing."""
     if not counts.any():
         return math.nan
     with np.errstate(divide="ignore"):
-        ratio = mine.density[counts] / true.density[counts]
-        return float(np.abs(10.0 * np.log10(ratio)).max())
+        return float(np.abs(10.0 * np.log10(found[counts] / expected[counts])).max())
 
 
 def lines_that_count(found: Spectrum, band: float) -> NDArray[np.bool_]:

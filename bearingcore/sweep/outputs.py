@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.dynamics.ball_comparison import mass_share
+from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
@@ -305,8 +306,10 @@ def of_scene(
         if MOTION in needs:
             ended.append(_motion(scene, settings, numbers))
         if MASS in needs:
-            if settings.band_high > 0.5 * settings.sample_rate:
-                raise checks.refuse("band_high", settings.band_high, "at most half the sample_rate")
+            if settings.band_high > PASSED * settings.sample_rate:
+                raise checks.refuse(
+                    "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
+                )
             share = mass_share(
                 scene,
                 settings.band_low,

@@ -128,7 +128,8 @@ def motion_faults(scene: Scene, rng: np.random.Generator) -> tuple[str, str]:
         forces = scene.load.vector[number] - carried[0], carried[1] - held
         sizes = [np.abs(part).max() for part in (*carried, held, scene.load.vector)]
         size = max(*sizes, 1e-3)
-        for body, acceleration in enumerate((motion.inner_acceleration, motion.outer_acceleration)):
+        for body, name in enumerate(("inner", "outer")):
+            acceleration = motion.instant_acceleration(name)
             off = np.abs(masses[body] * acceleration[row] - forces[body])[lengths].max()
             if off > TOLERANCE * size:
                 return "completed", f"{off:.2e} N left on a ring in motion, of {size:.2e} N"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import bearingcore as core
 from bearing_explorer.results.excerpt import Event, acceleration_columns, excerpt_of, why_ended
 from bearingcore import Motion, Scene, Spectrum
+from bearingcore.common.numbers import level_difference
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_comparison import (
     QUIET,
@@ -57,7 +58,7 @@ class BallMass:
 
     Attributes
     ----------
-    scene, sample_rate [Hz], samples, settled, first
+    scene, sample_rate [Hz], bandwidth [Hz], samples, settled, first
         what moves, for how many samples; from which on it counts as settled, and which is the first
         of `time`.
     step_rates : {balls: step rate} [Hz]
@@ -92,6 +93,7 @@ class BallMass:
 
     scene: Scene
     sample_rate: float
+    bandwidth: float
     samples: int
     settled: int
     first: int
@@ -195,19 +197,22 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     first = math.ceil(since * rate - 1e-6)
     late = [motion.outer_acceleration[first:, columns] for motion in (massless, heavy)]
     finite = all(np.isfinite(signal).all() for signal in late)
-    octaves = _octaves(rate)
-    both = [core.spectrum(signal, rate) for signal in late] if finite and dofs else []
+    bandwidth = min(massless.bandwidth, heavy.bandwidth)
+    octaves = _octaves(bandwidth)
+    both = [core.spectrum(s, rate).up_to(bandwidth) for s in late] if finite and dofs else []
     power = [found.powers(octaves).sum(axis=1) for found in both] or [
         np.full(len(octaves) - 1, math.nan)
     ] * 2
+    added = level_difference(power[1], power[0])
     with np.errstate(divide="ignore", invalid="ignore"):
-        share, added = 1.0 - power[0] / power[1], 10.0 * np.log10(power[1] / power[0])
+        share = 1.0 - power[0] / power[1]
     named = [
         {dof: core.Spectrum(f, density[:, i]) for i, dof in enumerate(dofs)} for f, density in both
     ] or [{}, {}]
     return BallMass(
         scene=scene,
         sample_rate=rate,
+        bandwidth=bandwidth,
         samples=len(heavy.time),
         settled=first,
         first=begin,
@@ -304,10 +309,11 @@ def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
     return float((corners[-1] - first) / scene.cage_speed) if corners.size else math.nan
 
 
-def _octaves(sample_rate: float) -> Array:
-    """Edges [Hz] up to half the sample rate."""
-    count = math.floor(math.log2(0.5 * sample_rate / LOWEST_OCTAVE))
-    return np.asarray(LOWEST_OCTAVE * 2.0 ** np.arange(count + 1), dtype=np.float64)
+def _octaves(bandwidth: float) -> Array:
+    """Edges [Hz] of octaves; the last band, of half an octave or more, ends where signals do."""
+    count = math.floor(math.log2(bandwidth / LOWEST_OCTAVE))
+    edges = LOWEST_OCTAVE * 2.0 ** np.arange(count + 1, dtype=np.float64)
+    return np.append(edges, bandwidth) if bandwidth > math.sqrt(2.0) * edges[-1] else edges
 
 
 def _spread(late: list[Array], rate: float, edges: Array) -> Array:

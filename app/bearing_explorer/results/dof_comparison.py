@@ -88,6 +88,7 @@ def spectrum_differences(
 
 
 def _level_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    a, b = a[: len(b)], b[: len(a)]  # as far as both are known
     if not (np.isfinite(a).all() and np.isfinite(b).all() and b.max() > 0.0):
         return math.nan
     strong = b > b.max() * 10.0 ** (-DYNAMIC_RANGE / 10.0)

@@ -12,8 +12,6 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 import bearingcore as core
 from bearing_explorer.results import compiling
 from bearing_explorer.results.ball_mass import BallMass, compare_motions
@@ -23,7 +21,7 @@ from bearing_explorer.state.settings import Marching
 from bearingcore import Motion, Orbit, Scene, Spectrum
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate
+from bearingcore.dynamics.motion import default_step_rate, fine_step_rate
 from bearingcore.scene.packing import is_planar
 from bearingcore.scene.scene import MASSLESS, WITH_MASS
 
@@ -38,9 +36,7 @@ SHORTEST = 0.1
 COARSE_STEPS = 0.55
 """Part of the usual steps that is taken while a slider moves, where all of them take too long.
 Against short steps over the same stretch of time, spectra of fan-rig, liew-lim, 6205 and 6206 are
-then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB. Where
-samples fall makes up to 0.8 dB of the 6205's, 35 dB below its loudest line: acceleration jumps as
-balls touch, which 65,536 samples a second fold back (four times as many: 0.001 dB)."""
+then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB."""
 
 PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
 """[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
@@ -183,19 +179,18 @@ def excerpt(scene: Scene, how: Marching) -> Excerpt:
 @cached
 def spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
     """Spectrum of the housing's acceleration along each direction, from rest on."""
-    return _spectra_of(motion(scene, how).motion, 0)
+    return _spectra_of(motion(scene, how).motion, 0.0)
 
 
 @cached
 def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
     """The same of the settled motion; empty where it did not stay finite."""
     found, since = motion(scene, how)
-    first = math.ceil(since * found.sample_rate - 1e-6)
-    return _spectra_of(found, first) if np.isfinite(found.outer_acceleration).all() else {}
+    return _spectra_of(found, since) if found.completed else {}
 
 
-def _spectra_of(found: Motion, first: int) -> dict[str, Spectrum]:
-    frequency, density = core.spectrum(found.outer_acceleration[first:], found.sample_rate)
+def _spectra_of(found: Motion, since: float) -> dict[str, Spectrum]:
+    frequency, density = found.spectrum(since=since)
     return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(found.dofs)}
 
 
@@ -215,7 +210,10 @@ def ball_mass(scene: Scene, how: Marching) -> BallMass:
     heavy = scene.replace(balls=WITH_MASS)
     alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
     moved = motion(heavy, alike)
-    massless = motion(scene.replace(balls=MASSLESS), alike)
+    light = scene.replace(balls=MASSLESS)
+    if not alike.coarse and alike.step_rate is None:  # known as far as the motion with mass is
+        alike = dataclasses.replace(alike, step_rate=fine_step_rate(light, alike.sample_rate))
+    massless = motion(light, alike)
     return compare_motions(massless.motion, moved.motion, moved.since)
 
 

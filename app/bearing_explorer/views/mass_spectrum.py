@@ -1,4 +1,4 @@
-"""Spectra of the housing without and with the mass of the balls, up to half the sample rate."""
+"""Spectra of the housing without and with the mass of the balls, as far as they are known."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ class MassInSpectrum(View):
     title = "Spectrum without and with the mass of the balls"
     about = (
         "In colour with mass of the balls, in grey without. Power spectral density of the "
-        "housing's acceleration up to half the sample rate. Shaded: where loaded balls resonate "
+        "housing's acceleration up to 0.4 of the sample rate; above it the "
+        "recorder's filter would show. Shaded: where loaded balls resonate "
         "between their two contacts. In free flight balls react to the smallest "
         "disturbance: look at bands, not at single lines."
     )
@@ -34,7 +35,7 @@ class MassInSpectrum(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found = results.ball_mass
         return self._spectra.data(
-            results, found.spectra, found.massless_spectra, found.resonances, found.sample_rate
+            results, found.spectra, found.massless_spectra, found.resonances, found.bandwidth
         )
 
     def sentence(self, results: Results) -> str:
@@ -44,7 +45,7 @@ class MassInSpectrum(View):
         low, high = found.resonances
         resonance = "No ball carries load, so none resonates between its contacts. "
         if high > 0.0:
-            above = "" if low < 0.5 * found.sample_rate else ", above this range"
+            above = "" if low < found.bandwidth else ", above this range"
             resonance = (
                 f"Loaded balls resonate between their contacts at "
                 f"{prefixed_span(low, high, 'Hz')}{above}. "

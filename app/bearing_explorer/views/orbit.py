@@ -250,7 +250,8 @@ class SteadyOrbit(View):
             for dof in SHOWN:
                 if dof in spectra:
                     frequency, density = spectra[dof].table([dof]).named().items()
-                    table.setdefault(*frequency)
+                    if len(frequency[1]) > len(table.get(frequency[0], ())):
+                        table[frequency[0]] = frequency[1]  # each is known so far
                     table[f"{name}_{density[0]}"] = density[1]
         return table
 
@@ -307,8 +308,10 @@ def level_gap(results: Results) -> float:
     gaps = []
     for dof in SHOWN:
         if dof in results.orbit_spectra and dof in results.late_spectra:
-            frequency, found = results.orbit_spectra[dof]
-            marched = results.late_spectra[dof].density
+            both = results.orbit_spectra[dof], results.late_spectra[dof]
+            known = min(len(one.frequency) for one in both)
+            frequency = both[0].frequency[:known]
+            found, marched = (one.density[:known] for one in both)
             in_view = (frequency >= 100.0) & (frequency <= HIGHEST)
             heard = in_view & (marched > 1e-4 * marched[in_view].max(initial=0.0))
             gaps.append(np.abs(decibels(found[heard]) - decibels(marched[heard])).max(initial=0.0))

@@ -207,7 +207,7 @@ class SpeedRunSpectra(SweptView):
             sources[f"speed_run_bands_{dof}"] = bands_along(run.bands, dof, top)
         limits = ends(speeds.values)
         sources |= harmonics(run, speeds, top)
-        not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).all(axis=(1, 2))]
+        not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).any(axis=(1, 2))]
         sources["speed_run_now"] = {"speed": np.array([value_of(results.scene, speeds.field)])}
         sources["speed_run_marched"] = {
             "frequency": np.full(not_proven.size, 0.006 * top),

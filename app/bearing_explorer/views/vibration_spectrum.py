@@ -144,7 +144,7 @@ class VibrationSpectra(LookView):
 
     @property
     def wide(self) -> bool:
-        """Whether it goes up to half the sample rate, on a logarithmic frequency axis."""
+        """Whether it goes as far as the motion is known, on a logarithmic frequency axis."""
         return bool(self.look["axis"] == "logarithmic")
 
     def still_figures(self) -> Sequence[LayoutDOM]:
@@ -158,7 +158,7 @@ class VibrationSpectra(LookView):
             plot.visible = self.wide
 
     def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
-        """Up to half the sample rate, where that was chosen."""
+        """As far as the motion is known, where that was chosen."""
         if not self.wide:
             return {}, {}
         band = (0.0, 0.0)
@@ -169,7 +169,7 @@ class VibrationSpectra(LookView):
             results.late_spectra,
             results.healthy.late_spectra,
             band,
-            results.motion.sample_rate,
+            results.motion.bandwidth,
         )
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:

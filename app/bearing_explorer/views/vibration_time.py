@@ -99,8 +99,9 @@ class VibrationInTime(PassageView):
             for dof in SHOWN
             if dof in shown.acceleration
         ]
+        below = style.with_prefix(0.5 * results.settings.sample_rate, "Hz", 2)
         text = (
-            "The housing's acceleration peaks at " + style.list_words(peaks)
+            f"The housing's acceleration below {below} peaks at " + style.list_words(peaks)
             if peaks
             else "The housing cannot move along x or y in this scene"
         )

@@ -1,8 +1,7 @@
-"""Two spectra over each other up to half the sample rate, on a logarithmic frequency axis."""
+"""Two spectra over each other as far as they are known, on a logarithmic frequency axis."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -105,18 +104,17 @@ class WideSpectra:
         spectra: dict[str, Spectrum],
         others: dict[str, Spectrum],
         resonances: tuple[float, float],
-        sample_rate: float,
+        top: float,
     ) -> tuple[Sources, Ranges]:
         """Sources and ranges: spectra by direction, and the band of the contact resonances [Hz].
 
+        top [Hz]: up to where they are known.
+
         The compared scenes are those of `results`.
         """
-        top = 0.5 * sample_rate
         name = self._name
-        # the last line is that of half the sample rate, of which a spectrum has half
-        last = math.nextafter(top, 0.0)
-        drawn = [drawn_levels(one, last, LOWEST) for one in (spectra, others)]
-        compared = levels_of_compared(name, results, last, LOWEST)
+        drawn = [drawn_levels(one, top, LOWEST) for one in (spectra, others)]
+        compared = levels_of_compared(name, results, top, LOWEST)
         sources: Sources = {**compared, f"{name}_lines": drawn[0], f"{name}_others": drawn[1]}
         low, high = resonances
         if high > 0.0:

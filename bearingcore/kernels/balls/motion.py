@@ -154,10 +154,12 @@ def keep(sample, y, at, system, out, work):
     true_forces(k, work.passage, work.inner, at, system, forces)
     push = work.passage.push[at]
     record(out.history, sample, y, k, rotor, forces.f[INNER], forces.f[OUTER], push)
+    if sample % out.every != 0:
+        return
     first = 4 * rotor.active.size
     n_balls = places.shape[2]
     for b in range(places.shape[1] * n_balls):
-        places[sample, b // n_balls, b % n_balls] = y[first + b]
+        places[sample // out.every, b // n_balls, b % n_balls] = y[first + b]
 
 
 runge_kutta = stepper(lay_out, rates, changed, keep)
@@ -189,11 +191,13 @@ def march_balls(y, h, start_angle, stride, system, history, places):
 
     Every `stride` steps history (samples, 6, n) takes displacement, velocity and acceleration of
     the inner ring, then of the outer one, and places (samples, k, n_balls) those of the balls:
-    radial, and axial unless the motion is planar. Returns the number of steps after which all was
-    still finite, which is looked at once in half a BLOCK.
+    radial, and axial unless the motion is planar. Fewer rows of places, the samples over a whole
+    number and rounded up, take those of every so many samples. Returns the number of steps after
+    which all was still finite, which is looked at once in half a BLOCK.
     """
     work = new_ball_steps(y.size, BLOCK + 1, system.contacts.angle)
-    return march_with_balls(y, h, start_angle, stride, system, Recorded(history, places), work)
+    out = Recorded(history, places, -(-len(history) // max(len(places), 1)))
+    return march_with_balls(y, h, start_angle, stride, system, out, work)
 
 
 @compiled

@@ -261,7 +261,7 @@ def march_each(states, h, start_angles, system, histories, work):
     """`march` of each row of states, from each start angle; returns what the last one does."""
     done = 0
     for i in range(start_angles.size):
-        out = Recorded(histories[i], histories[i, :0])
+        out = Recorded(histories[i], histories[i, :0], 1)
         done = runge_kutta(states[i], h, start_angles[i], 1, system, out, work)
     return done
 
@@ -350,3 +350,48 @@ def between_steps(history, body, weights, first, out):
                 + weights[w, 2] * history[step, body + 2, a]
                 + weights[w, 5] * history[following, body + 2, a]
             )
+
+
+@compiled
+def side_by_side(history, body, before, rows):
+    """Displacement since the first row, v and a of a body into rows (n, 3 stride, m), which is 0.
+
+    Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
+    stride-th row: what is `stride` rows apart in time then lies side by side.
+    """
+    stride = rows.shape[1] // 3
+    n = min(history.shape[0], rows.shape[2] * stride - before)
+    for i in range(n):
+        column = (before + i) // stride
+        part = (before + i) % stride
+        for a in range(rows.shape[0]):
+            rows[a, part, column] = history[i, body, a] - history[0, body, a]
+            rows[a, stride + part, column] = history[i, body + 1, a]
+            rows[a, 2 * stride + part, column] = history[i, body + 2, a]
+
+
+@compiled
+def sliding_sums(rows, weights, out):
+    """Add Σ weights[c, t]·rows[c, k + t] to each out[k] (n,); rows (c, at least n + t)."""
+    piece = 1024  # stays in the cache while all weights pass over it
+    taps = weights.shape[1]
+    for first in range(0, out.size, piece):
+        part = out[first : first + piece]
+        for c in range(rows.shape[0]):
+            row = rows[c, first:]
+            t = 0
+            while t + 4 <= taps:
+                w0 = weights[c, t]
+                w1 = weights[c, t + 1]
+                w2 = weights[c, t + 2]
+                w3 = weights[c, t + 3]
+                near = row[t:]
+                for k in range(part.size):
+                    part[k] += w0 * near[k] + w1 * near[k + 1] + w2 * near[k + 2] + w3 * near[k + 3]
+                t += 4
+            while t < taps:
+                w0 = weights[c, t]
+                near = row[t:]
+                for k in range(part.size):
+                    part[k] += w0 * near[k]
+                t += 1

@@ -170,7 +170,7 @@ def test_undamped_motion_keeps_its_energy_to_the_methods_order(scene: Scene) -> 
     assert order > (4.5 if scene is GENERAL else 2.0)
 
 
-BANDS = ((300.0, 2100.0), (2100.0, 5000.0), (5e3, 1e4), (1e4, 2e4), (2e4, 3.2e4))
+BANDS = ((300.0, 2100.0), (2100.0, 5000.0), (5e3, 1e4), (1e4, 2e4), (2e4, 2.62e4))
 
 
 def levels(motion: Motion) -> np.ndarray:
@@ -186,15 +186,19 @@ def levels(motion: Motion) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("speed", "table"),
-    [(7.0, (0.06, 0.1, 10.0, 16.0, 18.0)), (30.0, (-0.01, -0.6, 5.5, 14.0, 17.0))],
+    [(7.0, (0.06, 0.07, 9.94, 15.38, 17.43)), (30.0, (-0.01, -0.57, 4.92, 13.87, 16.28))],
 )
 def test_what_mass_adds_in_each_band(speed: float, table: tuple[float, ...]) -> None:
-    """Fan rig, 12.9°, against massless balls as published; contacts of heavy balls never pull."""
+    """Fan rig, 12.9°, against massless balls as published; contacts of heavy balls never pull.
+
+    The table is of motions sampled at 1 MHz: what was above half of 65,536 Hz, folded back, had
+    made it 10, 16 and 18 dB, and 5.5, 14 and 17 dB.
+    """
     scene = FAN_RIG.replace(shaft_speed=2.0 * math.pi * speed)
     massless = simulate(scene.replace(balls="massless"), 1.4, RATE, step_rate=4 * RATE)
     heavy = simulate(scene.replace(contact_law="no tension"), 1.4, RATE)
     assert heavy.completed
-    assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.5)
+    assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.2)
 
 
 @cache

@@ -117,7 +117,7 @@ def test_finer_steps_close_in_on_the_reference(name: str) -> None:
 def test_velocities_and_acceleration(name: str) -> None:
     motion = motion_of(name, 8 * RATE)
     assert error(name, motion.inner_velocity, motion.outer_velocity, "velocity") < 2e-3
-    found, expected = compared(name, motion.outer_acceleration, "acceleration")
+    found, expected = compared(name, motion.instant_acceleration("outer"), "acceleration")
     off = np.abs(found - expected).max(axis=1) / np.abs(expected).max()
     # A sample within a step of a touch may be off by the jump of the force.
     assert np.median(off) < 1e-4

@@ -12,6 +12,7 @@ from bokeh.embed import json_item
 
 from bearing_explorer.assets import asset_text
 from bearing_explorer.measurement.diagnoses import Question
+from bearing_explorer.measurement.machine import FILE as OF_FILE
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.report import About, document, heading, mark_of
 from bearing_explorer.views import part_words
@@ -67,13 +68,14 @@ def measured_report(
     Raises
     ------
     ValueError
-        where nothing is diagnosed yet.
+        with a sentence, where nothing is diagnosed yet, or the diagnosis is out of date.
     """
-    bearing = results.scene.bearing
-    question, answer = measurement.question(bearing), measurement.diagnosis(bearing)
+    question, answer = measurement.question(), measurement.diagnosis()
+    if why := measurement.out_of_date:
+        raise ValueError(why)
     if question is None or answer is None:
         raise ValueError("nothing is diagnosed yet")
-    extent = measurement.extent(bearing) if answer.fault in RACES_NAMED else None
+    extent = measurement.extent() if answer.fault in RACES_NAMED else None
     drawn: list[str] = []
     items: list[Any] = []
     figures: list[str] = []
@@ -101,7 +103,10 @@ def measured_report(
     if extent is not None:
         known = ", interval of 95 %" if extent.measured else ""
         state["extent"] = f"{part_words.extent(extent)}{known}"
-    of = question.measured.bearing_name or about.bearing
+    machine = question.measured.machine
+    of = machine.bearing_name
+    if not of:
+        of = about.bearing if results.scene.bearing == machine.bearing else "Bearing"
     title = about.title.strip() or f"{of}: {question.measured.recording.name}"
     body = [
         *heading(about, title),
@@ -132,6 +137,10 @@ def assumptions(
 ) -> list[tuple[str, str, str]]:
     """Assumptions of the answer: name, value and its source."""
     measured, bearing = question.measured, question.bearing
+    machine = measured.machine
+    of_file = {
+        "speed": machine.speed_source == OF_FILE, "bearing": machine.bearing_source == OF_FILE
+    }  # fmt: skip
     recording, given = measured.recording, dict(part_words.facts(answer, question))
     source = measurement.source_of
     load = measurement.state.load
@@ -147,9 +156,9 @@ def assumptions(
          f"{' and '.join(measured.directions)}", source("y") or source("x")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4), source("sample_rate")),
         ("Unit", measurement.state.values.get("unit", "m/s²") or "not known", source("unit")),
-        ("Shaft", given["Shaft"], source("shaft_speed")),
+        ("Shaft", given["Shaft"], source("speed") if of_file["speed"] else ""),
         ("Slip", given["Slip"], ""),
-        ("Bearing", given["Bearing"], source("bearing")),
+        ("Bearing", given["Bearing"], source("bearing") if of_file["bearing"] else ""),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          source("bpfo") or ("The file" if typed else "")),
         ("Load", "not given: typical ones, for the extent" if load is None

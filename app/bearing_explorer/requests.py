@@ -235,6 +235,10 @@ class Requests:
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
         parts = self._page.for_report()
         measurement = self._page.measurement.snapshot() if words.get("measured") else None
+        if measurement is not None and (why := measurement.out_of_date):
+            self.bookmarks.say(f"No report: {why}")
+            self.show_links()
+            return
 
         def make() -> dict[str, Any] | None:
             try:

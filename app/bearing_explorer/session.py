@@ -180,6 +180,7 @@ class Explorer:
     def draw(self) -> None:
         """Bring what is on screen up to date."""
         self._last_state.follow(self.scene, self.bookmarks.moving)
+        self.measurement.take_scene(self.scene)
         inputs = self.inputs
         # turning the bearing leaves a fine picture fine
         fine = self._refined == self._what_is_fine(inputs)

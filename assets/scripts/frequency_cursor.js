@@ -27,7 +27,8 @@ const draw = (at) => {
   frequency.forEach((f, i) => { if (Math.abs(f - at) < Math.abs(frequency[nearest] - at)) nearest = i })
   const [, unit] = /\(([^)]*(?:\([^)]*\))*[^)]*)\)$/.exec(plots[which].left[0].axis_label) ?? [null, ""]
   const height = `${rounded(curve.data[columns[which]][nearest], 3)} ${unit}`
-  reading.text = `<b>${rounded(at*hertz[0], 5)} Hz</b>, order ${rounded(at/shaft[0], 4)}, ${height}`
+  const order = shaft[0] > 0 ? `order ${rounded(at/shaft[0], 4)}, ` : ""  // of a known shaft speed
+  reading.text = `<b>${rounded(at*hertz[0], 5)} Hz</b>, ${order}${height}`
 }
 if (cb_obj.sx === undefined) {  // other numbers, or other sidebands
   draw(lines.tags.length && hertz.length ? lines.tags[0]/hertz[0] : null)

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, table_of
-from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.signals.indicators import indicators
@@ -67,16 +68,17 @@ class TrendPoint:
     name
         of the recording.
     shaft_speed
-        [rad/s]
+        [rad/s]; NaN where it is neither known nor found.
     rms, peak
         [m/s²]
     crest_factor, kurtosis
         see `indicators`.
     lines, noise : (4,) [m/s²]
         amplitude of each of `LINES` in the envelope, and what noise reaches there once in a
-        thousand recordings; NaN where the recording is too short, or does not hold the band.
+        thousand recordings; NaN where the recording is too short, or does not hold the band, and
+        where bearing or speed are not known.
     fault, probability
-        see `Diagnosis`.
+        see `Diagnosis`; "cannot tell" and NaN of an unknown bearing.
     extent
         of the spall of a race that is named.
     """
@@ -173,8 +175,8 @@ class Trend:
 
 def trend(
     recordings: Sequence[Recording],
-    bearing: Bearing,
-    shaft_speed: float | None = None,
+    bearing: Bearing | None,
+    shaft_speed: float | tuple[float, float] | None = None,
     *,
     direction: str | None = None,
     band: tuple[float, float] | None = None,
@@ -188,9 +190,10 @@ def trend(
     recordings
         one at least.
     bearing
-        that was measured.
+        that was measured; None where it is not known: then no part is named.
     shaft_speed
-        [rad/s] of recordings that carry none.
+        [rad/s] of recordings that carry none, a pair (from, to) if it is rough, None if it is
+        unknown: see `diagnose`, which then looks for it in each.
     direction
         "x" or "y"; None: the last of the last recording.
     band
@@ -203,8 +206,8 @@ def trend(
     Raises
     ------
     ValueError
-        for no recording, a recording without the direction or a shaft speed, a baseline that is
-        none of them, a band that cannot be, and for rows of balls that are not alike.
+        for no recording, a recording without the direction, a baseline that is none of them, a
+        band or speed that cannot be, and for rows of balls that are not alike.
     """
     if not recordings:
         raise checks.refuse("recordings", "none", "one at least")
@@ -213,7 +216,9 @@ def trend(
     for one in recordings:
         checks.choice(f"direction of {one.name}", along, one.directions)
     last = recordings[-1]
-    chosen = _impulsive(last, bearing, _speed(last, shaft_speed), along) if band is None else band
+    chosen = band
+    if chosen is None:
+        chosen = _impulsive(last, bearing, _one(_speed(last, shaft_speed)), along)
     low = checks.number("lower end of the band", chosen[0], above=0.0, unit="Hz")
     high = checks.number("upper end of the band", chosen[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
@@ -229,28 +234,35 @@ def trend(
 
 def trend_point(
     recording: Recording,
-    bearing: Bearing,
-    shaft_speed: float,
+    bearing: Bearing | None,
+    shaft_speed: float | tuple[float, float] | None,
     direction: str,
     band: tuple[float, float],
 ) -> TrendPoint:
     """Numbers of one recording; the arguments are those of `trend`, all of them given."""
     column = recording.directions.index(direction)
-    seen = indicators(recording, shaft_speed)
-    answer = diagnose(recording, bearing, shaft_speed, slip=SLIP)
-    extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
-    lines, noise = _line_amplitudes(recording, bearing, shaft_speed, column, band)
+    speed = _one(shaft_speed)
+    fault, probability, extent = CANNOT_TELL, math.nan, without_extent()
+    lines = noise = np.full(len(LINES), math.nan)
+    if bearing is not None:
+        answer = diagnose(recording, bearing, shaft_speed, slip=SLIP)
+        fault, probability = answer.fault, answer.probability
+        extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
+        speed = answer.shaft_speed if speed is None else speed
+        if speed is not None:
+            lines, noise = _line_amplitudes(recording, bearing, speed, column, band)
+    seen = indicators(recording, speed)
     return TrendPoint(
         recording.name,
-        shaft_speed,
+        math.nan if speed is None else speed,
         float(seen.rms[column]),
         float(seen.peak[column]),
         float(seen.crest_factor[column]),
         float(seen.kurtosis[column]),
         lines,
         noise,
-        answer.fault,
-        answer.probability,
+        fault,
+        probability,
         extent,
     )
 
@@ -267,22 +279,30 @@ def _time_in(name: str) -> datetime | None:
         return None
 
 
-def _speed(recording: Recording, shaft_speed: float | None) -> float:
-    """Shaft speed [rad/s] of a recording."""
-    own = recording.shaft_speed if recording.shaft_speed is not None else shaft_speed
-    if own is None:
-        raise checks.refuse("shaft_speed", None, f"one, as {recording.name!r} carries none")
-    return checks.number("shaft_speed", own, above=0.0, unit="rad/s")
+def _speed(
+    recording: Recording, shaft_speed: float | tuple[float, float] | None
+) -> float | tuple[float, float] | None:
+    """Shaft speed [rad/s] of a recording, as `diagnose` takes it."""
+    return recording.shaft_speed if recording.shaft_speed is not None else shaft_speed
+
+
+def _one(shaft_speed: float | tuple[float, float] | None) -> float | None:
+    """A shaft speed [rad/s] that is known; None where it is rough or unknown."""
+    if shaft_speed is None or isinstance(shaft_speed, tuple):
+        return None
+    return checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
 
 
 def _impulsive(
-    recording: Recording, bearing: Bearing, shaft_speed: float, direction: str
+    recording: Recording, bearing: Bearing | None, shaft_speed: float | None, direction: str
 ) -> tuple[float, float]:
     """The band [Hz] where the kurtogram of a recording is highest."""
     signal = recording.acceleration[:, recording.directions.index(direction)]
     highest = HIGHEST_SHARE * recording.sample_rate
-    lowest = min(FIRST_BAND * bearing.bpfo(shaft_speed), 0.25 * highest)
-    narrowest = NARROWEST * shaft_speed / (2.0 * math.pi)
+    speed = shaft_speed or 0.0
+    passing = 0.0 if bearing is None else bearing.bpfo(speed)
+    lowest = min(FIRST_BAND * passing, 0.25 * highest)
+    narrowest = NARROWEST * speed / (2.0 * math.pi)
     low, high = kurtogram(signal, recording.sample_rate, narrowest).best(lowest)
     return low, min(high, highest)
 

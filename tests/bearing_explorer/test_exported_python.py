@@ -31,7 +31,7 @@ from bearing_explorer.views.python_lines import FILE, scene_code
 from scipy.io import wavfile
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
-from tests.helpers.measuring import measuring, signal
+from tests.helpers.measuring import at, measuring, signal
 
 FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
 COMPARED = [
@@ -76,9 +76,12 @@ def recorded() -> tuple[bytes, Measured]:
     """A file with a signal, and what the page has read in it."""
     file = io.BytesIO()
     wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
-    read = read_file(RECORDED, file.getvalue(), 7.0)
-    asked = read_form(read.table, {**read.form, "unit": "m/s²"})
-    return file.getvalue(), Measured(asked.recording, asked.shaft_speed, origin=asked.origin)
+    read = read_file(RECORDED, file.getvalue(), at(presets["fan-rig"]))
+    asked = read_form(
+        read.table, {**read.form, "x": "0", "y": "1", "unit": "m/s²"}, at(presets["fan-rig"])
+    )
+    machine = at(presets["fan-rig"])
+    return file.getvalue(), Measured(asked.recording, machine, origin=asked.origin)
 
 
 @cache

@@ -85,10 +85,10 @@ def test_every_view_draws_every_scene(view: type[View], name: str) -> None:
     if isinstance(made, MeasuredView):
         made.measure(measuring(signal()))
     if isinstance(made, PartDiagnosis | SpallExtent):  # whose answers come from the background
-        about = Question.about(signal(), results.scene.bearing)
+        about = Question.about(signal())
         made.measurement.diagnoses.keep(about, diagnosed(about))
     if isinstance(made, SpallExtent):
-        question = made.question(results.scene.bearing)
+        question = made.question()
         made.measurement.extents.keep(question, measured_extent(question))
     if "ball_mass" in view.needs and results.scene.bearing.kind.mass_unknown:
         drawing = drawing_of(results, made)

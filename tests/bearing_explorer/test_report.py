@@ -147,12 +147,12 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     recording = dataclasses.replace(measured.recording, name=NASTY)
     measured = dataclasses.replace(measured, recording=recording)
     session = measuring(measured)
-    question = Question.about(measured, scene.bearing)
+    question = Question.about(measured)
     own = dataclasses.replace(about(), machine="Pump 3")
-    with pytest.raises(ValueError, match="nothing is diagnosed"):
+    with pytest.raises(ValueError, match="is being analysed"):
         measured_report(Results(scene), session.snapshot(), {}, own)
     answer = answered(question)
-    asked = ExtentQuestion(measured, scene.bearing, "given", question.geometry, scene.bearing)
+    asked = ExtentQuestion.about(measured, whole=scene.bearing)
     extent = extent_of(dataclasses.replace(asked, diagnosis=answer))
     session.diagnoses.keep(question, answer)
     session.extents.keep(asked, extent)
@@ -170,8 +170,8 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         part_words.extent(extent),
         part_words.plain(answer, question),
         part_words.pass_on(answer, question),
-        answer.sentence,
-        "Typed in",
+        part_words.sentence(answer, question),
+        "of the simulation",
         "A guess",
         "not given: typical ones, for the extent",
         NOT_JUDGED,

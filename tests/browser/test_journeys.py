@@ -453,8 +453,17 @@ def _recording(extent_deg: float, rate: float = 48_000.0, *, channels: int = 1) 
 def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visitor) -> None:
     desk.begin("Diagnosis")
     desk.bring(desk.main, "fan.wav", _recording(38.6))
-    desk.reads(re.compile(r"fan.wav · 3 s · 48 kHz · 420 rpm\? · unit\?"))
+    desk.reads(re.compile(r"fan.wav · 3 s · 48 kHz · speed\? · unit\? · bearing\?"))
+    desk.reads("Which bearing is it?")  # the scene's is not taken unsaid
+    desk.choose("Measured bearing", "that of the scene")
+    desk.choose("Measured speed", "that of the scene")
+    desk.reads(re.compile("420 rpm · unit.* · the scene's bearing"))
     desk.reads(re.compile("outer race is (probably )?damaged"))  # whatever the unit is
+    desk.type("Shaft speed", "9")  # which it was not
+    desk.reads(re.compile("540 rpm"))
+    expect(desk.main.get_by_role("heading", name=re.compile("outer race is"))).to_be_hidden()
+    desk.type("Shaft speed", "7")
+    desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.bring(desk.main, "broken.csv", b"x,y\n1,2\nhello,3")
     desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
     desk.press("Change")
@@ -521,6 +530,9 @@ def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> Non
     along[1].select_option(index=2)
     visitor.reads(re.compile("along x and y"))
     visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    visitor.choose("Measured bearing", "that of the scene")
+    visitor.choose("Measured speed", "given:")
+    visitor.type("Hz or rpm", "420 rpm")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
 
 

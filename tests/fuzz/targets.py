@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 import scipy.io
 from bearing_explorer.measurement import form as forms
+from bearing_explorer.measurement.machine import Machine
 from bearing_explorer.state.address import opened, place_of, write
 from bearing_explorer.state.scene_editor import SceneEditor
 
@@ -183,13 +184,15 @@ def broken_files() -> dict[str, Callable[[random.Random], bytes]]:
 
 def _table(content: bytes) -> object:
     table = read_table("a file", content)
-    form = forms.guess(table, 30.0)
+    form = forms.guess(table)
     asked, given = forms.questions(table), forms.reasons(table)
     for words in (*asked.values(), *given.values(), forms.said(table)):
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
     y = form["y"] or next(value for value, _ in forms.columns_of(table)[::-1])
-    return forms.read_form(table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"})
+    return forms.read_form(
+        table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"}, Machine()
+    )
 
 
 def _addresses() -> list[str]:

@@ -5,17 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
+from bearing_explorer.measurement.machine import GIVEN, Machine, of_scene
 from bearing_explorer.measurement.session import Measurement, simulated
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.state.scene_editor import SceneEditor
 
-from bearingcore import presets
+from bearingcore import Scene, presets
 
 
 @cache
 def signal() -> Measured:
     """A simulated signal of the fan rig, 20 dB above its noise."""
     return simulated(presets["fan-rig"], 20.0, False, 1)
+
+
+def at(scene: Scene, shaft_speed: float | None = None) -> Machine:
+    """A machine that a person gave: the bearing of a scene, at its speed or another [rad/s]."""
+    machine = of_scene(scene, GIVEN)
+    return machine if shaft_speed is None else machine.knowing(shaft_speed)
 
 
 def measuring(measured: Measured | None = None) -> Measurement:

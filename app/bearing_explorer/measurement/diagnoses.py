@@ -13,7 +13,7 @@ import logging
 import math
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.executors import JOBS
@@ -26,14 +26,10 @@ Found = TypeVar("Found")
 
 log = logging.getLogger(__name__)
 
-ROUGH = 0.1
-"""By how much a rough shaft speed may be off, as a fraction."""
-
-SPEEDS = {"given": "as given", "rough": "within 10 %", "unknown": "not known"}
-"""Knowledge of the shaft speed, in words."""
-
 SLIP = 0.02
 """By how much balls may pass faster or slower than the shaft speed says."""
+
+WHICH_BEARING = "Which bearing is it? Without it no damaged part can be named."
 
 FAILED = "The signal could not be analysed."
 
@@ -47,43 +43,51 @@ MOST_KNOWN = 12
 class Question:
     """A recording to diagnose, its bearing, and the knowledge of its shaft speed.
 
-    Two are the same where a bearing's balls, diameters and contact angle are: nothing else of it
-    counts.
+    Two are the same where recording, speed and the bearing's balls, diameters and contact angle
+    are: nothing else counts.
+
+    Attributes
+    ----------
+    measured
+        the signal with what is known of its machine.
+    speed
+        [rad/s] as `diagnose` wants it: a pair where it is rough, None where it is not known.
+    geometry
+        numbers of the bearing; empty where it is not known.
     """
 
-    measured: Measured
-    bearing: Bearing = field(compare=False)
-    speed: str = "given"
-    geometry: tuple[float, ...] = ()
+    measured: Measured = field(compare=False)
+    speed: float | tuple[float, float] | None
+    geometry: tuple[float, ...]
+    _recording: int
 
     @classmethod
-    def about(cls, measured: Measured, bearing: Bearing, speed: str = "given") -> Question:
-        """The question about a recording; `speed` is one of SPEEDS.
+    def about(cls, measured: Measured, **more: Any) -> Self:
+        """The question about a recording and its machine."""
+        bearing = measured.bearing
+        numbers: tuple[float, ...] = ()
+        if bearing is not None:
+            numbers = (
+                float(bearing.n_balls),
+                bearing.ball_diameter,
+                bearing.pitch_diameter,
+                bearing.contact_angle,
+                *(number for row in bearing.rows for number in row.own.values()),
+            )
+        speed = measured.machine.range
+        return cls(measured, speed, numbers, id(measured.recording), **more)
 
-        `bearing` is that of the scene, which counts where the recording has none of its own.
-        """
-        bearing = measured.bearing or bearing
-        geometry = (
-            float(bearing.n_balls),
-            bearing.ball_diameter,
-            bearing.pitch_diameter,
-            bearing.contact_angle,
-            *(number for row in bearing.rows for number in row.own.values()),
-        )
-        return cls(measured, bearing, speed, geometry)
+    @property
+    def bearing(self) -> Bearing:
+        """That was measured; ValueError where it is not known."""
+        if self.measured.bearing is None:
+            raise ValueError(WHICH_BEARING)
+        return self.measured.bearing
 
     def is_like(self, other: Question) -> bool:
         """Whether recording, bearing and knowledge of the speed are the same."""
-        mine, theirs = ((q.measured, q.speed, q.geometry) for q in (self, other))
+        mine, theirs = ((q._recording, q.speed, q.geometry) for q in (self, other))
         return mine == theirs
-
-    @property
-    def shaft_speed(self) -> float | tuple[float, float] | None:
-        """[rad/s] as `diagnose` wants it."""
-        speed = self.measured.shaft_speed
-        if self.speed == "unknown":
-            return None
-        return ((1.0 - ROUGH) * speed, (1.0 + ROUGH) * speed) if self.speed == "rough" else speed
 
 
 @dataclass(frozen=True)
@@ -103,9 +107,7 @@ class ExtentQuestion(Question):
 def answered(question: Question) -> Diagnosis | str:
     """The diagnosis, or a sentence where there can be none. For any thread."""
     recording = question.measured.recording
-    return _or_why_not(
-        lambda: diagnose(recording, question.bearing, question.shaft_speed, slip=SLIP)
-    )
+    return _or_why_not(lambda: diagnose(recording, question.bearing, question.speed, slip=SLIP))
 
 
 def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
@@ -115,12 +117,12 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
         found = measure_extent(
             question.measured.recording,
             question.bearing,
-            question.shaft_speed,
+            question.speed,
             race=question.race or None,
             load=question.load,
             diagnosis=question.diagnosis,
         )
-        unsized = question.measured.known_by_frequencies
+        unsized = question.measured.machine.by_frequencies
         return dataclasses.replace(found, length=math.nan) if unsized else found
 
     return _or_why_not(measure)
@@ -160,7 +162,7 @@ def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
     """Listed bearings that explain the signal, or a sentence. For any thread."""
     return _or_why_not(
         lambda: explaining_bearings(
-            question.measured.recording, question.bearings, question.shaft_speed, slip=SLIP,
+            question.measured.recording, question.bearings, question.speed, slip=SLIP,
             goes_on=question.progress.goes_on,
         )
     )  # fmt: skip
@@ -214,7 +216,8 @@ class Answers(Generic[Found]):
 
     def keep(self, question: Question, answer: Found | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""
-        kept = {q: a for q, a in self._known.items() if q.measured is question.measured}
+        recording = question.measured.recording
+        kept = {q: a for q, a in self._known.items() if q.measured.recording is recording}
         while len(kept) >= MOST_KNOWN:
             kept.pop(next(iter(kept)))
         self._known = kept | {question: answer}
@@ -244,7 +247,7 @@ class Answers(Generic[Found]):
             answer = await loop.run_in_executor(JOBS, self._compute, question)
             if self.wanted is None:
                 return
-            if self.wanted.measured is question.measured:
+            if self.wanted.measured.recording is question.measured.recording:
                 self.keep(question, answer)
             if self.wanted == question:
                 await self._assign(self._draw)

@@ -1,7 +1,7 @@
 """The questions that make a table of numbers a measurement, and guesses at their answers.
 
-Which columns are the housing's acceleration along x and y, in what unit, how often it was sampled,
-how fast the shaft turned. The form holds text, as a person types it.
+Which columns are the housing's acceleration along x and y, in what unit, how often it was sampled;
+which bearing and shaft speed it was, see `machine`. The form holds text, as a person types it.
 
 `questions` have to be answered before anything is drawn. `size_questions` are about the size of the
 numbers, which is never guessed; until they are answered the numbers are taken as they are, for what
@@ -11,20 +11,18 @@ does not depend on it.
 from __future__ import annotations
 
 import dataclasses
-import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from bearing_explorer.measurement import machine
+from bearing_explorer.measurement.machine import FormError, Machine, find_published
 from bearing_explorer.measurement.signal import Origin
-from bearing_explorer.state.bearing_list import BearingTable
-from bearing_explorer.state.sentences import sentence_of
-from bearingcore import Bearing, CatalogueBearing, Recording, Table
-from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
-from bearingcore.common.numbers import number, span, with_prefix
+from bearing_explorer.measurement.typed_number import number_of
+from bearingcore import CatalogueBearing, Recording, Table, catalogue
+from bearingcore.common.numbers import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.files.facts import Finding
 from bearingcore.files.units import (
@@ -35,25 +33,18 @@ from bearingcore.files.units import (
     level_doubt,
 )
 
-FIELDS = (
-    "x", "y", "unit", "full_scale", "sensitivity", "sample_rate", "shaft_speed", "bearing",
-    *FREQUENCIES,
-)  # fmt: skip
+SIGNAL_FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate")
+"""Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
+FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
 NONE = ""
 """The choice of no column."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
-SCENE_BEARING, BY_FREQUENCIES = "", "frequencies"
-"""The bearing that was measured: that of the scene, or the one whose parts have the frequencies in
-the form; else it is the name of a listed one."""
-SAME_ORDERS = 0.01
-"""Relative difference up to which a bearing's frequencies are those of a file."""
+WAYS, LIKELY = "Say it", "Likely"
+"""Headings in the list of bearings."""
 SIZES = ("unit", "sensitivity")
 """Fields that say how large the numbers of a file are."""
-
-find_published = BearingTable().find
-"""The published bearing of a name, or the one of a designation."""
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
@@ -64,42 +55,30 @@ _WORDS = {
     "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
     "full_scale": ("The value of a 1 in the file", "", 1e-12, 1e12),
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
-    "shaft_speed": ("The shaft speed", "Hz", 1e-3, 1e4),
 }
-PITCH_DIAMETER = 39e-3
-"""[m] of bearings known by their frequencies, for their picture: no answer depends on it."""
 USUAL_SENSITIVITY = 100
 """[mV/g]"""
 
 
 @dataclass(frozen=True)
 class FormResult:
-    """A form as it is read: a recording, its shaft speed [rad/s], its origin, its bearing.
+    """A form as it is read: a recording, its origin, and the machine.
 
-    Without `in_si` the recording holds the numbers of the file: their unit is not known. Without a
-    `bearing` it is that of the scene.
+    Without `in_si` the recording holds the numbers of the file: their unit is not known. The
+    recording carries no shaft speed: it is that of the machine, where it is known.
     """
 
     recording: Recording
-    shaft_speed: float
     origin: Origin
+    machine: Machine
     in_si: bool = True
-    bearing: Bearing | None = None
 
 
-class FormError(ValueError):
-    """Sentences by the fields that they belong to."""
-
-    def __init__(self, sentences: Mapping[str, str]) -> None:
-        super().__init__(" ".join(sentences.values()))
-        self.sentences = dict(sentences)
-
-
-def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
-    """The first values of the form; the shaft speed is `shaft_speed_hz` where the file has none."""
+def guess(table: Table) -> dict[str, str]:
+    """The first values of the form: what the file says, and good guesses."""
     contents = table.contents
-    rate, speed = contents.sample_rate, contents.shaft_speed
-    chosen = contents.choice.columns
+    rate = contents.sample_rate
+    chosen = {} if unlabelled(table) else contents.choice.columns
     return {
         "x": str(chosen.get("x", NONE)),
         "y": str(chosen.get("y", NONE)),
@@ -107,54 +86,58 @@ def guess(table: Table, shaft_speed_hz: float) -> dict[str, str]:
         "full_scale": "1",
         "sensitivity": NOT_KNOWN,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
-        "shaft_speed": f"{shaft_speed_hz:g} Hz" if speed is None else _written(speed),
-        **_bearing(table),
+        **machine.guess(contents),
     }
 
 
-def _bearing(table: Table) -> dict[str, str]:
-    """The first values of the bearing and of its frequencies.
+def unlabelled(table: Table) -> str:
+    """The question which of two columns counts, where nothing says that they are x and y."""
+    choice, columns = table.contents.choice, table.contents.columns
+    chosen = choice.columns.values()
+    if choice.question or len(chosen) < 2 or any(columns[one].direction for one in chosen):
+        return ""
+    return (
+        f"The file holds {len(chosen)} signals and does not say whether they are two directions "
+        "of one place. Which was measured at this bearing? Choose both only if they are x and y "
+        "there."
+    )
 
-    What the file says of frequencies is taken before what its collection is known for.
+
+def bearings_of(
+    table: Table | None, found: Sequence[str] = (), own: Sequence[str] = ()
+) -> list[list[str]]:
+    """[value, words, heading] of the bearings to choose from.
+
+    The one of the file's collection and those that were `found` to explain the signal come first;
+    `own` are those of a person's table.
     """
-    contents = table.contents
-    texts = dict.fromkeys(FREQUENCIES, "")
-    said, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
-    if {"bpfo", "bpfi"} <= set(said):
-        texts |= {name: f"{value:.6g} Hz" for name, value in said.items()}
-        if listed is None or speed is None or not _agree(listed.value, said, speed.value):
-            return {"bearing": BY_FREQUENCIES, **texts}
-    if contents.orders is not None:
-        texts |= {
-            name: f"{order:.6g} x"
-            for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
-        }
-        return {"bearing": BY_FREQUENCIES, **texts}
-    return {"bearing": SCENE_BEARING if listed is None else listed.value, **texts}
-
-
-def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
-    """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
-    bearing = find_published(name).bearing
-    own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
-    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
-
-
-def bearings_of(table: Table | None, found: Sequence[str] = ()) -> list[list[str]]:
-    """[value, words] of the bearings to choose from: also those that were `found` to explain it."""
     listed = None if table is None else table.contents.bearing
-    names = dict.fromkeys([*([] if listed is None else [listed.value]), *found])
+    likely = dict.fromkeys([*([] if listed is None else [listed.value]), *found])
+    others = dict.fromkeys(name for name in (*own, *catalogue()) if name not in likely)
     return [
-        [SCENE_BEARING, "that of the scene"],
-        *([name, name] for name in names),
-        [BY_FREQUENCIES, "by its frequencies"],
+        [NOT_KNOWN, "choose", WAYS],
+        [machine.BY_DESIGNATION, "by its designation", WAYS],
+        [machine.BY_FREQUENCIES, "by its frequencies", WAYS],
+        [machine.SCENE, "that of the scene", WAYS],
+        *([name, name, LIKELY] for name in likely),
+        *([name, name, "From the list"] for name in others),
     ]
 
 
-def _written(speed: Finding[float]) -> str:
-    """A speed in rpm where the file gives it so, else in Hz."""
-    hertz = speed.value / (2.0 * math.pi)
-    return f"{60.0 * hertz:.6g} rpm" if speed.unit == "rpm" else f"{hertz:.6g} Hz"
+def speeds_of(table: Table | None) -> list[list[str]]:
+    """[value, words] of the answers on the shaft speed."""
+    speed = None if table is None else table.contents.shaft_speed
+    of_file = []
+    if speed is not None:
+        words = "from the file" if speed.stated else "a guess from the file"
+        of_file = [[machine.FILE, f"{words}: {machine.written(speed)}"]]
+    return [
+        [NOT_KNOWN, "not known: find it"],
+        *of_file,
+        [machine.GIVEN, "given:"],
+        [machine.ROUGH, "given, good to 10 %:"],
+        [machine.SCENE, "that of the scene"],
+    ]
 
 
 def reasons(table: Table) -> dict[str, str]:
@@ -171,9 +154,8 @@ def reasons(table: Table) -> dict[str, str]:
         found["bearing"] = "Its frequencies are in the file."
     elif (guessed := contents.bearing or contents.orders) is not None:
         found["bearing"] = _because(guessed)
-    found["shaft_speed"] = (
-        "The file does not say it; this is the scene's." if speed is None else _because(speed)
-    )
+    if speed is not None:
+        found["speed"] = _because(speed)
     return {name: words[:1].upper() + words[1:] for name, words in found.items()}
 
 
@@ -188,6 +170,8 @@ def questions(table: Table) -> dict[str, str]:
     choice = contents.choice
     if choice.question:
         asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
+    elif which := unlabelled(table):
+        asked["y"] = which
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
@@ -264,13 +248,13 @@ def usable(table: Table) -> bool:
 def read_form(
     table: Table,
     form: Mapping[str, Any],
-    speed_known: bool = True,
+    scene: Machine,
     find: Callable[[str], CatalogueBearing] = find_published,
 ) -> FormResult:
     """The recording that a form describes; `FormError` with sentences where it describes none.
 
-    `speed_known` says whether the shaft speed is that of the measurement, or only the scene's;
-    `find` gives the bearing of a name.
+    `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
+    so; `find` gives the bearing of a name.
     """
     texts = {name: str(form.get(name, ""))[:LONGEST_TEXT].strip() for name in FIELDS}
     refused: dict[str, str] = {}
@@ -282,13 +266,15 @@ def read_form(
         if name == "sensitivity" and not (voltage and in_si):
             continue
         try:
-            numbers[name] = _speed(texts[name]) if name == "shaft_speed" else _read(name, texts)
+            numbers[name] = _read(name, texts)
         except ValueError as error:
             refused[name] = str(error)
     chosen = {name: texts[name] for name in ("x", "y") if texts[name] != NONE}
     if not chosen:
-        refused["y"] = table.contents.choice.question or (
-            "Choose the column of at least one direction."
+        refused["y"] = (
+            table.contents.choice.question
+            or unlabelled(table)
+            or "Choose the column of at least one direction."
         )
     elif len(set(chosen.values())) < len(chosen):
         refused["x"] = "x and y cannot be the same column."
@@ -298,16 +284,13 @@ def read_form(
         refused |= _unfit(table, {name: int(text) for name, text in chosen.items()}, texts["unit"])
     if texts["unit"] not in UNITS and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
-    bearing = None
-    if "shaft_speed" in numbers:
-        try:
-            bearing = bearing_of(texts, numbers["shaft_speed"], find)
-        except ValueError as error:
-            refused["bearing"] = sentence_of(error)
+    try:
+        found_machine = machine_of(table, texts, scene, find)
+    except FormError as error:
+        refused |= error.sentences
     if refused:
         raise FormError(refused)
     columns = tuple(int(text) for text in chosen.values())
-    speed = 2.0 * math.pi * numbers["shaft_speed"]
     # [V/(m/s²)], of a number in mV/g
     sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY if voltage and in_si else None
     try:
@@ -318,38 +301,26 @@ def read_form(
             numbers["sample_rate"],
             numbers["full_scale"],
             sensitivity=sensitivity,
-            shaft_speed=speed if speed_known else None,
         )
     except ValueError as error:
         raise FormError(
             {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
         ) from None
     origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
-    sized = recording if in_si else _without_size(recording)
-    return FormResult(sized, speed, origin, in_si, bearing)
+    sized = dataclasses.replace(recording, shaft_speed=None)
+    return FormResult(sized if in_si else _without_size(sized), origin, found_machine, in_si)
 
 
-def bearing_of(
-    texts: Mapping[str, str], turns: float, find: Callable[[str], CatalogueBearing]
-) -> Bearing | None:
-    """The bearing of a form at so many `turns` of the shaft a second; None: that of the scene.
-
-    ValueError for frequencies that are those of no bearing, and for a name that is not known.
-    """
-    name = texts["bearing"]
-    if name != BY_FREQUENCIES:
-        return None if name == SCENE_BEARING else find(name).bearing
-    orders = {key: _order(key, texts[key], turns) for key in FREQUENCIES if texts[key]}
-    return bearing_of_frequencies(orders, PITCH_DIAMETER)
-
-
-def _order(name: str, text: str, turns: float) -> float:
-    """A frequency in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
-    bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
-    least, most = 1e-3, 1e5
-    if bare != text.lower():
-        return number_of(bare, name.upper(), "", least, most)
-    return number_of(bare, name.upper(), "Hz", least, most) / turns
+def machine_of(
+    table: Table,
+    form: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
+) -> Machine:
+    """The machine that a form describes, see `machine.read_machine`."""
+    texts = {name: form[name] for name in machine.FIELDS}
+    contents = table.contents
+    return machine.read_machine(texts, machine.guess(contents), contents, scene, find)
 
 
 def _without_size(recording: Recording) -> Recording:
@@ -395,41 +366,6 @@ def _said_by(error: ValueError) -> str:
 def _read(name: str, texts: Mapping[str, str]) -> float:
     words, unit, least, most = _WORDS[name]
     return number_of(texts[name], words, unit, least, most)
-
-
-def _speed(text: str) -> float:
-    """[Hz], of a number with or without its unit."""
-    words, unit, least, most = _WORDS["shaft_speed"]
-    bare = text.lower()
-    per_minute = bare.endswith(("rpm", "/min", "u/min", "1/min"))
-    bare = re.sub(r"\s*(rpm|[u1]?/min|hz)$", "", bare)
-    value = number_of(bare, words, "rpm" if per_minute else unit, 0.0, math.inf)
-    value = value / 60.0 if per_minute else value
-    if not least <= value <= most:
-        raise ValueError(
-            f"{words} is {number(value, 6)} Hz; possible: {span(least, most, 'Hz', 6)}."
-        )
-    return value
-
-
-def number_of(text: str, words: str, unit: str, least: float, most: float) -> float:
-    """The number that a person typed; ValueError with a sentence."""
-    bare = re.sub(r"(?<=\d)[\s'](?=\d{3}\b)", "", text.strip()).replace("−", "-")
-    bare = re.sub(rf"\s*{re.escape(unit)}$", "", bare, flags=re.IGNORECASE) if unit else bare
-    if not bare:
-        raise ValueError(f"{words} is missing: type it in{f' ({unit})' if unit else ''}.")
-    try:
-        value = float(bare.replace(",", "."))
-    except ValueError:
-        raise ValueError(f"{words} must be a number, not “{text[:20]}”.") from None
-    if not math.isfinite(value) or not least <= value <= most:
-        allowed = (
-            span(least, most, unit, 6).rstrip()
-            if math.isfinite(most)
-            else f"at least {number(least, 6)} {unit}".rstrip()
-        )
-        raise ValueError(f"{words} is {number(value, 6)}; possible: {allowed}.")
-    return value
 
 
 def _is_index(text: str, count: int) -> bool:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from bearing_explorer.measurement.form import FormError, guess, read_form
+from bearing_explorer.measurement.form import guess, read_form
+from bearing_explorer.measurement.machine import FormError, Machine
 from bearing_explorer.measurement.signal import Measured, Origin
 from bearingcore import CatalogueBearing, Recording, Table
 
@@ -69,6 +69,7 @@ def recordings_of(
     shown: Measured,
     changed: Mapping[str, str],
     direction: str,
+    scene: Machine,
     find: Callable[[str], CatalogueBearing],
 ) -> SeriesRecordings:
     """The recordings of a series along a direction; without files the one that is shown.
@@ -80,11 +81,10 @@ def recordings_of(
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
     recordings, origins, left_out = [], [], list(series.left_out)
-    scene_speed = shown.shaft_speed / (2.0 * math.pi)
     for table in series.tables:
-        form = {**guess(table, scene_speed), **changed}
+        form = {**guess(table), **changed}
         try:
-            found = read_form(table, form, True, find)
+            found = read_form(table, form, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")
             continue
@@ -93,6 +93,7 @@ def recordings_of(
         elif direction not in found.recording.directions:
             left_out.append(f"{table.name}: nothing is measured along {direction}.")
         else:
-            recordings.append(dataclasses.replace(found.recording, shaft_speed=found.shaft_speed))
+            speed = found.machine.exact_speed
+            recordings.append(dataclasses.replace(found.recording, shaft_speed=speed))
             origins.append(found.origin)
     return SeriesRecordings(tuple(recordings), tuple(origins), tuple(left_out))

@@ -27,24 +27,37 @@ from bearing_explorer.measurement.diagnoses import (
     listed_of,
 )
 from bearing_explorer.measurement.form import (
-    BY_FREQUENCIES,
-    FIELDS,
+    LIKELY,
     LONGEST_TEXT,
+    SIGNAL_FIELDS,
     SIZES,
-    FormError,
     FormResult,
     bearings_of,
     columns_of,
-    find_published,
     guess,
     load_of,
+    machine_of,
     proposed_unit,
     questions,
     read_form,
     reasons,
     said,
     size_questions,
+    speeds_of,
     usable,
+)
+from bearing_explorer.measurement.machine import FIELDS as MACHINE_FIELDS
+from bearing_explorer.measurement.machine import (
+    GIVEN,
+    NOT_KNOWN,
+    ROUGH,
+    SCENE,
+    SIMULATED,
+    SPEED_SOURCES,
+    FormError,
+    Machine,
+    find_published,
+    of_scene,
 )
 from bearing_explorer.measurement.series import (
     MOST_FILES,
@@ -62,7 +75,6 @@ from bearing_explorer.state.sentences import sentence_of
 from bearing_explorer.state.settings import Settings
 from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import (
-    Bearing,
     CatalogueBearing,
     Diagnosis,
     MeasuredExtent,
@@ -72,7 +84,6 @@ from bearingcore import (
     Table,
     read_table,
 )
-from bearingcore.bearings.frequencies import FREQUENCIES
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.diagnosis.part.listed import ListedBearing
 from bearingcore.diagnosis.size.variants import Tolerances, variant
@@ -105,14 +116,16 @@ _WITHOUT_SIZE = (
     "The diagnosis of the damaged part does not depend on it. The size of the defect and the "
     "comparison with the model wait for the answer."
 )
-_SPEED_OF_SCENE = (
-    "The shaft speed is that of the scene: type in the measured one if it was another."
-)
+
+REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
+CHANGED = "Your answers have changed since."
+NOT_YET = "The signal is being analysed with the newest answers."
+"""Why an answer is out of date, or not there yet."""
 
 
 @dataclass(frozen=True)
 class MeasurementState:
-    """The state of the panel of a measurement."""
+    """The state of the panels of a measurement."""
 
     words: str = FIRST_WORDS
     bad: bool = False
@@ -131,8 +144,11 @@ class MeasurementState:
     #: [N] in the file, None where it has none
     load: float | None = None
     scaled: bool = False
-    #: bearings to choose from, as [value, words]
+    #: bearings to choose from, as [value, words, heading], and answers on the speed
     bearings: list[list[str]] = field(default_factory=list)
+    speeds: list[list[str]] = field(default_factory=list)
+    #: whether changed answers are still being read
+    settling: bool = False
     #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
     line: str = ""
     #: the whole name of its file, where the line has less of it
@@ -177,6 +193,8 @@ class Measurement:
         #: called with the new state, and with the first byte of the next piece of a file; the
         #: number `of` comes back with the piece, by which files are kept apart
         self.show: Callable[[MeasurementState], None] = lambda _: None
+        #: the same, for the panel of the diagnosis
+        self.show_machine: Callable[[MeasurementState], None] = lambda _: None
         self.want: Callable[[int, int], None] = lambda begin, of: None
         #: called when the next of several files may come
         self.more: Callable[[], None] = lambda: None
@@ -193,9 +211,11 @@ class Measurement:
         self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
         #: listed bearings, where the one that is given does not explain the signal
         self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
+        self._scene = of_scene(editor.scene)
         self._arrival: _Arrival | None = None
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
+        self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
         self._cut = ""
         self._upload: Upload | None = None
         self._latest = 0  # number of what was asked for last: what it overtook is dropped
@@ -215,24 +235,78 @@ class Measurement:
         for task in self._tasks:
             task.cancel()
 
-    def question(self, bearing: Bearing) -> Question | None:
-        """The newest question of which part is damaged; None where nothing is measured."""
-        if self.measured is None:
-            return None
-        newest = self.diagnoses.wanted
-        return Question.about(self.measured, bearing, newest.speed if newest else "given")
+    # The machine
 
-    def diagnosis(self, bearing: Bearing) -> Diagnosis | None:
+    def take_scene(self, scene: Scene) -> None:
+        """Follow the scene: its bearing and speed count where a person chose them."""
+        now = of_scene(scene)
+        if now != self._scene:
+            self._scene = now
+            self._follow()
+
+    def _follow(self) -> None:
+        """Have the machine of the signal be as the form and the scene say it now."""
+        table, measured, values = self._table, self.measured, self.state.values
+        if table is None or measured is None or self.state.settling:
+            return
+        if SCENE not in (values["bearing"], values["speed"]):
+            return
+        try:
+            machine = machine_of(table, values, self._scene, self._editor.listed.find)
+        except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
+            self._tell(words=str(error), bad=True, refused=error.sentences)
+            return
+        if machine != measured.machine or self.state.refused:
+            self.measured = replace(measured, machine=machine)
+            words = self._summary(_about_size(size_questions(table, values)))
+            self._tell(words=words, bad=False, refused={}, **self._in_short(values))
+
+    def question(self) -> Question | None:
+        """The newest question of which part is damaged.
+
+        None where nothing is measured, or nothing says on which bearing.
+        """
+        measured = self.measured
+        if measured is None or measured.bearing is None:
+            return None
+        return Question.about(measured)
+
+    def diagnosis(self) -> Diagnosis | None:
         """The answer to it, where there is one already."""
-        question = self.question(bearing)
+        question = self.question()
         found = None if question is None else self.diagnoses.of(question)
         return found if isinstance(found, Diagnosis) else None
 
-    def extent(self, bearing: Bearing) -> MeasuredExtent | None:
+    def extent(self) -> MeasuredExtent | None:
         """The newest answer to how long the spall is, where there is one already."""
-        question = self.question(bearing)
+        question = self.question()
         found = None if question is None else self.extents.latest(question)
         return found if isinstance(found, MeasuredExtent) else None
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is known, or was found with the bearing; None where neither is.
+
+        It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
+        the shaft, and would be taken for them.
+        """
+        measured = self.measured
+        if measured is None:
+            return None
+        if measured.machine.exact_speed is not None:
+            return measured.machine.exact_speed
+        found = self.diagnosis()
+        return None if found is None else found.shaft_speed
+
+    @property
+    def out_of_date(self) -> str:
+        """Why the answer that may be on screen is not that of now; empty where it is."""
+        question = self.question()
+        if self.measured is not None and self.state.refused:
+            return REFUSED
+        if self.state.settling:
+            return CHANGED
+        return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
 
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
@@ -242,9 +316,7 @@ class Measurement:
             progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
         except RuntimeError:  # a view is drawn outside of a session
             progress = Progress()
-        return ListQuestion(
-            about.measured, about.bearing, about.speed, about.geometry, named, progress
-        )
+        return ListQuestion.about(about.measured, bearings=named, progress=progress)
 
     def snapshot(self) -> Measurement:
         """A copy for another thread: what is measured and found by now."""
@@ -257,7 +329,7 @@ class Measurement:
         """Where the value of a field comes from; empty where there is no such field."""
         value = self.state.values.get(name, "")
         if value != self._first.get(name, ""):
-            return "Typed in"
+            return "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     # Files
@@ -316,11 +388,11 @@ class Measurement:
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        speed, find = self._editor.values["shaft_speed_hz"], self._editor.listed.find
+        scene, find = self._scene, self._editor.listed.find
 
         def read_or_why() -> _Read | str:
             try:
-                return read_file(upload.name, upload.content, speed, find)
+                return read_file(upload.name, upload.content, scene, find)
             except ValueError as error:
                 return str(error)
             except Exception:
@@ -348,7 +420,9 @@ class Measurement:
         """The recordings of the series; for any thread."""
         given = self.state.values
         changed = {name: given[name] for name in given if given[name] != self._first.get(name)}
-        return recordings_of(self.series, shown, changed, direction, self._editor.listed.find)
+        return recordings_of(
+            self.series, shown, changed, direction, self._scene, self._editor.listed.find
+        )
 
     def _take_read(self, found: _Read) -> None:
         """Take a file that was read in place of the one before.
@@ -357,11 +431,11 @@ class Measurement:
         """
         table = found.table
         self._table, self._cut, self._first = table, found.cut, found.form
+        self._taken = found.form
         self.measured = self.sized = None
         if found.asked is not None:
-            self.measured = _measured(found.asked, found.form)
-            speed = "" if table.contents.shaft_speed is not None else _SPEED_OF_SCENE
-            words, bad = self._summary(_about_size(found.sizes), speed), False
+            self.measured = _measured(found.asked)
+            words, bad = self._summary(_about_size(found.sizes)), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
                 {**found.asks, **found.refused, **found.sizes}.values()
@@ -380,31 +454,38 @@ class Measurement:
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
-            bearings=bearings_of(table),
+            bearings=bearings_of(table, own=self._own_bearings),
+            speeds=speeds_of(table),
+            settling=False,
             arrival=self.state.arrival + 1,
             **self._in_short(found.form),
         )
+        self._follow()
         self._draw()
 
-    def take_form(self, form: Mapping[str, str], sure: bool) -> None:
-        """The columns, the unit or the rates have changed, or a person is `sure` of them.
+    def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
+        """An answer has changed, or a person is `sure` of the guesses.
 
         Open questions are settled by an answer or by agreement.
         """
-        table = self._table
-        if table is None or self._ended or self._arrival is not None:
+        table, measured = self._table, self.measured
+        if self._ended or self._arrival is not None:
             return
-        texts = {name: form.get(name, "")[:LONGEST_TEXT] for name in self.state.values}
+        if table is None:
+            if measured is not None and measured.origin is None:
+                self._take_simulated_form(measured, form.get("speed", SIMULATED))
+            return
+        texts = {name: form.get(name, "")[:LONGEST_TEXT].strip() for name in self.state.values}
         first = self._first
         asks = [name for name in self.state.open if name not in SIZES]
         left = [name for name in asks if not sure and texts.get(name) == first.get(name)]
         if "y" in left and texts.get("x"):
             left.remove("y")
-        known = sure or texts.get("shaft_speed") != first.get("shaft_speed")
-        known = known or _speed_is_stated(table)
         self._latest += 1
+        self._tell(values=texts, settling=True)
+        scene = self._scene
         self._in_background(
-            lambda: _tried(table, texts, known, self._editor.listed.find),
+            lambda: _tried(table, texts, scene, self._editor.listed.find),
             lambda found: self._take_tried(texts, found, left),
             table.name,
         )
@@ -412,9 +493,13 @@ class Measurement:
     def _take_tried(
         self, texts: dict[str, str], found: FormResult | FormError, left: list[str]
     ) -> None:
+        before = self.measured
         if isinstance(found, FormError):
-            stays = " The figures still show the signal as it was before." if self.measured else ""
-            self._tell(words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences)
+            stays = " The figures still show the signal as it was before." if before else ""
+            self._tell(
+                words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences,
+                settling=False,
+            )  # fmt: skip
             return
         table = self._table
         if table is None:
@@ -425,26 +510,64 @@ class Measurement:
             "refused": {},
             "reasons": {**reasons(table), **asks, **sizes},
             "open": [*left, *sizes],
+            "settling": False,
         }
         if left:
             words = " ".join(asks.get(name, "") for name in left)
             self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
-        self.measured = _measured(found, texts)
+        same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        self._taken = texts
+        if before is not None and same:  # what was computed of the signal stays
+            self.measured = replace(before, machine=found.machine)
+        else:
+            self.measured = _measured(found)
         self._tell(
             words=self._summary(_about_size(sizes)), bad=False, busy=False, **news,
             **self._in_short(texts),
         )  # fmt: skip
+        self._follow()  # the scene may have changed while the form was read
         self._draw()
+
+    def _take_simulated_form(self, measured: Measured, speed: str) -> None:
+        """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
+        if speed not in (SIMULATED, ROUGH, NOT_KNOWN) or measured.bearing is None:
+            return
+        true = measured.true_speed
+        machine = replace(
+            measured.machine, speed_source=speed, shaft_speed=None if speed == NOT_KNOWN else true
+        )
+        if machine == measured.machine:
+            return
+        self.measured = replace(measured, machine=machine)
+        self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
+        self._draw()
+
+    @property
+    def _own_bearings(self) -> list[str]:
+        """Names of the bearings of a person's table."""
+        return list(self._editor.listed.own)
 
     def take_bearing(self, name: str) -> None:
         """Take a listed bearing as the one that was measured."""
+        measured = self.measured
         if self._table is None:
-            self.change_scene({"choose": {"bearing": name}})
+            if measured is not None:
+                bearing = self._editor.listed.find(name).bearing
+                machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
+                                  bearing_name=name)  # fmt: skip
+                self.measured = replace(measured, machine=machine)
+                self._tell(words=self._summary(), **self._in_short({}))
+                self._draw()
             return
-        found = [value for value, _ in self.state.bearings if value not in ("", BY_FREQUENCIES)]
-        self._tell(bearings=bearings_of(self._table, [*found, name]))
-        self.take_form({**self.state.values, "bearing": name}, True)
+        named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
+        self._tell(bearings=bearings_of(self._table, [*named, name], self._own_bearings))
+        self.take_form({**self.state.values, "bearing": name})
+
+    def cancel_search(self) -> None:
+        """End the search for listed bearings."""
+        if isinstance(self.listed.wanted, ListQuestion):
+            self.listed.wanted.progress.cancelled = True
 
     def take_load(self) -> None:
         """Put the load of the file, downwards, into the scene."""
@@ -454,7 +577,7 @@ class Measurement:
 
     def _summary(self, *more: str) -> str:
         notes = self.measured.recording.notes if self.measured is not None else ()
-        words = (summary(self.measured, self._editor.scene), self._cut, *notes, *more)
+        words = (summary(self.measured), self._cut, *notes, *more)
         return " ".join(filter(None, words))
 
     def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
@@ -462,20 +585,27 @@ class Measurement:
         measured, table = self.measured, self._table
         if measured is None:
             return {"line": "", "whole_name": "", "remarks": ""}
-        recording = measured.recording
+        recording, machine = measured.recording, measured.machine
         long = len(recording.name) if table is None else NAME_IN_LINE
         name = without_middle(recording.name, long)
-        sure = set(FIELDS) if table is None else _sure(table, form, self._first)
+        sure = set(SIGNAL_FIELDS) if table is None else _sure(table, form, self._first)
         unit = form.get("unit", "m/s²") or "unit"
+        speed = "speed"
+        if machine.shaft_speed is not None:
+            speed = f"{number(30.0 / math.pi * machine.shaft_speed, 4)} rpm"
         facts = {
             "": name,
             "duration": with_prefix(recording.duration, "s", 3),
             "sample_rate": with_prefix(recording.sample_rate, "Hz", 4),
-            "shaft_speed": f"{number(30.0 / math.pi * measured.shaft_speed, 4)} rpm",
+            "speed": speed,
             "unit": unit,
-            "bearing": measured.bearing_name or "the scene's bearing",
+            "bearing": machine.bearing_name
+            or ("bearing" if machine.bearing is None else "the scene's bearing"),
         }
-        words = [text + "?" * (name in FIELDS and name not in sure) for name, text in facts.items()]
+        asked = {name for name in ("unit", "sample_rate") if name not in sure} | machine.guessed
+        asked |= {"speed"} if machine.shaft_speed is None else set()
+        asked |= {"bearing"} if machine.bearing is None else set()
+        words = [text + "?" * (name in asked) for name, text in facts.items()]
         return {
             "line": " · ".join(words),
             "whole_name": recording.name if name != recording.name else "",
@@ -503,7 +633,12 @@ class Measurement:
 
     def _take_simulated(self, found: Measured) -> None:
         self._table, self._cut, self.measured, self.sized = None, "", found, None
-        self.state = MeasurementState(arrival=self.state.arrival + 1)
+        self.state = MeasurementState(
+            arrival=self.state.arrival + 1,
+            values={"speed": SIMULATED},
+            speeds=[[SIMULATED, SPEED_SOURCES[SIMULATED]], [ROUGH, "known to 10 %"],
+                    [NOT_KNOWN, "not known: find it"]],
+        )  # fmt: skip
         self._tell(words=self._summary(), **self._in_short({}))
         self._draw()
 
@@ -520,6 +655,7 @@ class Measurement:
     def _tell(self, **news: Any) -> None:
         self.state = replace(self.state, **news)
         self.show(self.state)
+        self.show_machine(self.state)
 
     def _in_background(
         self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
@@ -602,7 +738,7 @@ class _Read:
 def read_file(
     name: str,
     content: bytes,
-    shaft_speed_hz: float,
+    scene: Machine,
     find: Callable[[str], CatalogueBearing] = find_published,
 ) -> _Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
@@ -617,14 +753,18 @@ def read_file(
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
-    form, asks = guess(table, shaft_speed_hz), questions(table)
+    form, asks = guess(table), questions(table)
     sizes = size_questions(table, form)
-    found = _tried(table, form, _speed_is_stated(table), find)
+    found, refused = _tried(table, form, scene, find), {}
+    if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
+        # the signal is one, whatever the file says of its bearing
+        refused = found.sentences
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
-        return _Read(table, form, cut, None, found.sentences, asks, sizes)
-    return _Read(table, form, cut, None if asks else found, {}, asks, sizes)
+        return _Read(table, form, cut, None, {**refused, **found.sentences}, asks, sizes)
+    return _Read(table, form, cut, None if asks else found, refused, asks, sizes)
 
 
 def _about_size(sizes: Mapping[str, str]) -> str:
@@ -632,48 +772,26 @@ def _about_size(sizes: Mapping[str, str]) -> str:
     return " ".join([*sizes.values(), _WITHOUT_SIZE]) if sizes else ""
 
 
-def _speed_is_stated(table: Table) -> bool:
-    """True where the file itself has the shaft speed."""
-    speed = table.contents.shaft_speed
-    return speed is not None and speed.stated
-
-
-def _measured(asked: FormResult, form: Mapping[str, str]) -> Measured:
-    by_frequencies = form["bearing"] == BY_FREQUENCIES
-    names = "frequencies " + ", ".join(form[name] for name in FREQUENCIES if form[name])
-    return Measured(
-        asked.recording,
-        asked.shaft_speed,
-        origin=asked.origin,
-        in_si=asked.in_si,
-        bearing=asked.bearing,
-        bearing_name=names if by_frequencies else form["bearing"],
-        known_by_frequencies=by_frequencies,
-    )
+def _measured(asked: FormResult) -> Measured:
+    return Measured(asked.recording, asked.machine, origin=asked.origin, in_si=asked.in_si)
 
 
 def _sure(table: Table, form: Mapping[str, str], first: Mapping[str, str]) -> set[str]:
     """Fields that the file says itself, or that a person has answered."""
     contents = table.contents
-    said = {
-        "unit": contents.unit,
-        "sample_rate": contents.sample_rate,
-        "shaft_speed": contents.shaft_speed,
-    }
+    said = {"unit": contents.unit, "sample_rate": contents.sample_rate}
     sure = {name for name, found in said.items() if found is not None and found.stated}
-    if contents.frequencies:
-        sure.add("bearing")
     return sure | {name for name in form if form[name] != first.get(name)}
 
 
 def _tried(
     table: Table,
     form: Mapping[str, str],
-    speed_known: bool,
+    scene: Machine,
     find: Callable[[str], CatalogueBearing],
 ) -> FormResult | FormError:
     try:
-        return read_form(table, form, speed_known, find)
+        return read_form(table, form, scene, find)
     except FormError as refused:
         return refused
 
@@ -688,18 +806,21 @@ def _shortened(table: Table) -> tuple[Table, str]:
     return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."
 
 
-def summary(measured: Measured | None, scene: Scene) -> str:
+def summary(measured: Measured | None) -> str:
     """The signal in a sentence."""
     if measured is None:
         return FIRST_WORDS
-    recording = measured.recording
+    recording, machine = measured.recording, measured.machine
     along = " and ".join(recording.directions)
-    passes = recording.duration * scene.bearing.bpfo(measured.shaft_speed)
-    return (
+    words = (
         f"{recording.name}: {with_prefix(recording.duration, 's')} along {along} at "
-        f"{thousands(recording.sample_rate)} Hz, {thousands(passes)} "
-        f"{'ball passes' if round(passes) == 1 else 'balls pass'} a point of the outer race."
+        f"{thousands(recording.sample_rate)} Hz"
     )
+    if machine.bearing is None or machine.shaft_speed is None:
+        return f"{words}."
+    passes = recording.duration * machine.bearing.bpfo(machine.shaft_speed)
+    pass_ = "ball passes" if round(passes) == 1 else "balls pass"
+    return f"{words}, {thousands(passes)} {pass_} a point of the outer race."
 
 
 def with_pit(scene: Scene, length: float | None) -> Scene:
@@ -764,6 +885,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         raise ValueError("Not possible: the simulated housing does not move.") from None
     extent = scene.defects[0].extent if single else None
     return Measured(
-        recording, scene.shaft_speed, extent,
+        recording, of_scene(scene, SIMULATED), extent,
         true_part=true_part(scene), noiseless=math.isinf(noise_db),
+        true_speed=scene.shaft_speed,
     )  # fmt: skip

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
+from bearing_explorer.measurement.machine import Machine
 from bearing_explorer.results.cache import cached
 from bearing_explorer.results.results import Results
 from bearing_explorer.state.settings import Settings
@@ -28,6 +29,9 @@ SETTLING = 0.2
 
 ENVELOPE_ORDERS = 40.0
 """Turns of the shaft a second up to which an envelope over time is kept."""
+
+ENVELOPE_TOP = 1000.0
+"""[Hz] up to which an envelope over time is kept, and its spectrum drawn, of an unknown machine."""
 
 ENVELOPE_LINES = 1600
 """Frequencies of an envelope spectrum that are drawn, at most."""
@@ -49,46 +53,52 @@ class Origin:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A recording, and what it was measured on as far as the page knows.
+    """A recording, and the machine on which it was measured, as far as that was said.
 
     Attributes
     ----------
     recording
-        the signal.
-    shaft_speed
-        [rad/s] at the measurement.
+        the signal; it carries no shaft speed.
+    machine
+        bearing and shaft speed, where they are known.
     true_extent
         [rad] of the defect where the signal is a simulated one, else None.
     origin
         the file, where it comes from one.
     true_part
         the part that is damaged, or "none", where the signal is a simulated one; else "".
+    true_speed
+        [rad/s] of the shaft, where the signal is a simulated one.
     noiseless
         whether it is simulated without any noise.
     in_si
         True for a recording in m/s². Else its unit or its sensor is not known, and its numbers are
         those of the file: everything that needs their size waits for the answer.
-    bearing, bearing_name
-        that was measured, where it is not the scene's, and its name on the page.
-    known_by_frequencies
-        whether that bearing is known by the frequencies of its parts alone: it has no size then.
     """
 
     recording: Recording
-    shaft_speed: float
+    machine: Machine
     true_extent: float | None = None
     origin: Origin | None = None
     true_part: str = ""
+    true_speed: float | None = None
     noiseless: bool = False
     in_si: bool = True
-    bearing: Bearing | None = None
-    bearing_name: str = ""
-    known_by_frequencies: bool = False
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
     _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
         default_factory=dict, repr=False
     )
-    _kurtograms: dict[int, Kurtogram] = field(default_factory=dict, repr=False)
+    _kurtograms: dict[tuple[int, float | None], Kurtogram] = field(default_factory=dict, repr=False)
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s]; None where it is not known."""
+        return self.machine.shaft_speed
+
+    @property
+    def bearing(self) -> Bearing | None:
+        """That was measured; None where nothing says which it is."""
+        return self.machine.bearing
 
     @property
     def directions(self) -> tuple[str, ...]:
@@ -112,13 +122,13 @@ class Measured:
 
     def kurtogram(self, direction: str) -> Kurtogram:
         """Kurtogram of the signal along a direction."""
-        column = self.directions.index(direction)
-        if column not in self._kurtograms:
+        key = self.directions.index(direction), self.shaft_speed
+        if key not in self._kurtograms:
             recording = self.recording
-            turning = NARROWEST * self.shaft_speed / (2.0 * math.pi)
-            signal = recording.acceleration[:, column]
-            self._kurtograms[column] = core.kurtogram(signal, recording.sample_rate, turning)
-        return self._kurtograms[column]
+            turning = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
+            signal = self.column(direction)
+            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, turning)
+        return self._kurtograms[key]
 
     def envelope_resolution(self, top: float) -> float:
         """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
@@ -149,7 +159,8 @@ class Measured:
         self, direction: str, band: tuple[float, float]
     ) -> tuple[NDArray[np.float64], float]:
         """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
-        top = ENVELOPE_ORDERS * self.shaft_speed / (2.0 * math.pi)
+        speed = self.shaft_speed
+        top = ENVELOPE_ORDERS * speed / (2.0 * math.pi) if speed else ENVELOPE_TOP
         rate = self.recording.sample_rate
         (found,) = squared_envelopes(self.column(direction), rate, [Band(*band)], top)
         return found.values, found.rate
@@ -159,14 +170,17 @@ class Measured:
         return np.asarray(self.recording.acceleration.mean(axis=0))
 
     def scene(self, scene: Scene) -> Scene:
-        """The scene at the shaft speed of the measurement, and with its bearing where it fits."""
-        at_speed = scene.replace(shaft_speed=self.shaft_speed)
-        if self.bearing is None:
-            return at_speed
+        """A scene with the bearing and the speed of the measurement, where these are known.
+
+        Without its defect where that bearing cannot have it; ValueError where it cannot be in the
+        scene at all.
+        """
+        known = {"shaft_speed": self.shaft_speed, "bearing": self.bearing}
+        changes = {name: value for name, value in known.items() if value is not None}
         try:
-            return at_speed.replace(bearing=self.bearing)
-        except ValueError:  # a defect that this bearing cannot have, say
-            return at_speed
+            return scene.replace(**changes)
+        except ValueError:
+            return scene.replace(**changes, defect=())
 
 
 def _put(known: dict, key: object, value: object, most: int = 6) -> None:

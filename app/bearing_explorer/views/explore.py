@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.measurement.form import number_of
+from bearing_explorer.measurement.typed_number import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import Side
 from bearing_explorer.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures

@@ -16,11 +16,11 @@ from bearing_explorer.plots.ranges import StickyRange
 from bearing_explorer.serve.packed_source import PackedSource
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.look_view import LookView
-from bearing_explorer.views.measured_view import MEASURED, MeasuredView
+from bearing_explorer.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.form import FieldSpec
 from bearing_explorer.widgets.status import StatusLine
-from bearingcore import Bearing, Diagnosis, MeasuredExtent
+from bearingcore import Diagnosis, MeasuredExtent
 
 if TYPE_CHECKING:
     from bearing_explorer.results.results import Results
@@ -72,6 +72,7 @@ class SpallExtent(LookView, MeasuredView):
         "frequency band that shows both best. Faint: other bands."
     )
     without_size = True
+    finds_speed = True
     in_report = True
     computes = True
     look_fields = FIELDS
@@ -101,28 +102,26 @@ class SpallExtent(LookView, MeasuredView):
 
     # What it is about
 
-    def question(self, bearing: Bearing) -> ExtentQuestion | None:
-        """The question about a bearing; None before its damaged part has been looked for."""
+    def question(self) -> ExtentQuestion | None:
+        """The question; None before the damaged part of the bearing has been looked for."""
         measurement = self.measurement
-        about = None if measurement is None else measurement.question(bearing)
+        about = None if measurement is None else measurement.question()
         if measurement is None or about is None or measurement.diagnoses.of(about) is None:
             return None
-        return self._question(about, measurement.state.load, measurement.diagnosis(bearing))
+        return self._question(about, measurement.state.load, measurement.diagnosis())
 
     def _question(
         self, about: Question, load: float | None = None, found: Diagnosis | None = None
     ) -> ExtentQuestion:
-        whole = about.bearing
-        return ExtentQuestion(
-            about.measured, whole, about.speed, about.geometry, whole, self.look["race"], load,
-            found,
-        )  # fmt: skip
+        return ExtentQuestion.about(
+            about.measured, whole=about.bearing, race=self.look["race"], load=load, diagnosis=found
+        )
 
-    def answer(self, bearing: Bearing) -> MeasuredExtent | str | None:
+    def answer(self) -> MeasuredExtent | str | None:
         """The extent, a sentence why there is none, or None: not yet."""
         if self._given is not None:
             return self._given
-        question = self.question(bearing)
+        question = self.question()
         if question is None or self.measurement is None:
             return None
         return self.measurement.extents.of(question)
@@ -130,7 +129,7 @@ class SpallExtent(LookView, MeasuredView):
     @property
     def found(self) -> MeasuredExtent | None:
         """The extent that is known, for reports."""
-        answer = None if self._results is None else self.answer(self._results.scene.bearing)
+        answer = self.answer()
         return answer if isinstance(answer, MeasuredExtent) else None
 
     @found.setter
@@ -141,7 +140,7 @@ class SpallExtent(LookView, MeasuredView):
         super().choose(choices, results)
         if self.measurement is None or self.measured is None:
             return
-        about = self.measurement.question(results.scene.bearing)
+        about = self.measurement.question()
         if about is not None:
             answer = extent_of(self._question(about))
             self._given = answer if isinstance(answer, MeasuredExtent) else None
@@ -153,7 +152,7 @@ class SpallExtent(LookView, MeasuredView):
         return self._seen.visible
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found = self.answer(results.scene.bearing)
+        found = self.answer()
         if not isinstance(found, MeasuredExtent) or not found.passes:
             return {}, {}
         spacing = math.degrees(found.ball_spacing)
@@ -175,13 +174,11 @@ class SpallExtent(LookView, MeasuredView):
         }
 
     def say(self, results: Results | None, sentence: str) -> None:
-        shown = results or self._results
-        if shown is not None:
-            self._show(shown.scene.bearing)
+        self._show()
         super().say(results, sentence)
 
-    def _show(self, bearing: Bearing) -> None:
-        question, answer = self.question(bearing), self.answer(bearing)
+    def _show(self) -> None:
+        question, answer = self.question(), self.answer()
         if question is not None and answer is None and self.measurement is not None:
             self.measurement.extents.want(question)
         self._seen.visible = isinstance(answer, MeasuredExtent)
@@ -190,9 +187,11 @@ class SpallExtent(LookView, MeasuredView):
             self.plot.visible = bool(answer.passes)
 
     def sentence(self, results: Results) -> str:
-        answer = self.answer(results.scene.bearing)
+        answer = self.answer()
         if answer is None:
-            return self.why_nothing if self.measured is None else BUSY
+            if self.measured is None:
+                return self.why_nothing
+            return BUSY if self.measured.bearing is not None else WITHOUT_BEARING
         if isinstance(answer, str):
             return answer
         truth = None if self.measured is None else self.measured.true_extent
@@ -202,7 +201,7 @@ class SpallExtent(LookView, MeasuredView):
         return answer.sentence + known
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        answer = self.answer(results.scene.bearing)
+        answer = self.answer()
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
 
 

@@ -9,12 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.plots.layers import Layer, names_over, uprights
-from bearingcore import Scene
+
+if TYPE_CHECKING:
+    from bearing_explorer.measurement.machine import Turning
+    from bearingcore import Scene
 
 NAME_WIDTH = 0.13
 """Of a family's first name, with its frequency, as a share of the frame's width."""
@@ -70,7 +74,7 @@ return `${whole || ''}${half}×`
 """
 
 
-def fundamentals(scene: Scene, row: int = 0) -> dict[str, float]:
+def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
     """First frequency [Hz] of each family, of a row, at the scene's shaft speed."""
     bearing, speed = scene.bearing.of_row(row), scene.shaft_speed
     outer = bearing.bpfo(speed)
@@ -83,7 +87,7 @@ def fundamentals(scene: Scene, row: int = 0) -> dict[str, float]:
     }
 
 
-def spreads(scene: Scene, row: int = 0) -> dict[str, float]:
+def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
     """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
     bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
     kin = {"half": "bpfo"}
@@ -93,7 +97,7 @@ def spreads(scene: Scene, row: int = 0) -> dict[str, float]:
     }
 
 
-def of_rows(scene: Scene) -> list[dict[str, float]]:
+def of_rows(scene: Scene | Turning) -> list[dict[str, float]]:
     """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
     rows = range(len(scene.bearing.unlike_rows))
     return [fundamentals(scene, row) | spreads(scene, row) for row in rows]

@@ -166,37 +166,46 @@ class FrequencyView(LookView, MeasuredView):
 
     # The look
 
-    def direction(self, results: Results | None, measured: Measured) -> str:
+    def direction(self, measured: Measured) -> str:
         """The direction that is shown."""
-        return self.direction_of(results, measured, self.look["direction"])
+        return self.direction_of(measured, self.look["direction"])
+
+    @property
+    def _axis(self) -> str:
+        """The axis as chosen; of orders only where the shaft speed is known."""
+        return "Hz" if self.shaft_speed is None else str(self.look["axis"])
 
     def choices(self) -> dict[str, Any]:
         chosen = super().choices()
         if self.measured is not None:  # what the diagnosis chose is not known elsewhere
-            chosen["direction"] = self.direction(self._results, self.measured)
+            chosen["direction"] = self.direction(self.measured)
         return chosen
 
     def show_look(self) -> None:
         look, measured = self.look, self.measured
         directions = measured.directions if measured is not None else SHOWN
-        seen = directions[-1] if measured is None else self.direction(self._results, measured)
+        seen = directions[-1] if measured is None else self.direction(measured)
         self.panel_of_look.show(
-            look | {"direction": seen},
-            disabled={"direction": [dof for dof in SHOWN if dof not in directions]},
+            look | {"direction": seen, "axis": self._axis},
+            disabled={
+                "direction": [dof for dof in SHOWN if dof not in directions],
+                "axis": ["orders"] if measured is not None and self.shaft_speed is None else [],
+            },
         )
         unit = "" if measured is None else shown_unit(measured)[0]
         for scale, plot in self._plots.items():
             plot.visible = scale == look["scale"]
             label = f"dB re 1 {unit}".replace("units", "unit") if scale == "dB" else unit
             plot.yaxis[0].axis_label = replace(AMPLITUDE, unit=label).label()
-            plot.xaxis[0].axis_label = (FREQUENCY if look["axis"] == "Hz" else ORDER).label()
+            plot.xaxis[0].axis_label = (FREQUENCY if self._axis == "Hz" else ORDER).label()
 
     # The picture
 
     def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
         p, look = self.prefix, self.look
         shown = self.shown(results, measured)
-        lines = of_rows(measured.scene(results.scene))
+        turning, speed = self.turning, self.shaft_speed
+        lines = [] if turning is None else of_rows(turning)
         top, resolution = shown.top, shown.resolution
         factor = 1.0 / shown_unit(measured)[1]
         sources: Sources = {f"{p}_measured": curves(shown.measured, top, factor)}
@@ -215,8 +224,8 @@ class FrequencyView(LookView, MeasuredView):
         lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
         head = (loudest - lowest) * room / (1.0 - room) + 3.0
         greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
-        turn = measured.shaft_speed / (2.0 * math.pi)
-        per = turn if look["axis"] == "orders" else 1.0  # [Hz] that a 1 on the axis is
+        turn = math.nan if speed is None else speed / (2.0 * math.pi)
+        per = turn if self._axis == "orders" else 1.0  # [Hz] that a 1 on the axis is
         ranges = {
             f"{p}_frequency": (0.0, top / per),
             f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
@@ -227,7 +236,7 @@ class FrequencyView(LookView, MeasuredView):
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
                 columns[name] = columns[name] / per
-        cage = fundamentals(measured.scene(results.scene))["ftf"]
+        cage = math.nan if turning is None else fundamentals(turning)["ftf"]
         return sources | self._cursor.columns(turn, cage, per), ranges
 
     def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
@@ -257,7 +266,9 @@ class FrequencyView(LookView, MeasuredView):
                 "have the measured root mean square."
             )
         ours, theirs = results.scene.shaft_speed, measured.shaft_speed
-        if not math.isclose(ours, theirs, rel_tol=1e-4):
+        if theirs is None or measured.bearing is None:
+            words += " It is simulated as it is: speed or bearing of the signal are not known."
+        elif not math.isclose(ours, theirs, rel_tol=1e-4):
             words += (
                 f" The scene is simulated at the measured {_hertz(theirs)} Hz, not at the "
                 f"{_hertz(ours)} Hz of the sliders."

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.measurement.form import number_of
+from bearing_explorer.measurement.typed_number import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
 from bearing_explorer.serve.packed_source import PackedSource

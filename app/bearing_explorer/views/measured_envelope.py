@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from bearing_explorer.measurement.signal import Measured, Simulated
+from bearing_explorer.measurement.signal import ENVELOPE_TOP, Measured, Simulated
 from bearing_explorer.plots import style
 from bearing_explorer.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.views.frequency_view import (
@@ -65,11 +65,14 @@ class MeasuredEnvelope(FrequencyView):
     ]
 
     def shown(self, results: Results, measured: Measured) -> Shown:
-        first = fundamentals(measured.scene(results.scene))
-        direction = self.direction(results, measured)
-        band = self.band(results, measured, direction).band
+        turning = self.turning
+        direction = self.direction(measured)
+        band = self.band(measured, direction).band
         nyquist = 0.5 * measured.recording.sample_rate
-        top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
+        top = ENVELOPE_TOP
+        if turning is not None:
+            first = fundamentals(turning)
+            top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
         top = min(top, 0.8 * nyquist)
         spectrum = measured.envelope(direction, band, top)
         shown = Shown(direction, top, spectrum, None, measured.envelope_resolution(top), band=band)
@@ -77,11 +80,11 @@ class MeasuredEnvelope(FrequencyView):
             shown, lambda: Simulated(results, measured).envelope(direction, band, top)
         )
 
-    def band(self, results: Results, measured: Measured, direction: str) -> Demodulation:
+    def band(self, measured: Measured, direction: str) -> Demodulation:
         """The demodulation band [Hz] as chosen; ends that are not given are found."""
         low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
         if math.isnan(low) and math.isnan(high):
-            return self.demodulation(results, measured, direction)
+            return self.demodulation(measured, direction)
         if math.isnan(low):
             low = 0.5 * high
         if math.isnan(high):
@@ -99,22 +102,23 @@ class MeasuredEnvelope(FrequencyView):
         return Demodulation((low, high), "as chosen")
 
     def choices(self) -> dict[str, Any]:
-        measured, results = self.measured, self._results
+        measured = self.measured
         chosen = super().choices()
-        if measured is None or results is None or self.diagnosed(results) is None:
+        if measured is None or self.diagnosed() is None:
             return chosen
         # elsewhere there is no diagnosis
-        low, high = self.band(results, measured, chosen["direction"]).band
+        low, high = self.band(measured, chosen["direction"]).band
         return chosen | {"low": f"{low!r}", "high": f"{high!r}"}
 
     def words_of(self, results: Results, measured: Measured) -> str:
         shown = self.shown(results, measured)
-        sets = of_rows(measured.scene(results.scene))
+        turning = self.turning
         assert shown.band is not None
         words = (
             f"Envelope along {shown.direction} between {shown.band[0]:.0f} and "
-            f"{shown.band[1]:.0f} Hz, {self.band(results, measured, shown.direction).reason}. "
+            f"{shown.band[1]:.0f} Hz, {self.band(measured, shown.direction).reason}. "
         )
+        sets = [] if turning is None else of_rows(turning)
         words += telling(shown, sets, *shown_unit(measured))
         return words + self.words_on_model(results, measured, shown)
 
@@ -131,13 +135,16 @@ _NEAR = 0.02  # slip, and what the shaft speed is off
 def telling(shown: Shown, sets: Sequence[Mapping[str, float]], unit: str, size: float) -> str:
     """The bearing frequency, a set a row, at the highest line of the envelope."""
     frequency, density = shown.measured
-    lowest = max(2.5 * shown.resolution, 0.7 * min(first["ftf"] for first in sets))
+    slowest = min((first["ftf"] for first in sets), default=0.0)
+    lowest = max(2.5 * shown.resolution, 0.7 * slowest)
     seen = (frequency > lowest) & (frequency < shown.top)
     if not seen.any():
         return "It holds no lines."
     at = float(frequency[seen][density[seen].argmax()])
     height = float(amplitudes(shown.measured)[seen].max()) / size
     words = f"Its highest line, {style.number(height, 3)} {unit} at {style.number(at, 4)} Hz,"
+    if not sets:
+        return f"{words[:-1]}. Which part that is follows from bearing and shaft speed."
     lines = [
         (
             abs(at / (multiple * first[name]) - 1.0),

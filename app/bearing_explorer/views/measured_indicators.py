@@ -112,7 +112,10 @@ def no_velocity(measured: Measured) -> str:
 def severity(measured: Measured, machine: str) -> str:
     """The zone of the greatest velocity, or why there is none."""
     why = no_velocity(measured)
-    shaft = measured.shaft_speed / (2.0 * math.pi)
+    speed = measured.shaft_speed
+    if not why and speed is None:
+        why = "the shaft speed is not known, and the band of the velocity depends on it"
+    shaft = 0.0 if speed is None else speed / (2.0 * math.pi)
     if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
         why = "the standard is for 120 to 30 000 rpm"
     if not why and not machine:

@@ -63,11 +63,11 @@ class MeasuredKurtogram(MeasuredView):
         return self.hidden
 
     def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
-        direction = self.direction_of(results, measured)
+        direction = self.direction_of(measured)
         found = measured.kurtogram(direction)
         nyquist = 0.5 * measured.recording.sample_rate
         cells = picture(found, nyquist)
-        low, high = self.demodulation(results, measured, direction).band
+        low, high = self.demodulation(measured, direction).band
         middles = np.asarray((np.arange(CELLS) + 0.5) * (1e-3 * nyquist / CELLS))
         levels = np.arange(len(cells), dtype=float)
         columns = self._image.columns((_SIDES[0], middles), (_SIDES[1], levels), [cells])
@@ -82,10 +82,10 @@ class MeasuredKurtogram(MeasuredView):
         }
 
     def words_of(self, results: Results, measured: Measured) -> str:
-        direction = self.direction_of(results, measured)
+        direction = self.direction_of(measured)
         found = measured.kurtogram(direction)
         most = int(found.kurtosis.argmax())
-        band, chosen = found.bands[most], self.demodulation(results, measured, direction)
+        band, chosen = found.bands[most], self.demodulation(measured, direction)
         return (
             f"Along {direction} the kurtosis is highest, {style.number(found.kurtosis[most], 3)}, "
             f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
@@ -93,7 +93,7 @@ class MeasuredKurtogram(MeasuredView):
         )
 
     def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
-        return measured.kurtogram(self.direction_of(results, measured)).table().in_units().named()
+        return measured.kurtogram(self.direction_of(measured)).table().in_units().named()
 
 
 def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.measurement.signal import ENVELOPE_TOP
 from bearing_explorer.plots import style
 from bearing_explorer.plots.heat_map import Side, bright_image, ends
 from bearing_explorer.plots.layers import curve, draw
@@ -100,8 +101,9 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         return self.hidden
 
     def speed(self, measured: Measured) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Times [s] and the shaft speed then [Hz]."""
-        first = measured.shaft_speed / (2.0 * math.pi)
+        """Times [s] and the shaft speed then [Hz]; NaN where it is not known."""
+        own = self.shaft_speed
+        first = math.nan if own is None else own / (2.0 * math.pi)
         last = float(self.look["last"] or first)
         return np.array([0.0, measured.recording.duration]), np.array([first, last])
 
@@ -111,6 +113,8 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         turns, needed = float(speed.mean() * time[-1]), FEWEST_SEGMENTS / ORDER_STEP
         if self.look["map"] == "spectrogram" or turns >= needed:
             return ""
+        if math.isnan(turns):
+            return "An order map needs the shaft speed, which is not known."
         return (
             f"An order map needs {needed:.0f} turns of the shaft, and the signal has "
             f"{style.number(turns, 2)}."
@@ -118,11 +122,12 @@ class MeasuredSpectrogram(LookView, MeasuredView):
 
     def shown(self, results: Results, measured: Measured) -> Shown:
         """The map as the look has it."""
-        direction = self.direction_of(results, measured)
+        direction = self.direction_of(measured)
         band = None
         if self.look["of"] == "envelope":
-            band = self.demodulation(results, measured, direction).band
-        key = measured, self.look, direction, band  # a new look for each choice
+            band = self.demodulation(measured, direction).band
+        # a new look for each choice
+        key = measured, self.look, direction, band, self.shaft_speed
         if self._known is None or self._known[0] != key:
             signal, rate = measured.column(direction), measured.recording.sample_rate
             if band is not None:
@@ -147,8 +152,10 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         if self.look["map"] == "orders":
             return order_map(signal, rate, time, speed, ORDER_STEP), TOP_ORDER
         if self.look["of"] == "envelope":
-            step = max(5.0 / time[-1], 0.25 * speed[0])
-            return spectrogram(signal, rate, step), min(TOP_ORDER * speed.max(), 0.5 * rate)
+            step, top = max(5.0 / time[-1], 2.0), ENVELOPE_TOP
+            if not math.isnan(speed[0]):
+                step, top = max(5.0 / time[-1], 0.25 * speed[0]), TOP_ORDER * speed.max()
+            return spectrogram(signal, rate, step), min(top, 0.5 * rate)
         least, most = SEGMENT_LENGTHS
         length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
         return spectrogram(signal, rate, rate / length), 0.5 * rate
@@ -163,7 +170,7 @@ class MeasuredSpectrogram(LookView, MeasuredView):
             (_SIDES[across], shown.x), (_SIDES[up], shown.y), [shown.level.T]
         )
         sources, top = {"spectrogram_cells": cells}, shown.top
-        if not orders and self.look["last"]:
+        if not orders and self.look["last"] and self.shaft_speed is not None:
             time, speed = self.speed(measured)
             sources["spectrogram_speed"] = {"x": time, "y": speed}
             top = min(top, SPEED_TOP * float(speed.max()))
@@ -177,11 +184,14 @@ class MeasuredSpectrogram(LookView, MeasuredView):
     def words_of(self, results: Results, measured: Measured) -> str:
         if why := self.too_short(measured):
             return why
+        if self.shaft_speed is None:
+            return "The shaft speed is not known."
         _, (first, last) = self.speed(measured)
         words = f"{style.number(first, 4)} Hz throughout"
         if self.look["last"]:
             words = f"from {style.number(first, 4)} Hz to {style.number(last, 4)} Hz"
-        return f"Shaft speed {words}, as given."
+        known = measured.machine.exact_speed is not None
+        return f"Shaft speed {words}, {'as given' if known else 'found in the signal'}."
 
     def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         if self.too_short(measured):

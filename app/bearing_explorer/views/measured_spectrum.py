@@ -80,7 +80,7 @@ class MeasuredSpectrum(FrequencyView):
         return {f"{self.prefix}_bands_{shown.direction}": own}
 
     def shown(self, results: Results, measured: Measured) -> Shown:
-        direction = self.direction(results, measured)
+        direction = self.direction(measured)
         resolution = measured.finest(float(self.look["resolution"]))
         top = 0.5 * measured.recording.sample_rate
         shown = Shown(direction, top, measured.spectrum(direction, resolution), None, resolution)

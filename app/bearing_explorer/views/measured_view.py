@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from bearing_explorer.measurement.machine import NOT_KNOWN, ROUGH, Turning
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.plots import style
 from bearing_explorer.serve.packed_source import PackedSource
@@ -50,6 +51,8 @@ class Demodulation:
 
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."
+WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
+WITHOUT_SPEED = "This needs the shaft speed: give it in step 2."
 WITHOUT_SIZE = "Choose the unit above to see this."
 WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 
@@ -67,6 +70,8 @@ class MeasuredView(View):
     hidden: Any = None
     #: whether it can be drawn of a signal of unknown unit
     without_size: ClassVar[bool] = False
+    #: whether what it computes looks for a speed that is not known
+    finds_speed: ClassVar[bool] = False
     #: whether its card comes with a signal
     waits: ClassVar[bool] = True
     measurement: Measurement | None = None
@@ -124,30 +129,42 @@ class MeasuredView(View):
         knows_unit = there.origin is not None and there.origin.unit
         return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
 
-    def diagnosed(self, results: Results | None) -> EnvelopeLines | None:
-        """The envelope on which the diagnosis rests, once there is one."""
-        if self.measurement is None or results is None:
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is known, or was found in the signal."""
+        return None if self.measurement is None else self.measurement.shaft_speed
+
+    @property
+    def turning(self) -> Turning | None:
+        """The bearing that was measured at its speed; None where either is not known."""
+        measured, speed = self.measured, self.shaft_speed
+        if measured is None or measured.bearing is None or speed is None:
             return None
-        found = self.measurement.diagnosis(results.scene.bearing)
+        return Turning(measured.bearing, speed)
+
+    def diagnosed(self) -> EnvelopeLines | None:
+        """The envelope on which the diagnosis rests, once there is one."""
+        found = None if self.measurement is None else self.measurement.diagnosis()
         return None if found is None else found.spectrum
 
-    def direction_of(self, results: Results | None, measured: Measured, chosen: str = "") -> str:
+    def direction_of(self, measured: Measured, chosen: str = "") -> str:
         """The direction to show: the one chosen, or that of the diagnosis, or y."""
-        diagnosed = self.diagnosed(results)
+        diagnosed = self.diagnosed()
         wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
         return next(one for one in wanted if one in measured.directions)
 
-    def demodulation(self, results: Results, measured: Measured, direction: str) -> Demodulation:
+    def demodulation(self, measured: Measured, direction: str) -> Demodulation:
         """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""
         highest = HIGHEST_SHARE * measured.recording.sample_rate
-        diagnosed = self.diagnosed(results)
+        diagnosed = self.diagnosed()
         if diagnosed is not None:
             low, high = diagnosed.band
             along = f", along {diagnosed.direction}" if diagnosed.direction != direction else ""
             reason = f"the band of the diagnosis{along}"
         else:
-            passing = measured.scene(results.scene)
-            lowest = min(5.0 * passing.bearing.bpfo(passing.shaft_speed), 0.25 * highest)
+            turning = self.turning
+            passing = 0.0 if turning is None else turning.bearing.bpfo(turning.shaft_speed)
+            lowest = min(5.0 * passing, 0.25 * highest)
             low, high = measured.kurtogram(direction).best(lowest)
             reason = "where the kurtogram is highest"
         return Demodulation((low, min(high, highest)), reason)
@@ -172,9 +189,20 @@ class MeasuredView(View):
 
     def more_arguments(self) -> dict[str, str]:
         measured = self.measured
-        return {"recording": "recording"} | (
-            {} if measured is None or measured.in_si else {"in_si": "False"}
-        )
+        if measured is None:
+            return {"recording": "recording"}
+        machine = measured.machine
+        known = {"in_si": "True" if measured.in_si else "False"}
+        known["speed"] = {ROUGH: '"rough"', NOT_KNOWN: '"unknown"'}.get(machine.speed_source, "")
+        if machine.exact_speed is None and not self.finds_speed and self.shaft_speed is not None:
+            known["speed"] = short(self.shaft_speed)  # which elsewhere is not looked for
+        known["bearing"] = '"frequencies"' if machine.by_frequencies else ""
+        if machine.bearing is None:
+            known["bearing"] = '"unknown"'
+        usual = {"in_si": "True"}
+        return {"recording": "recording"} | {
+            name: code for name, code in known.items() if code and code != usual.get(name)
+        }
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -227,7 +255,7 @@ def recording_lines(measured: Measured) -> list[str]:
             "settled = motion.outer_acceleration[motion.time >= 0.3]",
             f"recording = Recording(settled[:, columns], {rate}, {along})",
         ]
-    known = {"sensitivity": origin.sensitivity, "shaft_speed": recording.shaft_speed}
+    known = {"sensitivity": origin.sensitivity, "shaft_speed": measured.machine.exact_speed}
     further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
     name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
     return [

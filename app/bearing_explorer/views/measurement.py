@@ -27,6 +27,7 @@ from bearing_explorer.views.passage_view import TIME
 from bearing_explorer.widgets.measurement_form import MeasurementForm
 
 if TYPE_CHECKING:
+    from bearing_explorer.measurement.machine import Turning
     from bearing_explorer.measurement.signal import Measured
     from bearing_explorer.results.results import Results
 from bearing_explorer.widgets.form import row, stack
@@ -38,8 +39,11 @@ DRAWN_PARTS = 700
 """Stretches of which the least and the greatest number are drawn."""
 PASSES = 4.0
 """Ball passes of the close view."""
+CLOSE = 0.05
+"""[s] of the close view, where ball passes are not known."""
 
 _EDGE_WORDS = "return row.named ? (row.exit ? 'leaves' : 'enters') : ''"
+BALL_PASSES = f"{PASSES:.0f} ball passes"
 EVENTS = (
     uprights("measurement_events", "time", style.INK, 1.0, 0.55),
     names_over("measurement_events", _EDGE_WORDS, "time", "row", style.INK, ("exit", "named"),
@@ -54,8 +58,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The vibration a sensor on the housing measures. It is compared with that of the scene: "
-        "set the scene to your machine, with its bearing, load and support."
+        "The vibration a sensor on the housing measures. Nothing of the scene counts for it unless "
+        "you say so: which bearing it was, and how fast the shaft turned, is asked with the answer."
     )
     without_size = True
     waits = False
@@ -65,6 +69,7 @@ class MeasuredSignal(MeasuredView):
         self._all, self._close = (StickyRange(-1.0, 1.0, room=ROOM) for _ in range(2))
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._axes = [plot.yaxis[0] for plot in plots]
+        self._close_title = plots[1].title
         draw(plots[1], packed, EVENTS)
         self.hidden = row(*plots, visible=False, stylesheets=[style.WRAPPED])
         return stack(self.form, self.hidden)
@@ -77,7 +82,7 @@ class MeasuredSignal(MeasuredView):
             packed.range(f"measurement_{part}_size", -1.0, 1.0),
             height=HEIGHT,
             sizing_mode="stretch_width",
-            title="All of it" if part == "all" else f"{PASSES:.0f} ball passes",
+            title="All of it" if part == "all" else BALL_PASSES,
         )
         # the weaker direction is drawn over the stronger one
         name = f"measurement_{part}"
@@ -113,9 +118,14 @@ class MeasuredSignal(MeasuredView):
             label = dataclasses.replace(quantity, unit=shown_unit(measured)[0]).label()
             for axis in self._axes:
                 axis.axis_label = label
+            close = BALL_PASSES
+            if self.turning is None:
+                first, last = close_view(measured, None)
+                close = style.with_prefix((last - first) / measured.recording.sample_rate, "s", 2)
+            self._close_title.text = close
 
     def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
-        first, last = close_view(measured, measured.scene(results.scene))
+        first, last = close_view(measured, self.turning)
         rate = measured.recording.sample_rate
         signal = measured.recording.acceleration
         whole = drawn(measured, 0, len(signal))
@@ -165,19 +175,24 @@ class MeasuredSignal(MeasuredView):
 
     def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
         recording = measured.recording
-        first, last = close_view(measured, measured.scene(results.scene))
+        first, last = close_view(measured, self.turning)
         table = {"time_s": np.arange(first, last) / recording.sample_rate}
         for index, dof in enumerate(recording.directions):
             table[column_name(dof, measured.in_si)] = recording.acceleration[first:last, index]
         return table
 
 
-def close_view(measured: Measured, scene: Any) -> tuple[int, int]:
-    """First and last sample of a few ball passes, from a quarter of the signal on."""
+def close_view(measured: Measured, turning: Turning | None) -> tuple[int, int]:
+    """First and last sample of a few ball passes, from a quarter of the signal on.
+
+    Of an unknown bearing or speed of `CLOSE` seconds.
+    """
     recording = measured.recording
     n = len(recording.acceleration)
-    passing = scene.bearing.bpfo(scene.shaft_speed)
-    length = PASSES / passing if passing > 0.0 else recording.duration
+    length = CLOSE
+    if turning is not None:
+        passing = turning.bearing.bpfo(turning.shaft_speed)
+        length = PASSES / passing if passing > 0.0 else recording.duration
     count = int(min(max(round(length * recording.sample_rate), 16), n))
     first = min(n // 4, n - count)
     return first, first + count

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Any
 
 from bearing_explorer.measurement.diagnoses import SLIP, Question
+from bearing_explorer.measurement.machine import BEARING_SOURCES, SPEED_SOURCES, Machine
 from bearing_explorer.plots import style
 from bearing_explorer.views.part_lines import COLORS, NAMES, leading
 from bearingcore import Diagnosis, MeasuredExtent
@@ -112,9 +114,53 @@ def turns(found: Diagnosis) -> str:
     return f"{30.0 / math.pi * found.shaft_speed:.0f} turns a minute"
 
 
+def speed_alone(machine: Machine) -> str:
+    """The shaft speed, in a sentence, while the bearing is not known."""
+    if machine.shaft_speed is None:
+        return "The shaft speed is not known; it is looked for with the bearing."
+    words = "assumed" if "speed" in machine.guessed else SPEED_SOURCES[machine.speed_source]
+    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {words}."
+
+
+def assumed(question: Question) -> str:
+    """Assumptions of the answer that a file only suggests, in a sentence after the finding."""
+    machine = question.measured.machine
+    names = {
+        "bearing": f"the bearing ({machine.bearing_name})",
+        "speed": f"the shaft speed ({_rpm(machine.shaft_speed or 0.0)})",
+    }
+    guessed = [words for name, words in names.items() if name in machine.guessed]
+    if not guessed:
+        return ""
+    return f" Assumed from the look of the file: {style.list_words(guessed)}."
+
+
+def _rpm(speed: float) -> str:
+    """A shaft speed [rad/s] for a sentence."""
+    return f"{style.number(30.0 / math.pi * speed, 4)} turns a minute"
+
+
+def speed_source(found: Diagnosis, machine: Machine) -> str:
+    """Where the shaft speed of an answer is from, in words."""
+    own = SPEED_SOURCES.get(machine.speed_source, "")
+    if "speed" in machine.guessed:
+        own = "assumed, a guess from the file"
+    for given in ("given by the recording", "given"):
+        if found.speed_source.startswith(given):
+            return own + found.speed_source.removeprefix(given)
+    return f"{own}; {found.speed_source}" if own else f"not given; {found.speed_source}"
+
+
+def sentence(found: Diagnosis, question: Question) -> str:
+    """The answer in sentences, with the shaft speed and where that is from."""
+    source = speed_source(found, question.measured.machine)
+    said = dataclasses.replace(found, speed_source=source)
+    return said.sentence + assumed(question) + truth(question)
+
+
 def pass_on(found: Diagnosis, question: Question) -> str:
     """A summary for a technician."""
-    speed = turns(found)
+    speed, doubt = turns(found), assumed(question)
     at = f" at {speed}" if speed else ""
     head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
     if found.names_a_part:
@@ -122,28 +168,29 @@ def pass_on(found: Diagnosis, question: Question) -> str:
         return (
             f"{head}{headline(found).lower()} (probability {probability(found.probability)}); "
             f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
-            "the bearing inspected, and measure again to see whether it grows."
+            f"the bearing inspected, and measure again to see whether it grows.{doubt}"
         )
     if found.fault == NONE_SEEN:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
             f"{probability(found.probability)}). Measure again at the usual time. This says "
-            f"nothing about lubrication, balance or other bearings.{counted(question)}"
+            f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
         )
-    return f"{head}no clear result from this signal."
+    return f"{head}no clear result from this signal.{doubt}"
 
 
 def facts(found: Diagnosis, question: Question) -> list[list[str]]:
     """The assumptions of the answer: [name, value]."""
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
-    speed = turns(found)
+    speed, source = turns(found), speed_source(found, question.measured.machine)
     rows = [
-        ["Shaft", f"{speed}, {found.speed_source}" if speed else found.speed_source],
-        ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster"],
+        ["Shaft", f"{speed}, {source}" if speed else source],
+        ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],
         [
             "Bearing",
-            f"{bearing.n_balls} balls of {style.number(1e3 * bearing.ball_diameter, 5)} mm on "
+            f"{bearing.n_balls} {bearing.kind.elements} of "
+            f"{style.number(1e3 * bearing.ball_diameter, 5)} mm on "
             f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}"
             f"{_origin(question)}",
         ],
@@ -152,16 +199,21 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
         rows.append(["Unit", "not known; the part does not depend on it"])
     if found.spectrum is not None:
         low, high = found.spectrum.band
-        rows.append(["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}"])
+        rows.append(
+            ["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}, found"]
+        )
     return rows
 
 
 def _origin(question: Question) -> str:
     """Where the bearing of an answer is from, after a comma."""
-    measured, estimated = question.measured, question.bearing.estimated
-    if measured.known_by_frequencies:
-        return f", from its {measured.bearing_name}; sizes are in proportion only"
-    known = f", {measured.bearing_name}" if measured.bearing_name else ", that of the scene"
+    machine, estimated = question.measured.machine, question.bearing.estimated
+    source = "assumed, a guess from the file"
+    if "bearing" not in machine.guessed:
+        source = BEARING_SOURCES[machine.bearing_source]
+    if machine.by_frequencies:
+        return f", from its {machine.bearing_name} ({source}); sizes are in proportion only"
+    known = "".join(f", {words}" for words in (machine.bearing_name, source) if words)
     if not estimated:
         return known
     spread = question.bearing.frequency_spread("bpfo")

@@ -34,7 +34,13 @@ from bearing_explorer.state.value_range import focused
 from bearing_explorer.views.base import Ranges, Sources
 from bearing_explorer.views.extent import BEFORE, EDGE_WORDS
 from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.measured_view import MEASURED, NOTHING, MeasuredView
+from bearing_explorer.views.measured_view import (
+    MEASURED,
+    NOTHING,
+    WITHOUT_BEARING,
+    WITHOUT_SPEED,
+    MeasuredView,
+)
 from bearing_explorer.views.measurement import with_head
 from bearing_explorer.widgets.candidates import CandidateList, along_race, in_degrees, rows
 from bearing_explorer.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
@@ -89,8 +95,8 @@ class DefectSize(JobView[Sized], MeasuredView):
     )
     start = "Find the size"
     bounds = (
-        "Takes some seconds. Bearing, load, support, depth and centre of the defect are taken from "
-        "the scene; its extent is not looked at."
+        "Takes some seconds. Load, support, depth and centre of the defect are those of the scene, "
+        "bearing and speed those of step 2; the scene's extent is not looked at."
     )
 
     def build(self, packed: PackedSource) -> Any:
@@ -141,6 +147,12 @@ class DefectSize(JobView[Sized], MeasuredView):
         measured = self.measured
         if measured is None:
             raise ValueError(self.why_nothing or NOTHING)
+        if measured.bearing is None:
+            raise ValueError(WITHOUT_BEARING)
+        if measured.machine.exact_speed is None:
+            raise ValueError(WITHOUT_SPEED)
+        if measured.machine.by_frequencies:
+            raise ValueError("Frequencies do not give the dimensions of the bearing: choose it.")
         scene = measured.scene(focused(editor.scene, editor.selected))
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
@@ -246,8 +258,10 @@ class DefectSize(JobView[Sized], MeasuredView):
     def _not_yet(self, results: Results) -> str:
         """That nothing was looked for, and whether there is something to look for."""
         words = "The size has not been estimated yet."
+        if self.measured is not None and self.measured.bearing is None:
+            return f"{words} {WITHOUT_BEARING}"
         measurement = self.measurement
-        found = None if measurement is None else measurement.diagnosis(results.scene.bearing)
+        found = None if measurement is None else measurement.diagnosis()
         if found is None or found.fault == OUTER:
             return words
         if found.fault == INNER:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import html
 import tempfile
 import webbrowser
@@ -16,6 +17,7 @@ from bokeh.events import DocumentReady
 from bokeh.models import Column, CustomJS
 from bokeh.resources import Resources
 
+from bearing_explorer.measurement.machine import BY_FREQUENCIES, GIVEN, Machine, of_scene
 from bearing_explorer.measurement.session import Measurement
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.endurance import LifeInputs
@@ -24,10 +26,14 @@ from bearing_explorer.serve.packed_source import Columns, PackedSource
 from bearing_explorer.state.compared import Compared
 from bearing_explorer.state.scene_editor import SceneEditor
 from bearing_explorer.state.settings import Settings
+from bearingcore.common import checks
 
 if TYPE_CHECKING:
     from bearing_explorer.views.base import View
     from bearingcore import Recording, Scene
+
+BEARINGS = (GIVEN, BY_FREQUENCIES, "unknown")
+"""Knowledge of the bearing of a recording."""
 
 _FOLLOW = """
 for (const range of ranges) for (const end of ["start", "end"]) range.properties[end].change.emit()
@@ -75,8 +81,16 @@ class Figure:
     choices
         choices in the view itself, by its fields: computations are made anew with them.
     recording
-        the signal that was measured, for views of a measurement; `in_si`: whether its numbers are
-        in m/s².
+        the signal that was measured, for views of a measurement, on the bearing and at the speed
+        of the scene.
+    in_si
+        whether its numbers are in m/s².
+    speed
+        knowledge of the shaft speed: "given" (that of the scene), "rough" (good to 10 %),
+        "unknown", or another one [rad/s].
+    bearing
+        knowledge of the bearing: "given" (that of the scene), "frequencies" (the scene has the
+        frequencies of its parts alone), or "unknown".
     measurement
         of a session, in place of a recording.
     found
@@ -98,6 +112,8 @@ class Figure:
         choices: Mapping[str, Any] | None = None,
         recording: Recording | None = None,
         in_si: bool = True,
+        speed: str | float = GIVEN,
+        bearing: str = GIVEN,
         measurement: Measurement | None = None,
         found: Any = None,
         computed: bool = True,
@@ -106,7 +122,11 @@ class Figure:
         sources = FilledSources()
         self.view = kind(sources)
         if recording is not None:
-            measurement = _measurement(results.scene, recording, in_si)
+            machine = of_scene(results.scene, GIVEN).knowing(speed)
+            if checks.choice("bearing", bearing, BEARINGS) == "unknown":
+                machine = dataclasses.replace(machine, bearing=None)
+            machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)
+            measurement = _measurement(recording, machine, in_si)
         if measurement is not None:
             self.view.take_measurement(measurement)
         if found is not None:
@@ -211,14 +231,15 @@ def editor_of(results: Results) -> SceneEditor:
     return editor
 
 
-def _measurement(scene: Scene, recording: Recording, in_si: bool) -> Measurement:
+def _measurement(recording: Recording, machine: Machine, in_si: bool) -> Measurement:
     """A measurement that is there already."""
 
     async def assign(change: Any) -> None:
         change()
 
     made = Measurement(SceneEditor("fan-rig"), assign, lambda: None)
-    made.measured = Measured(recording, scene.shaft_speed, in_si=in_si)
+    bare = dataclasses.replace(recording, shaft_speed=None)
+    made.measured = Measured(bare, machine, in_si=in_si)
     return made
 
 

@@ -13,9 +13,9 @@ import panel as pn
 from bokeh.models import Scatter
 from bokeh.plotting import figure
 
-from bearing_explorer.measurement.form import number_of
 from bearing_explorer.measurement.series import Series, SeriesRecordings
 from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.measurement.typed_number import number_of
 from bearing_explorer.plots import style
 from bearing_explorer.plots.layers import (
     Glyph,
@@ -112,6 +112,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         "bearing's. An extent is there where a damaged race is named."
     )
     without_size = True
+    finds_speed = True
     start = "Compute the trend"
     bounds = "Takes up to some seconds a file."
 
@@ -149,13 +150,11 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
             raise ValueError(self.why_nothing or NOTHING)
-        series, results, scene = measurement.series, self._results, measured.scene(editor.scene)
+        series, machine = measurement.series, measured.machine
         text = given.get("baseline", "").strip() or "1"
         number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
-        direction = self.direction_of(results, measured)
-        band = None
-        if results is not None:
-            band = self.demodulation(results, measured, direction).band
+        direction = self.direction_of(measured)
+        band = self.demodulation(measured, direction).band
         known = self.found if self._is_of_now(self.found) else None
 
         def work(job: Work) -> str:
@@ -175,7 +174,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
 
             try:
                 done = trend(
-                    found.recordings, scene.bearing, measured.shaft_speed, direction=direction,
+                    found.recordings, machine.bearing, machine.range, direction=direction,
                     band=band, baseline=number - 1, goes_on=goes_on,
                 )  # fmt: skip
             except FieldError as error:
@@ -210,8 +209,8 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         """Begin without a click once the last file of a series is diagnosed."""
         if results is None or self._began == now or self.measurement is None:
             return
-        question = self.measurement.question(results.scene.bearing)
-        if question is not None and self.measurement.diagnoses.of(question) is not None:
+        question = self.measurement.question()
+        if question is None or self.measurement.diagnoses.of(question) is not None:
             self._began = now
             self.start_job(self.job.values)
 
@@ -285,7 +284,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             more = f" and {len(out) - MOST_NAMED} more" if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
         if found.measured is not measured:
-            words += " Your answers in step 1 have changed since: compute it again."
+            words += " Your answers have changed since: compute it again."
         return words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -332,6 +331,8 @@ def part_words(shown: Trend) -> str:
     if last.extent.race and math.isfinite(last.extent.high):
         return f"{seen} In the last: {last.extent.sentence}"
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
+    if not math.isfinite(last.probability):
+        return "Which part is damaged is not known before the bearing is."
     if not named:
         return f"{seen} No part is named in the last ({last.fault})."
     return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
@@ -340,35 +341,36 @@ def part_words(shown: Trend) -> str:
 def python_lines(found: FoundTrend, results: Results) -> str:
     """Lines that read the files of a trend and compute it."""
     scene, shown = found.measured.scene(results.scene), found.trend
-    files = []
+    machine, files = found.measured.machine, []
+    bearing = "None" if machine.bearing is None else "scene.bearing"
+    speed = "None" if machine.range is None else code_of(machine.range)
     for recording, origin in zip(
         found.recordings.recordings, found.recordings.origins, strict=True
     ):
         assert origin is not None
         unit = origin.unit if found.measured.in_si else "m/s²"
-        assert recording.shaft_speed is not None
         given = [
             code_of(origin.file), str(list(origin.columns)), code_of(list(recording.directions)),
             code_of(unit), short(recording.sample_rate), short(origin.full_scale),
             "None" if origin.sensitivity is None else short(origin.sensitivity),
-            short(recording.shaft_speed),
+            "None" if recording.shaft_speed is None else short(recording.shaft_speed),
         ]  # fmt: skip
         files.append(f"    ({', '.join(given)}),")
     return "\n".join([
         "from pathlib import Path\n",
-        "from bearingcore import Scene, presets, read_table, trend\n",
+        "from bearingcore import Recording, Scene, presets, read_table, trend\n",
         f"scene = {scene_code(scene)}",
         "files = [  # columns, directions, unit, sample rate, value of a 1, V/(m/s²), rad/s",
         *files,
         "]",
-        "recordings = [",
-        "    read_table(name, Path(name).read_bytes()).recording(",
-        "        columns, along, unit, rate, one, sensitivity=sensor, shaft_speed=speed",
+        "recordings = []",
+        "for name, columns, along, unit, rate, one, sensor, speed in files:",
+        "    made = read_table(name, Path(name).read_bytes()).recording(",
+        "        columns, along, unit, rate, one, sensitivity=sensor",
         "    )",
-        "    for name, columns, along, unit, rate, one, sensor, speed in files",
-        "]",
+        "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
         "found = trend(",
-        f"    recordings, scene.bearing, direction={code_of(shown.direction)},",
+        f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",
         f"    band=({short(shown.band[0])}, {short(shown.band[1])}), baseline={shown.baseline},",
         ")",
         "columns = found.table().in_units().named()",

@@ -9,7 +9,7 @@ from typing import Any
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.form import number_of
+from bearing_explorer.measurement.typed_number import number_of
 from bearing_explorer.widgets.form import Fields, FieldSpec, choices, row, widget_of
 
 

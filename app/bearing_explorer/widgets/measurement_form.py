@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import panel as pn
 
 from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.form import BY_FREQUENCIES, SIZES, USUAL_SENSITIVITY
+from bearing_explorer.measurement.form import SIZES, USUAL_SENSITIVITY
 from bearing_explorer.measurement.series import MOST_FILES
 from bearing_explorer.measurement.session import Measurement, MeasurementState
 from bearing_explorer.measurement.upload import MOST_BYTES, PIECE
@@ -19,7 +19,6 @@ from bearing_explorer.state.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.widgets.facts import Fact, facts_html
 from bearing_explorer.widgets.file_upload import FileUpload
 from bearing_explorer.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.bearings.frequencies import FREQUENCIES
 from bearingcore.common.numbers import number
 from bearingcore.files.units import UNITS, VOLTAGES
 
@@ -30,12 +29,6 @@ LABELS = {
     "full_scale": "1 in the file is",
     "sensitivity": "Sensor (mV/g)",
     "sample_rate": "Sample rate (Hz)",
-    "shaft_speed": "Shaft speed (Hz or rpm)",
-    "bearing": "Measured bearing",
-    "bpfo": "BPFO (Hz, or orders: 3.1 x)",
-    "bpfi": "BPFI",
-    "ftf": "FTF",
-    "bsf": "BSF",
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
@@ -143,7 +136,8 @@ class MeasurementForm(pn.Column):
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
             self._agreed = sure
-            self._measurement.take_form(dict(self._fields.values), sure)
+            values = self._shown.values | self._fields.values
+            self._measurement.take_form(values, sure)
 
     # What there is to show
 
@@ -189,7 +183,7 @@ class MeasurementForm(pn.Column):
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
         for name in LABELS:
-            if name in ("x", "y", "unit", "bearing"):
+            if name in ("x", "y", "unit"):
                 fields.add(name, select(LABELS[name], [["", ""]]))
             else:
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
@@ -209,21 +203,16 @@ class MeasurementForm(pn.Column):
                 fields.widgets[name].param.update(**choices(state.columns), value=values[name])
         if first or state.proposed != self._shown.proposed:
             fields.widgets["unit"].param.update(**choices(units(state)), value=values["unit"])
-        if first or state.bearings != self._shown.bearings:
-            fields.widgets["bearing"].param.update(
-                **choices(state.bearings), value=values["bearing"]
-            )
         fields.put(values)
         for name, widget in fields.widgets.items():
             marks = {"refused": name in state.refused, "open": name in state.open}
             widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
         fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
         fields.widgets["sensitivity"].visible = values["unit"] in VOLTAGES
-        for name in FREQUENCIES:
-            fields.widgets[name].visible = values["bearing"] == BY_FREQUENCIES
         self._agree.visible = not set(state.open) <= set(SIZES)
         shown = [name for name, widget in fields.widgets.items() if widget.visible]
-        self._notes.object = notes_html(state, shown)
+        labels = {name: label.partition(" (")[0] for name, label in LABELS.items()}
+        self._notes.object = notes_html(state, shown, labels)
 
 
 def _text(words: str, **params: Any) -> pn.pane.HTML:
@@ -239,13 +228,12 @@ def units(state: MeasurementState) -> list[list[str]]:
     return [["", words], *known]
 
 
-def notes_html(state: MeasurementState, fields: list[str]) -> str:
+def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:
     """Beneath the fields: why they are refused, or where their values come from."""
     facts = []
     for name in fields:
         words = state.refused.get(name) or state.reasons.get(name)
         if words:
             mark = "refused" if name in state.refused else "open" if name in state.open else ""
-            label = html.escape(LABELS[name].partition(" (")[0])
-            facts.append(Fact(label, words, mark=mark))
+            facts.append(Fact(html.escape(labels[name]), words, mark=mark))
     return facts_html(facts)

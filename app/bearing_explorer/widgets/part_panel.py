@@ -18,11 +18,13 @@ _PICTURES = {
     "busy": "Bearing; the signal is being analysed",
     "healthy": "Bearing, no part marked: no damage seen",
     "unknown": "Bearing with a question mark: no clear result",
+    "question": "Bearing with a question mark: which one is not known",
 }
 _COPY = """
 navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
+NOT_NOW = "Neither can be taken while the answer is out of date."
 _REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
@@ -36,9 +38,10 @@ class PartPanel(pn.Column):
         self._summary = pn.pane.Str("", visible=False)
         self._copy = button("Copy the summary", lambda: None, align="start")
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
-        report = button("Report on one page", lambda: None, align="start")
-        report.js_on_click(code=_REPORT)
-        self._actions = row(self._copy, report, visible=False)
+        self._report = button("Report on one page", lambda: None, align="start")
+        self._report.js_on_click(code=_REPORT)
+        self._why_not = _words("")
+        self._actions = row(self._copy, self._report, self._why_not, visible=False)
         super().__init__(self._answer, self._actions, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 
@@ -48,10 +51,18 @@ class PartPanel(pn.Column):
             return
         self.state = state
         self._answer.object = part_html(state)
-        summary = state.get("pass_on", "")
+        stale = state.get("stale", "")
+        summary = "" if stale else state.get("pass_on", "")
         self._summary.object = summary
-        self._copy.label = "Copy the summary"
-        self._actions.visible = bool(summary)
+        self._copy.param.update(label="Copy the summary", disabled=not summary)
+        self._report.disabled = not summary
+        self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
+        self._actions.visible = bool(state.get("pass_on", ""))
+
+    def outdate(self, why: str) -> None:
+        """Mark the answer that is shown: it is not that of the newest answers and settings."""
+        if self.state.get("mood") in ("fault", "healthy", "unknown"):
+            self.show({**self.state, "stale": why})
 
 
 class ListedBearings(pn.Column):
@@ -63,25 +74,44 @@ class ListedBearings(pn.Column):
         called with the name of the one that is chosen.
     cancel
         called to end the search.
+    search
+        called to begin one.
     """
 
-    def __init__(self, take: Callable[[str], None], cancel: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        take: Callable[[str], None],
+        cancel: Callable[[], None],
+        search: Callable[[], None] = lambda: None,
+    ) -> None:
         self._take = take
         self._shown: object = None
         # both stay while the search goes on: a click on what is replaced meanwhile is lost
         self._head = _words("")
         self._cancel = button("Cancel the search", cancel, visible=False)
-        head = row(self._head, self._cancel)
+        self._search = button(
+            "Try the listed bearings", search, visible=False, align="start",
+            css_classes=["search"],
+        )  # fmt: skip
+        head = row(self._search, self._head, self._cancel)
         super().__init__(head, visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
 
     def show(
-        self, words: str, bearings: Sequence[tuple[str, str]] = (), searching: bool = False
+        self,
+        words: str,
+        bearings: Sequence[tuple[str, str]] = (),
+        searching: bool = False,
+        offer: bool = False,
     ) -> None:
-        """Show a sentence, and bearings with how well each explains the signal."""
-        if self._shown == (words, list(bearings), searching):
+        """Show a sentence, and bearings with how well each explains the signal.
+
+        `offer`: whether a search can be begun.
+        """
+        if self._shown == (words, list(bearings), searching, offer):
             return
-        self._shown = (words, list(bearings), searching)
-        self.visible = bool(words)
+        self._shown = (words, list(bearings), searching, offer)
+        self.visible = bool(words) or offer
+        self._search.visible = offer
         self._head.object = f'<p role="status">{html.escape(words)}</p>'
         self._cancel.visible = searching
         if bearings or len(self) > 1:
@@ -101,20 +131,26 @@ def _words(content: str) -> pn.pane.HTML:
 
 def part_html(state: Mapping[str, Any]) -> str:
     """The answer as HTML: picture, headline, words, summary, assumptions."""
-    said = {name: html.escape(str(state.get(name, ""))) for name in (
-        "headline", "probability", "extent", "plain", "pass_on", "color", "mood")}  # fmt: skip
+    names = (
+        "headline", "probability", "extent", "plain", "pass_on", "color", "mood", "stale",
+    )  # fmt: skip
+    said = {name: html.escape(str(state.get(name, ""))) for name in names}
     short = said["probability"], said["extent"]
     facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
         f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
-        if said["pass_on"]
+        if said["pass_on"] and not said["stale"]
         else ""
     )
     assumptions = (
         f'<div class="rests"><h4>Assumptions</h4>{facts_html(facts)}</div>' if facts else ""
     )
+    stale = ""
+    if said["stale"]:
+        stale = f'<p class="stale" role="status"><strong>Out of date.</strong> {said["stale"]}</p>'
     return (
-        f'<section class="part" aria-label="Which part is damaged" data-mood="{said["mood"]}" '
+        f'{stale}<section class="part{" old" if stale else ""}" '
+        f'aria-label="Which part is damaged" data-mood="{said["mood"]}" '
         f'style="--part: {said["color"] or "var(--accent)"}">'
         f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
         f'<p class="probability">{" · ".join(filter(None, short))}</p>'
@@ -149,7 +185,7 @@ def picture(state: Mapping[str, Any]) -> str:
     # the impact is drawn at the bottom, as if the load were there
     places = {"outer race": outer, "inner race": inner, "ball": 0.5 * (bearing["pitch"] + ball)}
     mark = _impact(scale * places[part], max(0.22 * scale * ball, 4.5)) if part else ""
-    if mood == "unknown":
+    if mood in ("unknown", "question"):
         mark = '<text class="question" text-anchor="middle" dominant-baseline="central">?</text>'
     words = f"Bearing, {part} marked" if part else _PICTURES.get(mood, "Bearing")
     return (

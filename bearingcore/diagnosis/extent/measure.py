@@ -247,7 +247,7 @@ def measure_extent(
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
         race = race or named
         if race is None or not found.evidence:
-            return _without(race or "", bearing, ExtentStatus.NO_RACE)
+            return without_extent(race or "", bearing.ball_spacing, ExtentStatus.NO_RACE)
         nominal = found.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
@@ -256,9 +256,9 @@ def measure_extent(
         slip = SLIP
     # a pass of envelopes is averaged from its own frequency on
     if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
-        return _without(race, bearing, ExtentStatus.TOO_SHORT)
+        return without_extent(race, bearing.ball_spacing, ExtentStatus.TOO_SHORT)
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
-        return _without(race, bearing, ExtentStatus.TOO_COARSE)
+        return without_extent(race, bearing.ball_spacing, ExtentStatus.TOO_COARSE)
     # the inner race turns with the shaft
     turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
     knocks = find_knocks(recording, nominal, slip, turns)
@@ -305,10 +305,13 @@ def _answer(
     )  # fmt: skip
 
 
-def _without(race: str, bearing: Bearing, status: ExtentStatus) -> MeasuredExtent:
+def without_extent(
+    race: str = "", ball_spacing: float = math.nan, status: ExtentStatus = ExtentStatus.NO_RACE
+) -> MeasuredExtent:
+    """A measurement that gave no extent; the ball spacing is in [rad]."""
     none = math.nan
     return MeasuredExtent(
-        race, none, none, none, none, none, none, bearing.ball_spacing, (), none, none, none, 0,
+        race, none, none, none, none, none, none, ball_spacing, (), none, none, none, 0,
         none, status,
     )  # fmt: skip
 

@@ -10,7 +10,8 @@ import zlib
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.form import FormError, guess, read_form
+from bearing_explorer.measurement.form import guess, read_form
+from bearing_explorer.measurement.machine import FormError, Machine
 from bearing_explorer.measurement.session import (
     MOST_NUMBERS,
     Measurement,
@@ -112,11 +113,11 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     assert measured is not None
     assert measured.directions == ("x", "y")
     assert measured.recording.sample_rate == pytest.approx(rate, rel=1e-6)
-    assert measured.shaft_speed == pytest.approx(RIG.shaft_speed)  # the sliders', until told
-    assert measured.recording.shaft_speed is None
-    answer(made, unit="m/s²", shaft_speed="720 rpm")
+    assert measured.shaft_speed is None  # not the sliders'
+    assert measured.bearing is None
+    answer(made, unit="m/s²", speed="given", shaft_speed="720 rpm")
     assert made.measured is not None
-    assert made.measured.recording.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
+    assert made.measured.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
     np.testing.assert_allclose(
         made.measured.recording.acceleration, measured.recording.acceleration
     )
@@ -127,6 +128,8 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     content = wav_of(columns, 51_200)
     assert len(content) > 3 * PIECE
     made = brought("long.wav", content)
+    assert "does not say whether they are two directions" in made.state.reasons["y"]
+    answer(made, x="0", y="1")
     assert made.measured is not None
     np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
     assert made.state.scaled
@@ -170,10 +173,10 @@ def test_what_the_file_does_not_tell_is_asked_for():
     before = signal()
     made = brought("two.mat", mat_of(a=NOISE), before)
     assert made.measured is None  # no old figure under a new name
-    assert made.state.bad
     assert "sample rate is missing" in made.state.refused["sample_rate"]
-    assert "Hz" in made.state.words
-    answer(made, sample_rate="12 800")
+    assert "sample rate is missing" in made.state.words
+    assert set(made.state.open) == {"y", "unit"}
+    answer(made, sample_rate="12 800", x="0", y="1")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_800.0
     assert not made.state.bad
@@ -210,25 +213,31 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
 )
 def test_shaft_speeds_are_read_with_their_units(text, hertz):
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
-    asked = read_form(table, {**guess(table, 7.0), "shaft_speed": text})
-    assert asked.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
+    asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
+    assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
     with pytest.raises(FormError, match="at least one direction"):
-        read_form(table, {**guess(table, 7.0), "x": "", "y": ""})
+        read_form(table, {**guess(table), "x": "", "y": ""}, Machine())
 
 
 def test_more_numbers_than_a_session_keeps_are_left_out():
     rows = MOST_NUMBERS // 2 + 1000
     content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
     assert len(content) < MOST_BYTES
-    found = read_file("long.wav", content, 7.0)
+    found = read_file("long.wav", content, Machine())
     assert found.table.columns.size == MOST_NUMBERS
     assert "Only the first" in found.cut
-    assert found.asked is not None
-    assert found.asked.recording.sample_rate == 8000.0
+    assert found.asked is None  # two channels: which are x and y is asked
+    asked = read_form(found.table, {**found.form, "x": "0", "y": "1"}, Machine())
+    assert asked.recording.sample_rate == 8000.0
 
 
 def answer(made: Measurement, **values: str) -> None:
-    """The form with other values; `sure` presses the button below it."""
+    """The form with other values; `sure` presses the button below it.
+
+    A shaft speed is given where nothing else is said of it.
+    """
+    if "shaft_speed" in values:
+        values = {"speed": "given", **values}
 
     async def asked() -> None:
         sure = bool(values.pop("sure", ""))
@@ -252,8 +261,8 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
     )
     assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
-    answer(made, sample_rate="48000", unit="m/s²", bearing="")
-    assert made.source_of("unit") == "Typed in"
+    answer(made, sample_rate="48000", unit="m/s²", bearing="scene")
+    assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
     answer(made, x="1")
@@ -278,7 +287,7 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
     made = brought("run.mat", mat_of(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
     assert made.measured is not None
-    assert made.measured.bearing_name == "NICE, MFPT"  # which has these frequencies
+    assert made.measured.machine.bearing_name == "NICE, MFPT"  # which has these frequencies
     turn = 2.0 * math.pi
     made = brought("other.mat", mat_of(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
     assert made.measured is not None

@@ -29,7 +29,7 @@ from bearing_explorer.views.part_lines import (
 )
 
 from bearingcore import Diagnosis, Recording, presets
-from tests.helpers.measuring import measuring
+from tests.helpers.measuring import at, measuring
 
 MOTOR = presets["6205"]
 RESULTS = Results(MOTOR)
@@ -48,20 +48,20 @@ def heard(truth: str, noise_db: float = 20.0) -> Measured:
 
 @cache
 def diagnosed(truth: str, noise_db: float = 20.0) -> Diagnosis:
-    found = answered(Question.about(heard(truth, noise_db), MOTOR.bearing))
+    found = answered(Question.about(heard(truth, noise_db)))
     assert isinstance(found, Diagnosis)
     return found
 
 
 def asked(truth: str) -> Question:
-    return Question.about(heard(truth), MOTOR.bearing)
+    return Question.about(heard(truth))
 
 
 def view_of(measured: Measured | None = None, answer: Diagnosis | str | None = None):
     view = PartDiagnosis(PackedSource())
     view.measure(measuring(measured))
     if measured is not None and answer is not None:
-        view.measurement.diagnoses.keep(Question.about(measured, MOTOR.bearing), answer)
+        view.measurement.diagnoses.keep(Question.about(measured), answer)
     return view
 
 
@@ -91,11 +91,12 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
     assert state["part"] == ("" if truth == "none" else truth)
     assert state["bearing"]["n_balls"] == 9
     rests = dict(state["facts"])
-    assert rests["Slip"] == "balls up to 2 % slower or faster"
+    assert rests["Slip"] == "balls up to 2 % slower or faster, assumed"
     assert rests["Bearing"].startswith("9 balls of 7.94 mm on 39.04 mm")
     assert "turns a minute" in rests["Shaft"]
     sentence = view.sentence(RESULTS)
-    assert diagnosed(truth).sentence in sentence
+    assert diagnosed(truth).detail in sentence
+    assert "turns a minute (of the simulation" in sentence
     truthful = "the bearing is healthy" if truth == "none" else f"the {truth} is damaged"
     assert f"The signal is simulated: {truthful}." in sentence
 
@@ -133,7 +134,9 @@ def test_words_have_sensible_digits_and_nothing_is_certain(truth):
 def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
     question, found = asked("none"), diagnosed("none")
     bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
-    state = panel_state(dataclasses.replace(question, bearing=bearing), found)
+    machine = dataclasses.replace(question.measured.machine, bearing=bearing)
+    estimated = Question.about(dataclasses.replace(question.measured, machine=machine))
+    state = panel_state(estimated, found)
     assert part_words.COUNTED.format("balls") in state["plain"]
     assert part_words.COUNTED.format("balls") in state["pass_on"]
     assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
@@ -151,8 +154,8 @@ def test_a_part_that_is_hardly_told_is_only_probably_damaged():
 
 
 def test_nothing_is_marked_where_it_cannot_be_told():
-    short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), TURN * 29.95)
-    found = answered(Question.about(short, MOTOR.bearing))
+    short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), at(MOTOR))
+    found = answered(Question.about(short))
     assert isinstance(found, Diagnosis)
     view = view_of(short, found)
     sources, ranges = view.all_data(RESULTS)
@@ -167,8 +170,8 @@ def test_nothing_is_marked_where_it_cannot_be_told():
 
 
 def test_a_refusal_is_a_sentence():
-    still = Measured(heard("none").recording, 0.0)
-    answer = answered(Question.about(still, MOTOR.bearing))
+    still = Measured(heard("none").recording, at(MOTOR, 0.0))
+    answer = answered(Question.about(still))
     assert isinstance(answer, str)
     assert "shaft speed" in answer
     view = view_of(still, answer)
@@ -220,12 +223,15 @@ def test_a_zoom_shows_a_line_with_what_stands_beside_it():
 
 
 def test_the_shaft_speed_can_be_rough_or_unknown():
-    view = shown("outer race")
-    view.look_changed("speed", "unknown")
-    assert view.question(MOTOR.bearing).shaft_speed is None
-    view.look_changed("speed", "rough")
-    low, high = view.question(MOTOR.bearing).shaft_speed
+    measurement = shown("outer race").measurement
+    measurement.take_form({"speed": ""})
+    assert measurement.question().speed is None
+    assert "speed?" in measurement.state.line
+    measurement.take_form({"speed": "rough"})
+    low, high = measurement.question().speed
     assert low < heard("outer race").shaft_speed < high
+    measurement.take_form({"speed": "simulated"})
+    assert measurement.question() == asked("outer race")
 
 
 @pytest.mark.parametrize("first", [3.0, 40.3, 107.4, 162.2, 900.0])
@@ -260,8 +266,8 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
     truth, known = heard("inner race"), diagnosed("inner race")
     velocity = np.cumsum(truth.recording.acceleration, axis=0)
     velocity = dataclasses.replace(truth.recording, acceleration=velocity - velocity.mean(axis=0))
-    unknown = Measured(velocity, truth.shaft_speed, in_si=False)
-    question = Question.about(unknown, MOTOR.bearing)
+    unknown = Measured(velocity, truth.machine, in_si=False)
+    question = Question.about(unknown)
     found = answered(question)
     assert found.fault == known.fault
     rests = dict(panel_state(question, found)["facts"])
@@ -278,7 +284,7 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
     scene = presets[preset].replace(extent=0.0)
     measured = simulated(scene, noise_db, True, 3)
-    found = answered(Question.about(measured, scene.bearing))
+    found = answered(Question.about(measured))
     assert found.fault == "none seen"
 
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.measurement.machine import Machine
 from bearing_explorer.measurement.signal import Measured
 from bearing_explorer.results.results import Results
 from bearing_explorer.serve.packed_source import PackedSource
@@ -29,7 +30,7 @@ def run_up(duration: float = 8.0, *, in_si: bool = True) -> Measured:
     signal += 0.1 * np.random.default_rng(1).standard_normal(TIME.size)
     signal = signal[: round(duration * RATE)]
     recording = Recording(signal[:, None], RATE, ("y",))
-    return Measured(recording, 2.0 * math.pi * FIRST, in_si=in_si)
+    return Measured(recording, Machine(2.0 * math.pi * FIRST), in_si=in_si)
 
 
 def view_of(kind: type[MeasuredView], measured: Measured | None) -> MeasuredView:

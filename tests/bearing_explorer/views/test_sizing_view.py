@@ -31,7 +31,7 @@ from bearing_explorer.widgets.candidates import rows
 
 from bearingcore import Recording, Spectrum, presets
 from bearingcore.diagnosis.size.answer import AT_MOST, SizingStatus
-from tests.helpers.measuring import measuring, signal
+from tests.helpers.measuring import at, measuring, signal
 
 RIG = presets["fan-rig"]
 RESULTS = Results(RIG)
@@ -100,7 +100,7 @@ def test_the_amplitude_of_a_tone_is_read_off():
     tone = 0.5 * 9.80665 * np.sin(2.0 * math.pi * 3008.0 * time)  # on a line
     origin = Origin("a.csv", (0,), "g", 1.0)
     recording = Recording(tone[:, None], 25_600.0, ("y",))
-    view = view_of(MeasuredSpectrum, Measured(recording, RIG.shaft_speed, origin=origin))
+    view = view_of(MeasuredSpectrum, Measured(recording, at(RIG), origin=origin))
     sources, ranges = view.all_data(RESULTS)
     drawn = sources["measured_spectrum_measured"]
     assert drawn["linear"].max() == pytest.approx(0.5, rel=1e-3)
@@ -121,7 +121,7 @@ def test_the_model_is_an_overlay_of_the_measured_size():
     louder = dataclasses.replace(
         signal().recording, acceleration=1000.0 * signal().recording.acceleration
     )
-    for measured in (signal(), Measured(louder, RIG.shaft_speed, in_si=False)):
+    for measured in (signal(), Measured(louder, at(RIG), in_si=False)):
         view = view_of(MeasuredSpectrum, measured)
         sources, _ = view.all_data(RESULTS)
         assert not sources["measured_spectrum_simulated_y"]["frequency"].size
@@ -144,7 +144,7 @@ def test_the_model_is_an_overlay_of_the_measured_size():
 
 
 def test_the_scene_is_simulated_at_the_speed_of_the_measurement():
-    measured = Measured(signal().recording, 2.0 * math.pi * 10.0)
+    measured = Measured(signal().recording, at(RIG, 2.0 * math.pi * 10.0))
     assert Simulated(RESULTS, measured).scene == RIG.replace(shaft_speed=2.0 * math.pi * 10.0)
     view = view_of(MeasuredSpectrum, measured)
     view.look_changed("overlay", ["model"])
@@ -157,7 +157,7 @@ def test_envelopes_are_taken_in_the_band_of_the_diagnosis():
     measured = signal()
     view = view_of(MeasuredEnvelope, measured)
     assert "where the kurtogram is highest" in view.sentence(RESULTS)
-    question = view.measurement.question(RIG.bearing)
+    question = view.measurement.question()
     found = answered(question)
     view.measurement.diagnoses.keep(question, found)
     assert "the band of the diagnosis" in view.sentence(RESULTS)
@@ -179,7 +179,7 @@ def test_envelopes_are_taken_in_the_band_of_the_diagnosis():
     ],
 )
 def test_the_envelope_says_what_knocks(speed, said):
-    measured = Measured(signal().recording, 2.0 * math.pi * speed)
+    measured = Measured(signal().recording, at(RIG, 2.0 * math.pi * speed))
     view = view_of(MeasuredEnvelope, measured)
     sentence = view.sentence(RESULTS)
     assert "where the kurtogram is highest" in sentence
@@ -206,7 +206,7 @@ def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():
 def test_odd_recordings_are_drawn_too(rate):
     """256 samples of noise, sampled far too slowly or too fast for this bearing."""
     noise = np.random.default_rng(3).standard_normal(256) * 1e-9
-    measured = Measured(Recording(noise, rate, ("y",)), RIG.shaft_speed)
+    measured = Measured(Recording(noise, rate, ("y",)), at(RIG))
     for kind in (MeasuredSignal, MeasuredSpectrum, MeasuredEnvelope):
         view = view_of(kind, measured)
         data, _ = view.all_data(RESULTS)
@@ -260,14 +260,14 @@ def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
     larger = Results(RIG.replace(extent=0.7))
     assert "has changed" not in view.sentence(larger)  # the extent is not looked at
     assert "has changed" in view.sentence(Results(RIG.replace(fy=-300.0)))
-    view.measurement.measured = Measured(signal().recording, RIG.shaft_speed)
+    view.measurement.measured = Measured(signal().recording, at(RIG))
     assert view.sentence(RESULTS) == "The size has not been estimated yet."
     assert not view.all_data(RESULTS)[1]
 
 
 def test_where_the_signal_cannot_tell_the_page_says_so():
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
-    measured = Measured(Recording(noise, 20_480.0), RIG.shaft_speed)
+    measured = Measured(Recording(noise, 20_480.0), at(RIG))
     work = worked()
     assert compute(work, measured, RIG) == "There is no size to look for."
     (found,) = work.taken()
@@ -297,7 +297,7 @@ def test_a_sizing_can_be_given_up_and_refusals_are_sentences():
     inner = RIG.replace(race="inner")
     with pytest.raises(ValueError, match=r"Not possible: .*outer"):
         compute(worked(), signal(), inner)
-    short = Measured(Recording(signal().recording.acceleration[:2000], 25_600.0), RIG.shaft_speed)
+    short = Measured(Recording(signal().recording.acceleration[:2000], 25_600.0), at(RIG))
     with pytest.raises(ValueError, match=r"Not possible: .*ball passes"):
         compute(worked(), short, RIG)
 

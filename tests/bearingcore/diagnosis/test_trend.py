@@ -67,8 +67,19 @@ def test_what_is_not_known_is_not_a_number():
     short = trend([recorded(0.5, duration=0.1)], BEARING, SPEED, band=BAND)
     assert math.isnan(short.column("lines")[0, LINES.index("ftf")])
     assert math.isnan(short.points[0].extent.extent)
-    with pytest.raises(ValueError, match="shaft_speed"):
-        trend([recorded(0.1)], BEARING)
+
+
+def test_without_bearing_and_speed_levels_stay_and_no_part_is_named():
+    known = trend([recorded(0.5)], BEARING, SPEED, band=BAND).points[0]
+    (alone,) = trend([recorded(0.5)], None).points
+    assert (alone.rms, alone.kurtosis) == (known.rms, known.kurtosis)
+    assert alone.fault == CANNOT_TELL
+    assert math.isnan(alone.probability)
+    assert math.isnan(alone.shaft_speed)
+    assert np.isnan(alone.lines).all()
+    (searched,) = trend([recorded(0.5)], BEARING).points  # the speed is looked for
+    assert searched.rms == known.rms
+    assert math.isnan(searched.shaft_speed) or searched.shaft_speed > 0.0
 
 
 @pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")

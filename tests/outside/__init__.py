@@ -1,0 +1,1 @@
+"""Numbers from outside the program: each test names where its right value comes from."""

@@ -18,12 +18,20 @@ _SAYS = {
 _PLACES = {
     "de": "drive end",
     "nde": "non-drive end",
+    "ode": "non-drive end",
+    "inboard": "inboard",
+    "outboard": "outboard",
     "fe": "fan end",
     "ba": "base",
     "base": "base",
     "gearbox": "gearbox",
 }
-_PHRASES = (("nondriveend", "non-drive end"), ("driveend", "drive end"), ("fanend", "fan end"))
+_PHRASES = (
+    ("nondriveend", "non-drive end"),
+    ("oppositedriveend", "non-drive end"),
+    ("driveend", "drive end"),
+    ("fanend", "fan end"),
+)
 _NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
 _NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no"}
 _TIMES = {"t", "time", "seconds", "zeit", "temps", "timestamp", "date", "datetime", "datum"}
@@ -58,12 +66,14 @@ class Column:
 class Choice:
     """The columns of this bearing by direction, and the reason.
 
-    Where there is a question the columns are no more than a guess, or none.
+    Where there is a question nothing is chosen, and `options` are the indices of the columns that
+    may be the answer: one of them, or two that are directions of one place.
     """
 
     columns: Mapping[str, int]
     reason: str
     question: str = ""
+    options: tuple[int, ...] = ()
 
 
 def column_of(name: str) -> Column:
@@ -71,7 +81,9 @@ def column_of(name: str) -> Column:
     words = words_of(name)
     unit = unit_in(name)
     first = re.split(r"[\s_\[(/,]", name.strip().lower(), maxsplit=1)[0]
-    if first in _TIMES and (unit is None or kind_of(unit) == "time"):
+    # LabVIEW's name for the time of each row
+    timed = first in _TIMES or re.fullmatch(r"x[_ ]values?", name.strip().lower()) is not None
+    if timed and (unit is None or kind_of(unit) == "time"):
         return Column(name, TIME, unit)
     if (unit is not None and unit not in UNITS) or (words & _NOT_SIGNALS and unit is None):
         return Column(name, OTHER, unit)
@@ -85,18 +97,27 @@ def place_in(name: str) -> str:
     >>> place_in("X105_DE_time"), place_in("Bearing 3 y"), place_in("vertical")
     ('drive end', 'bearing 3', '')
     """
-    words = words_of(name)
-    squeezed = re.sub(r"[\W_]+", "", name.lower())
+    return next(iter(places_in(name)), "")
+
+
+def places_in(name: str) -> list[str]:
+    """All places that a name says, those of a motor's ends first.
+
+    >>> places_in("pump_DE_NDE.csv"), places_in("non drive end, bearing 1")
+    (['drive end', 'non-drive end'], ['non-drive end', 'bearing 1'])
+    """
+    squeezed, words = re.sub(r"[\W_]+", "", name.lower()), words_of(name)
+    found = []
     for phrase, place in _PHRASES:
         if phrase in squeezed:
-            return place
-    for word in words:
-        if word in _PLACES:
-            return _PLACES[word]
-    match = re.search(
+            found.append(place)
+            squeezed = squeezed.replace(phrase, " ")
+    found += [place for word, place in _PLACES.items() if word in words]
+    numbered = re.findall(
         r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
     )
-    return f"bearing {match[1] or match[2]}" if match else ""
+    found += [f"bearing {one or other}" for one, other in numbered]
+    return list(dict.fromkeys(found))
 
 
 def words_of(heading: str) -> set[str]:
@@ -144,14 +165,15 @@ def choose(
         return Choice({}, "", words)
     places = {columns[index].place for index in signals} - {""}
     if len(places) > 1:
-        said = place_in(file_name)
+        named = [one for one in places_in(file_name) if one in places]
+        said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
         place = said or place
         there = [index for index in signals if place and columns[index].place == place]
         if there:
             return _by_direction(columns, there, f"the file's name says {said}" if said else why)
         known = ", ".join(sorted(places))
         question = f"The file holds signals of several places ({known}). Which is at this bearing?"
-        return Choice({}, "", question)
+        return Choice({}, "", question, tuple(signals))
     return _by_direction(columns, signals, why)
 
 
@@ -166,9 +188,8 @@ def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -
         return Choice(by_name, why)
     if len(signals) == 1:
         return Choice({"y": signals[0]}, f"{why}, the only signal there; its direction is not said")
-    if len(signals) == 2:
-        chosen = {"x": signals[0], "y": signals[1]}
-        return Choice(chosen, "two signals, taken for the two directions; nothing says so")
-    return Choice(
-        {}, "", f"The file holds {len(signals)} signals. Which was measured at this bearing?"
+    question = (
+        f"The file holds {len(signals)} signals, and nothing says where or in which direction they "
+        "were measured. Which is at this bearing?"
     )
+    return Choice({}, "", question, tuple(signals))

@@ -178,7 +178,7 @@ def _columns(
     table: FileColumns, clock: int, known: Known
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
-    columns = [column_of(name) for name in table.names]
+    columns = [_described(column_of(name), table.texts) for name in table.names]
     if known.signals:
         columns = [
             column if re.fullmatch(known.signals, column.name) else Column(column.name, OTHER)
@@ -213,6 +213,24 @@ def _columns(
         columns[time] = Column(table.names[time], OTHER)
         return tuple(columns), None
     return tuple(columns), sampling
+
+
+_DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
+
+
+def _described(column: Column, texts: Mapping[str, str]) -> Column:
+    """A column with the place and direction that words next to it in its struct give."""
+    of = column.name.rpartition(".")[0].lower()
+    for name, text in texts.items():
+        parent, _, end = name.lower().rpartition(".")
+        if of and parent == of and end in _DESCRIBES:
+            said = column_of(text)
+            column = dataclasses.replace(
+                column,
+                place=column.place or said.place,
+                direction=column.direction or said.direction,
+            )
+    return column
 
 
 def _counts(time: NDArray[np.float64], column: Column) -> bool:

@@ -304,6 +304,7 @@ def _headings(remarks: Sequence[str], style: _Style, width: int) -> list[str] | 
     return names
 
 
+_WORDS_OF_A_ROW = {"comment", "comments", "kommentar", "remark", "remarks", "note", "notes"}
 _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
@@ -320,6 +321,8 @@ def _names(line: str, style: _Style, width: int) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if len(names) == width + 1 and not names[-1]:
             names.pop()
+        if len(names) == width + 1 and names[-1].lower() in _WORDS_OF_A_ROW:
+            names.pop()  # LabVIEW names a column of words, which is empty
         if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
             names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
         if len(names) == width:

@@ -85,7 +85,7 @@ def row_of(record: Record) -> Row:
         "evidence": {
             one.part: {
                 name: round(float(getattr(one, name)), 4)
-                for name in ("lead", "swing", "deviations")
+                for name in ("lead", "swing", "deviations", "magnetic")
             }
             for one in found.evidence
         },

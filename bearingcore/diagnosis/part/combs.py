@@ -64,16 +64,16 @@ def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray((lines.sum(axis=0) - lines.max(axis=0)) / (len(lines) - 1))
 
 
-def noise_level(chance: float, averages: float) -> float:
-    """The level [dB] that noise reaches with a small chance in the comb at one frequency."""
-    sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)))
+def noise_level(chance: float, averages: float, lines: int = HARMONICS) -> float:
+    """The level [dB] that noise reaches with a small chance in a comb of so many lines."""
+    sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)), lines)
     if chance <= _TAIL:
         return float(edge + scale * np.log(_TAIL / chance))
     return float(np.quantile(sorted_levels, 1.0 - min(chance, 1.0)))
 
 
 @lru_cache(maxsize=256)
-def _noise(quarters: int) -> tuple[NDArray[np.float64], float, float]:
+def _noise(quarters: int, count: int) -> tuple[NDArray[np.float64], float, float]:
     """Sorted comb levels of noise, and the tail: its edge and the decibels in which it falls by e.
 
     A line's power is a mean of so many quarters of independent spectra, the greatest of three
@@ -81,10 +81,9 @@ def _noise(quarters: int) -> tuple[NDArray[np.float64], float, float]:
     """
     averages = 0.25 * quarters
     rng = np.random.default_rng(quarters)
-    draws = rng.gamma(averages, 1.0 / averages, (2, HARMONICS, _DRAWS))
-    greater = np.where(rng.random((HARMONICS, _DRAWS)) < 0.8, draws.max(axis=0), draws[0])
+    draws = rng.gamma(averages, 1.0 / averages, (2, count, _DRAWS))
+    greater = np.where(rng.random((count, _DRAWS)) < 0.8, draws.max(axis=0), draws[0])
     lines = np.clip(10.0 * np.log10(np.maximum(greater, 1e-12)), FAINTEST, LOUDEST)
     levels = np.sort(comb_level(lines))
-    count = round(_TAIL * _DRAWS)
-    edge = float(levels[-count])
-    return levels, edge, float((levels[-count:] - edge).mean())
+    tail = levels[-round(_TAIL * _DRAWS) :]
+    return levels, float(tail[0]), float((tail - tail[0]).mean())

@@ -56,6 +56,8 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
         status, detail = DiagnosisStatus.PART_NAMED, say.damaged(own)
         if own.part != BALL and own.probability < LIKELY:
             detail += say.perhaps_a_ball()
+        if own.magnetic > 0.0:
+            detail += say.magnetic_alike(own)
     elif (reason := _lines_in_doubt(judged) or _hidden(signal)) is not None:
         status, detail = reason
     elif others_stand_out and judged.other_swing >= LEAST_SWING:
@@ -93,6 +95,9 @@ def _spectrum(judged: Judged) -> EnvelopeLines:
 
 def _lines_in_doubt(judged: Judged) -> Reason | None:
     """The reason why lines of a part name none, if there are any."""
+    doubtful = max(judged.evidence, key=lambda one: one.without_magnetic)
+    if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
+        return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
     clear = [
         one
         for one in judged.evidence
@@ -106,7 +111,7 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     if ball.deviations >= FAINT:
         return DiagnosisStatus.FAINT, say.faint(ball)
     sharp = ball.level - ball.noise >= NOISE_MARGIN and ball.swing >= LEAST_SWING
-    if sharp and ball.level > own.level:
+    if sharp and (own is ball or ball.level > own.level):
         return DiagnosisStatus.NOT_ALONE, say.not_carried(ball)
     if len(clear) > 1:
         return DiagnosisStatus.ALIKE, say.alike(*clear)

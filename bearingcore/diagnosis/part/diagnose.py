@@ -34,6 +34,9 @@ SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 TONES_COUNT = 0.6
 """Share of a swing that counts where tones are not whitened away."""
 
+SOURCES = ("given", "from the file", "assumed")
+"""Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
+
 MOST_SAMPLES = 20_000_000
 """Samples of all directions that are analysed at most by default: about a minute of
 one core, and some gigabytes."""
@@ -41,11 +44,13 @@ one core, and some gigabytes."""
 
 def diagnose(
     recording: Recording,
-    bearing: Bearing,
+    bearing: Bearing | None,
     shaft_speed: float | tuple[float, float] | None,
     *,
     slip: float = 0.02,
     most_samples: int = MOST_SAMPLES,
+    speed_source: str = "given",
+    bearing_source: str = "given",
 ) -> Diagnosis:
     """Diagnosis of the damaged part of a bearing from a signal.
 
@@ -54,7 +59,8 @@ def diagnose(
     recording
         acceleration of the housing, one direction or two.
     bearing
-        its geometry; only balls, diameters and contact angle count.
+        its geometry; only balls, diameters and contact angle count. None if it is unknown: then no
+        part is named, and the status says so.
     shaft_speed
         [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
         of the recording is taken if it carries one, else it is looked for between 300 and 6000
@@ -64,14 +70,31 @@ def diagnose(
     most_samples
         of all directions that may be listened to. Where there are more nothing is begun, and the
         status says how many there are.
+    speed_source, bearing_source
+        where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
+        colon, as in "assumed: the scene's". The answer says it.
 
     Raises
     ------
     ValueError
-        for a speed or slip that cannot be, and for rows that are not alike.
+        for a speed, slip or source that cannot be, and for rows that are not alike.
     """
+    for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
+        checks.choice(name, said.partition(":")[0], SOURCES)
+    found = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
+    return replace(found, bearing_source="unknown" if bearing is None else bearing_source)
+
+
+def _diagnose(
+    recording: Recording,
+    bearing: Bearing | None,
+    shaft_speed: float | tuple[float, float] | None,
+    slip: float,
+    most_samples: int,
+    speed_source: str,
+) -> Diagnosis:
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
-    low, high, source = _speeds(recording, shaft_speed)
+    low, high, source = _speeds(recording, shaft_speed, speed_source)
     most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
     if recording.acceleration.size > most:
         words = say.too_many(recording.acceleration.size, most)
@@ -79,13 +102,18 @@ def diagnose(
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)
+    if bearing is None:
+        return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
     if high <= low * (1.0 + 1e-9):
-        return _at_speed(signal, bearing, low, slip, source)
+        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+    if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
+        source = f"{speed_source} as a range"
+        return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
     return in_range(signal, bearing, low, high, slip, source)
 
 
 def _speeds(
-    recording: Recording, shaft_speed: float | tuple[float, float] | None
+    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str
 ) -> tuple[float, float, str]:
     """The speed from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi
@@ -97,7 +125,7 @@ def _speeds(
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:
         speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
-        return speed, speed, "given"
+        return speed, speed, said
     try:
         first, last = shaft_speed  # type: ignore[misc]
     except (TypeError, ValueError):
@@ -110,18 +138,32 @@ def _speeds(
 
 
 def _at_speed(
-    signal: ListenedSignal, bearing: Bearing, shaft: float, slip: float, source: str
+    signal: ListenedSignal,
+    bearing: Bearing,
+    low: float,
+    high: float,
+    slip: float,
+    source: str,
+    reach: float = 0.0,
 ) -> Diagnosis:
-    """The diagnosis at a known speed [Hz]."""
+    """The diagnosis at the middle of two speeds [Hz], or where the shaft's own lines are between.
+
+    `reach` is by how much the middle may be off, as a fraction.
+    """
     parts = part_lines(bearing)
+    shaft = 0.5 * (low + high)
     refused = unfit(signal, parts, shaft)
     if refused is not None:
         return silent(*refused, source, shaft)
-    given, own = shaft, signal.shaft(shaft * (1.0 - slip), shaft * (1.0 + slip))
+    given, own = shaft, signal.shaft(low, high)
     # lines broader than the window that they are looked for in make nothing finer
-    if own.clear and signal.duration * 2.0 * slip * shaft > 1.0:
+    if own.clear and signal.duration * (high - low) > 1.0:
         shaft = own.frequency
+        given = shaft if reach else given
         source += ", refined from the shaft lines in the signal"
+    else:
+        slip += reach
+        source += ", its middle" if reach else ""
     answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
     if answer.names_a_part:
         return answer
@@ -146,7 +188,7 @@ def _second_opinion(
     again = decide(signal, judged, shaft, answer.speed_source)
     if again.names_a_part and again.fault != BALL:
         return again
-    perhaps = again.status == DiagnosisStatus.PERHAPS_A_BALL
+    perhaps = again.status in (DiagnosisStatus.PERHAPS_A_BALL, DiagnosisStatus.MAGNETIC)
     if answer.fault == NONE_SEEN and perhaps and judged.own.swing >= ENOUGH_SWING:
         return replace(answer, fault=CANNOT_TELL, probability=again.probability,
                        status=again.status, detail=again.detail)  # fmt: skip

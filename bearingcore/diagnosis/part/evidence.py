@@ -51,6 +51,9 @@ class PartEvidence:
     deviations
         by how much all bands together show these lines above all others, in short segments, in
         standard deviations; of a ball above races and shaft sidebands too.
+    magnetic
+        probability that lines here are magnetic noise at twice the mains' frequency; 0 where they
+        are more than 1 % off 100 and 120 Hz.
     probability
         that this part is the damaged one.
     sidebands : (h, 2) [dB]
@@ -80,6 +83,7 @@ class PartEvidence:
     depth: float
     swing: float
     deviations: float
+    magnetic: float
     probability: float
     sidebands: NDArray[np.float64]
     sideband_spacing: float
@@ -87,6 +91,11 @@ class PartEvidence:
     band: Band
     direction: str
     kurtosis: float
+
+    @property
+    def without_magnetic(self) -> float:
+        """Its probability if nothing of it were magnetic noise."""
+        return self.probability / (1.0 - self.magnetic)
 
 
 def leading_by(one: PartEvidence) -> tuple[float, float]:
@@ -152,7 +161,9 @@ class Diagnosis:
     shaft_speed
         [rad/s] on which it rests; None where none was found.
     speed_source
-        where that is from: "given", "its own lines in the signal", ...
+        where that is from: "given", "from the file", "assumed", "looked for", ...
+    bearing_source
+        where the bearing is from, likewise.
     other
         the strongest lines that are none of this bearing's, if any are clear.
     detectable_depth
@@ -171,6 +182,7 @@ class Diagnosis:
     other: OtherLines | None
     detectable_depth: float
     spectrum: EnvelopeLines | None
+    bearing_source: str = "given"
 
     @property
     def sentence(self) -> str:
@@ -180,6 +192,8 @@ class Diagnosis:
             words = f"No clear result: {words[:1].lower()}{words[1:]}"
         if not self.evidence:
             return words
+        if self.bearing_source != "given":
+            words += f" Bearing {self.bearing_source}."
         if self.shaft_speed is None:
             return f"{words} No shaft speed is known ({self.speed_source})."
         speed = number(30.0 / math.pi * self.shaft_speed, 4)
@@ -235,6 +249,7 @@ class Diagnosis:
             ("swing_with_sidebands", "1", [one.swing for one in parts]),
             ("lead", "dB", [one.lead for one in parts], "above noise and all other lines"),
             ("deviations", "1", [one.deviations for one in parts], "in all bands together"),
+            ("magnetic_noise", "1", [one.magnetic for one in parts], "share of twice the mains"),
             ("probability", "1", [one.probability for one in parts]),
             ("band_low", "Hz", [one.band.low for one in parts]),
             ("band_high", "Hz", [one.band.high for one in parts]),

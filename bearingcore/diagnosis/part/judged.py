@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence, leading_by
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal
+from bearingcore.diagnosis.part.mains import magnetic_share
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS, PartLines
 from bearingcore.diagnosis.part.probability import CALIBRATION, log_probability, probabilities
 from bearingcore.diagnosis.part.search import (
@@ -409,6 +410,8 @@ class _Comparison:
             depth=_without_greatest(swings[0]),
             swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
             deviations=0.0,
+            # the highest line of a comb resolves the most
+            magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
             probability=0.0,
             sidebands=np.stack(
                 [_lines(one, one.cleared, frequency, away) for away in (-spacing, spacing)], axis=1

@@ -39,6 +39,7 @@ def explaining_bearings(
     shaft_speed: float | tuple[float, float] | None,
     *,
     slip: float = 0.02,
+    speed_source: str = "given",
     goes_on: Callable[[int, int], bool] = lambda done, of: True,
 ) -> tuple[ListedBearing, ...]:
     """The bearings with which a part is named, those with the strongest lines first.
@@ -47,7 +48,7 @@ def explaining_bearings(
 
     Parameters
     ----------
-    recording, shaft_speed, slip
+    recording, shaft_speed, slip, speed_source
         as for `diagnose`.
     bearings
         by name; of those with the same lines the first stands for all.
@@ -64,7 +65,10 @@ def explaining_bearings(
     for done, (name, bearing) in enumerate(distinct):
         if not goes_on(done, len(distinct)):
             break
-        answer = diagnose(recording, bearing, shaft_speed, slip=slip)
+        answer = diagnose(
+            recording, bearing, shaft_speed, slip=slip,
+            speed_source=speed_source, bearing_source="assumed: one of a list",
+        )  # fmt: skip
         if answer.fault in ("outer race", "inner race"):
             found.append(ListedBearing(name, answer))
     # levels within a decibel are alike: then the nearer geometry is the better

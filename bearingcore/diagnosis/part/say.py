@@ -14,8 +14,10 @@ from bearingcore.common.numbers import (
     thousands,
 )
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence
+from bearingcore.diagnosis.part.mains import twice_mains
 from bearingcore.diagnosis.part.parts import BALL
 from bearingcore.diagnosis.part.probability import DEVIATIONS
+from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 
 def dropout_message(share: float) -> str:
@@ -67,6 +69,23 @@ def damaged(own: PartEvidence) -> str:
 def perhaps_a_ball() -> str:
     """Another cause of a race's lines."""
     return " A damaged ball may have marked the race."
+
+
+def magnetic(own: PartEvidence) -> str:
+    """The lines of a part, where magnetic noise has its own."""
+    return (
+        f"Lines of the {own.part} show ({number(own.frequency, 4)} Hz, {decibels(own.level)} above "
+        f"local noise).{magnetic_alike(own)}"
+    )
+
+
+def magnetic_alike(own: PartEvidence) -> str:
+    """Another cause of lines at twice the mains' frequency, and how to exclude it."""
+    return (
+        f" Magnetic noise of a motor at twice the mains frequency ({twice_mains(own.frequency):g} "
+        "Hz) looks alike: measure at another speed, or look whether it ends at once when the motor "
+        "is switched off."
+    )
 
 
 def marked(own: PartEvidence) -> str:
@@ -150,6 +169,14 @@ def faint(own: PartEvidence) -> str:
         f"There are faint lines where damage of the {own.part} has them "
         f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above local noise; noise itself "
         f"reaches {decibels(own.noise)}). Measure again, longer or closer to the bearing."
+    )
+
+
+def which_bearing() -> str:
+    """A signal, but no bearing."""
+    return (
+        f"{DiagnosisStatus.BEARING_OPEN.sentence} Choose one of the list, or enter its designation "
+        "or its frequencies."
     )
 
 

@@ -12,6 +12,7 @@ class DiagnosisStatus(Status):
     NONE_SEEN = "none seen"
     PERHAPS_A_BALL = "race's lines, perhaps by a ball"
     ALIKE = "parts alike"
+    MAGNETIC = "like magnetic noise"
     NOT_ALONE = "not alone"
     FAINT = "faint lines"
     OTHER_SOURCE = "other source"
@@ -23,6 +24,7 @@ class DiagnosisStatus(Status):
     TOO_COARSE = "sampled too slowly"
     TOO_LONG = "too many samples"
     SPEED_OPEN = "shaft speed open"
+    BEARING_OPEN = "bearing open"
 
     @property
     def sentence(self) -> str:
@@ -38,6 +40,10 @@ _SENTENCES = {
         "may make them."
     ),
     DiagnosisStatus.ALIKE: "The lines of both races show, neither much stronger.",
+    DiagnosisStatus.MAGNETIC: (
+        "Lines of a part show at twice the mains frequency, where magnetic noise of a motor has "
+        "its own."
+    ),
     DiagnosisStatus.NOT_ALONE: "Lines of a part show, but others are as strong.",
     DiagnosisStatus.FAINT: "Lines of a part show, but too faint to be sure.",
     DiagnosisStatus.OTHER_SOURCE: "Something repeats that is no line of this bearing.",
@@ -49,6 +55,9 @@ _SENTENCES = {
     DiagnosisStatus.TOO_COARSE: "The sample rate is too low to show how impacts repeat.",
     DiagnosisStatus.TOO_LONG: "The recording has more samples than are allowed.",
     DiagnosisStatus.SPEED_OPEN: "Which part knocks depends on the shaft speed, which is not known.",
+    DiagnosisStatus.BEARING_OPEN: (
+        "Which part is damaged depends on the bearing, which is not known."
+    ),
 }
 
 Reason = tuple[DiagnosisStatus, str]

@@ -54,7 +54,7 @@ def in_range(
         for lines in parts:
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
-                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip))
+                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip, low, high))
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
     if not holding:
         if own.clear:
@@ -104,10 +104,17 @@ class _Hypothesis:
 
     @classmethod
     def at(
-        cls, signal: ListenedSignal, parts: Sequence[PartLines], speed: float, slip: float
+        cls,
+        signal: ListenedSignal,
+        parts: Sequence[PartLines],
+        speed: float,
+        slip: float,
+        low: float,
+        high: float,
     ) -> _Hypothesis:
-        """Diagnosis if the shaft turns about `speed` times a second [Hz]."""
-        shaft = signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip))
+        """Diagnosis if the shaft turns about `speed` times a second [Hz], between two bounds."""
+        shaft = signal.shaft(max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip)))
+        speed = min(max(speed, low), high)
         return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
 
     @property

@@ -180,13 +180,55 @@ def test_files_of_public_collections_are_recognised(
     assert (None if found.bearing is None else found.bearing.value) == bearing
 
 
-def test_two_columns_without_a_name_are_a_guess_and_three_are_asked_about() -> None:
-    two = read_table("a.csv", lines(NOISE[:600, :2])).contents.choice
-    assert two.columns == {"x": 0, "y": 1}
-    assert "nothing says so" in two.reason
-    three = read_table("a.csv", lines(NOISE[:600, :3])).contents.choice
-    assert not three.columns
-    assert three.question == "The file holds 3 signals. Which was measured at this bearing?"
+@pytest.mark.parametrize("count", [2, 3])
+def test_columns_without_a_name_are_asked_about(count: int) -> None:
+    choice = read_table("a.csv", lines(NOISE[:600, :count])).contents.choice
+    assert not choice.columns
+    assert choice.options == tuple(range(count))
+    assert choice.question == (
+        f"The file holds {count} signals, and nothing says where or in which direction they were "
+        "measured. Which is at this bearing?"
+    )
+
+
+@pytest.mark.parametrize(
+    "names",
+    [("Accel DE", "Accel NDE"), ("DE", "FE"), ("Acc 1", "Acc 2"), ("inboard", "outboard"),
+     ("drive end", "opposite drive end"), ("ch DE", "ch 2")],
+)  # fmt: skip
+def test_two_signals_are_two_directions_only_where_something_says_so(names) -> None:
+    text = "time," + ",".join(names) + "\n"
+    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
+    for file_name in ("a.csv", "pump_de_nde_fe.csv"):
+        choice = read_table(file_name, text.encode() + lines(rows)).contents.choice
+        assert not choice.columns
+        assert choice.options == (1, 2)
+    for axes in ("acc x,acc y", "horizontal,vertical", "DE H,DE V"):
+        table = read_table("a.csv", f"time,{axes}\n".encode() + lines(rows))
+        assert table.contents.choice.columns == {"x": 1, "y": 2}
+
+
+def test_a_heading_of_comments_that_no_row_has_leaves_the_others() -> None:
+    """As LabVIEW writes it: a column of words is named, and empty."""
+    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
+    text = b"X_Value\tAccel DE\tAccel NDE\tComment\n" + lines(rows, delimiter="\t")
+    found: Any = read_table("de_nde.lvm", text).contents
+    assert [column.role for column in found.columns] == ["time", "signal", "signal"]
+    assert [column.place for column in found.columns[1:]] == ["drive end", "non-drive end"]
+    assert "several places" in found.choice.question
+    assert found.sample_rate.value == pytest.approx(8000.0, rel=1e-3)
+
+
+def test_names_in_structs_say_the_place_of_the_signal_next_to_them() -> None:
+    cells = np.empty(2, dtype=object)
+    for index, name in enumerate(("DE", "FE")):
+        cells[index] = {"name": name, "signal": NOISE[:600, index], "fs": 8000.0}
+    file = io.BytesIO()
+    savemat(file, {"data": cells})
+    contents = read_table("a.mat", file.getvalue()).contents
+    assert [column.place for column in contents.columns] == ["drive end", "fan end"]
+    assert not contents.choice.columns
+    assert contents.choice.options == (0, 1)
 
 
 def test_lines_above_the_numbers_are_listened_to() -> None:

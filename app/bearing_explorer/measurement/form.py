@@ -78,7 +78,7 @@ def guess(table: Table) -> dict[str, str]:
     """The first values of the form: what the file says, and good guesses."""
     contents = table.contents
     rate = contents.sample_rate
-    chosen = {} if unlabelled(table) else contents.choice.columns
+    chosen = contents.choice.columns
     return {
         "x": str(chosen.get("x", NONE)),
         "y": str(chosen.get("y", NONE)),
@@ -88,19 +88,6 @@ def guess(table: Table) -> dict[str, str]:
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
-
-
-def unlabelled(table: Table) -> str:
-    """The question which of two columns counts, where nothing says that they are x and y."""
-    choice, columns = table.contents.choice, table.contents.columns
-    chosen = choice.columns.values()
-    if choice.question or len(chosen) < 2 or any(columns[one].direction for one in chosen):
-        return ""
-    return (
-        f"The file holds {len(chosen)} signals and does not say whether they are two directions "
-        "of one place. Which was measured at this bearing? Choose both only if they are x and y "
-        "there."
-    )
 
 
 def bearings_of(
@@ -169,9 +156,7 @@ def questions(table: Table) -> dict[str, str]:
     asked: dict[str, str] = {}
     choice = contents.choice
     if choice.question:
-        asked["y"] = choice.question + (f" A guess: {choice.reason}." if choice.columns else "")
-    elif which := unlabelled(table):
-        asked["y"] = which
+        asked["y"] = choice.question
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
@@ -272,9 +257,7 @@ def read_form(
     chosen = {name: texts[name] for name in ("x", "y") if texts[name] != NONE}
     if not chosen:
         refused["y"] = (
-            table.contents.choice.question
-            or unlabelled(table)
-            or "Choose the column of at least one direction."
+            table.contents.choice.question or "Choose the column of at least one direction."
         )
     elif len(set(chosen.values())) < len(chosen):
         refused["x"] = "x and y cannot be the same column."

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -340,12 +343,23 @@ class Grid:
         )
 
 
+@cache
 def program_version() -> str:
-    """Version of this program; "unknown" where it is not installed."""
+    """Version of this program, and a digest of the sources of its core.
+
+    Code changes more often than its version: results of other sources are results of another
+    program.
+    """
     try:
-        return metadata.version("bearing-explorer")
+        version = metadata.version("bearing-explorer")
     except metadata.PackageNotFoundError:
-        return "unknown"
+        version = "unknown"
+    folder = Path(__file__).resolve().parents[1]
+    digest = hashlib.blake2b(digest_size=5)
+    for file in sorted(folder.rglob("*")):
+        if file.suffix in (".py", ".csv"):
+            digest.update(file.relative_to(folder).as_posix().encode() + b"\0" + file.read_bytes())
+    return f"{version}+{digest.hexdigest()}"
 
 
 def _axis(name: object, given: Any) -> Axis:

@@ -157,12 +157,23 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
     for name, words in (
         ("scene", "another scene"),
         ("request", "a sweep over other fields, for other outputs or with other settings"),
-        ("program_version", f"results of version {found.get('program_version')} of this program"),
+        (
+            "program_version",
+            f"results of version {found.get('program_version')} of this program, which is "
+            f"{expected['program_version']} now and may compute other numbers: delete it, or go on "
+            "with the version that began it",
+        ),
     ):
         if found.get(name) != expected[name]:
             raise _taken(path, f"holds {words}")
     for axis in grid.axes:
-        values = np.asarray(root[axis.name][...])
+        try:
+            values = np.asarray(root[axis.name][...])
+        except Exception as error:  # whatever a decoder makes of half a file
+            words = (
+                f"is damaged in {axis.name} ({type(error).__name__}): delete it, or copy it back"
+            )
+            raise _taken(path, words) from None
         if not np.array_equal(values.astype(axis.values.dtype), axis.values):
             raise _taken(path, f"holds a sweep over other values of {axis.name}")
     return tuple(int(n) for n in root[STATUS].chunks)

@@ -26,7 +26,8 @@ def served(
     """Run `test(url, server)` beside a server, both on one event loop."""
 
     async def both() -> None:
-        server = make_server(page=page, port=0, address="127.0.0.1", limits=limits, **options)
+        given = {"port": 0, "address": "127.0.0.1", **options}
+        server = make_server(page=page, limits=limits, **given)
         server.start()
         try:
             await test(f"http://127.0.0.1:{server.port}{server.prefix}/", server)

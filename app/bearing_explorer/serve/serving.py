@@ -17,6 +17,7 @@ from bokeh.settings import settings
 from tornado.ioloop import PeriodicCallback
 from tornado.routing import Rule
 
+from bearing_explorer.serve.connections import HTTP_OPTIONS, bound
 from bearing_explorer.serve.fast import find_models_quickly
 from bearing_explorer.serve.headers import Headers
 from bearing_explorer.serve.pages import HasControls, Icon, Missing, PageHandler
@@ -28,9 +29,6 @@ SESSION_GRACE_SECONDS = 15.0
 _SWITCH_INTERVAL = 0.0005
 """For which a thread may keep the interpreter from the event loop, which needs it for a moment at a
 time [s]. With Python's own 5 ms a class of thirty waits a sixth longer."""
-
-LARGEST_HEADERS = 2_500_000
-"""Of a request [bytes]: browsers send addresses of 2 MB, which are answered with a sentence."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +70,9 @@ def make_server(
     find_models_quickly()
     settings.perform_document_validation = False  # the tests do it
     options: dict[str, Any] = {}
+    LiveSocket.schemes = dict(map(_origin, origins))
     if origins:
-        options["websocket_origin"] = list(origins)
+        options["websocket_origin"] = list(LiveSocket.schemes)
     if root_path:
         options["prefix"] = root_path
     server = pn.serve(
@@ -92,18 +91,26 @@ def make_server(
         include_headers=[],
         include_cookies=[],
         websocket_max_message_size=limits.message,
-        http_server_kwargs={"max_header_size": LARGEST_HEADERS},
+        http_server_kwargs=dict(HTTP_OPTIONS),
         unused_session_lifetime_milliseconds=int(1e3 * SESSION_GRACE_SECONDS),
         check_unused_sessions_milliseconds=1000,
         default_handler_class=Missing,
         extra_patterns=[(r"/favicon.ico", Icon)],
         **options,
     )
+    bound(server._http)
     sys.setswitchinterval(_SWITCH_INTERVAL)
     server._tornado.add_transform(Headers)
     server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
     PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
     return server
+
+
+def _origin(text: str) -> tuple[str, tuple[str, ...]]:
+    """An allowed host with its port, and the schemes of pages there: both where none is given."""
+    scheme, separator, host = text.rpartition("://")
+    host = host.rstrip("/").lower()
+    return host, (scheme.lower(),) if separator else ("http", "https")
 
 
 _YOUNG, _MIDDLE, _FULL = 2000, 10, 1000  # Python's own: 700, 10, 10

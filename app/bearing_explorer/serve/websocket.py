@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from typing import Any, ClassVar
+from urllib.parse import urlsplit
 
 from panel.io import server as panel_server
 
@@ -23,6 +24,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     """The websocket of one browser."""
 
     connected: ClassVar[set[LiveSocket]] = set()
+    schemes: ClassVar[dict[str, tuple[str, ...]]] = {}
+    """How pages of the hosts that are allowed by name may have come."""
     largest: ClassVar[int] = 4 * 2**20
     """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
     last_message_at = 0.0
@@ -32,9 +35,15 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     receiver: Any
 
     def check_origin(self, origin: str) -> bool:
-        """Whether a page of this origin may connect."""
+        """Whether a page of this origin may connect.
+
+        Bokeh compares hosts alone. This server speaks http: a page that came by https came through
+        a proxy, whose name has been allowed, or from elsewhere.
+        """
         try:
-            return bool(super().check_origin(origin))
+            scheme, host = urlsplit(origin).scheme, urlsplit(origin).netloc.lower()
+            allowed = self.schemes.get(host, ("http",))
+            return scheme in allowed and bool(super().check_origin(origin))
         except ValueError:  # it is no address at all
             return False
 

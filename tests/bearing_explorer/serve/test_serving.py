@@ -23,7 +23,7 @@ from bokeh.models import CustomJS, Spacer
 from tornado.httpclient import HTTPClientError
 from tornado.websocket import websocket_connect
 
-from tests.browser.helpers import explorer_server
+from tests.browser.helpers import explorer_server, free_port
 from tests.browser.helpers import serving as server_up
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
@@ -72,6 +72,41 @@ def test_names_of_sessions_cannot_be_made_up() -> None:
             await client.open_socket("http://another.example")
 
     served(forge)
+
+
+@pytest.mark.parametrize(
+    ("origins", "comes_from", "connects"),
+    [
+        ((), "http://127.0.0.1:{port}", False),
+        (("127.0.0.1:{port}",), "http://127.0.0.1:{port}", True),
+        (("127.0.0.1:{port}",), "https://127.0.0.1:{port}", True),
+        (("https://lab.example.org",), "https://lab.example.org", True),
+        (("https://lab.example.org",), "http://lab.example.org", False),
+        (("lab.example.org",), "https://lab.example.org", True),
+        (("lab.example.org",), "https://lab.example.org.evil.example", False),
+        ((), "https://localhost:{port}", False),
+        ((), "http://localhost:{port}", True),
+        ((), "null", False),
+    ],
+)
+def test_pages_connect_from_where_they_may_have_come(
+    origins: tuple[str, ...], comes_from: str, connects: bool
+) -> None:
+    """An https page is none of this server's own, which speaks http, unless its host is named."""
+
+    async def connect(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        try:
+            await client.open_socket(comes_from.format(port=server.port))
+        except HTTPClientError:
+            assert not connects
+        else:
+            assert connects
+            await client.close()
+
+    port = free_port()
+    served(connect, origins=[one.format(port=port) for one in origins], port=port)
 
 
 NEW_MODEL = {"type": "object", "name": "CustomJS", "id": "x1", "attributes": {"code": "alert(1)"}}

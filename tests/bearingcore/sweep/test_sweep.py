@@ -1,6 +1,7 @@
 """Sweeps: the numbers of single scenes, and nothing lost or done twice whatever is killed."""
 
 import errno
+import hashlib
 import os
 import re
 import shutil
@@ -25,10 +26,11 @@ from hypothesis import strategies as st
 from bearingcore import Scene, contact_pressures, equilibrium, life, modes, orbit, presets, simulate
 from bearingcore.statics.status import StaticStatus
 from bearingcore.sweep import OUTPUTS, STATUSES, sweep
+from bearingcore.sweep import grid as grid_module
 from bearingcore.sweep import store as stores
 from bearingcore.sweep.command import ASK_ABOVE, main
 from bearingcore.sweep.file import grid_from_toml
-from bearingcore.sweep.grid import Grid
+from bearingcore.sweep.grid import Grid, program_version
 from bearingcore.sweep.outputs import Settings
 from bearingcore.sweep.status import OF_STATICS, SweepStatus
 
@@ -418,6 +420,28 @@ def test_results_of_another_version_are_refused(
     monkeypatch.setattr(stores, "program_version", lambda: "9.9")
     with pytest.raises(ValueError, match="results of version"):
         again(finished_store)
+
+
+def test_other_sources_are_another_version() -> None:
+    """A store that other code began is not resumed: numbers of two programs would be mixed."""
+    version, _, digest = program_version().partition("+")
+    assert version
+    folder = Path(grid_module.__file__).parents[1]
+    files = [one for one in sorted(folder.rglob("*")) if one.suffix in (".py", ".csv")]
+    own = hashlib.blake2b(digest_size=5)
+    for file in files:
+        own.update(file.relative_to(folder).as_posix().encode() + b"\0" + file.read_bytes())
+    assert digest == own.hexdigest()
+    assert len(files) > 100
+
+
+def test_a_damaged_coordinate_names_the_folder_and_what_to_do(copied: Path) -> None:
+    (chunk,) = (copied / "extent/c").iterdir()
+    chunk.write_bytes(chunk.read_bytes()[:-3])
+    with pytest.raises(ValueError, match="damaged in extent") as refused:
+        again(copied)
+    assert str(copied) in str(refused.value)
+    assert "delete it" in str(refused.value)
 
 
 def test_other_folders_are_left_alone(tmp_path: Path) -> None:

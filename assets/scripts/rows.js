@@ -19,7 +19,7 @@ const format = (value, step) => {
   const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)))
   // A typed number keeps its own digits, a dragged one those of the step.
   const short = Number(value.toFixed(digits))
-  return String(Math.abs(short - value) < 1e-9 * (1 + Math.abs(value)) ? short : value)
+  return String(Math.abs(short - value) <= 1e-9 * Math.abs(value) ? short : value)
     .replace("-", "\u2212")
 }
 
@@ -179,6 +179,12 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     row.root.classList.toggle("refused", !!sentence)
     row.number?.setAttribute("aria-invalid", sentence ? "true" : "false")
   }
+  // A text that was refused does not stay as if it were the value; its sentence does.
+  const restore = (name) => {
+    const row = rows[name]
+    if (row && row.number.getAttribute("aria-invalid") === "true" && !drafted.includes(name))
+      write_in(row.number, format(values[name] ?? null, limits[name].step))
+  }
   const move = (name, value) => {
     refuse(name, "")
     put(name, value, true)
@@ -219,6 +225,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
     number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
+    number.addEventListener("blur", () => restore(name))
     number.addEventListener("input", () => {  // what is typed back is no error any more
       const { least, most } = limits[name], given = number_in(number)
       if (given >= least && given <= most) refuse(name, "")
@@ -314,7 +321,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   const listen = (takes = take) => model.on("msg:custom", (message) => {
     if (message.state) takes(message.state)
-    for (const [name, sentence] of Object.entries(message.refused ?? {})) refuse(name, sentence)
+    for (const [name, sentence] of Object.entries(message.refused ?? {})) {
+      refuse(name, sentence)
+      if (rows[name]?.root.querySelector("input:focus") !== rows[name]?.number) restore(name)
+    }
   })
 
   // The controls and choices of a group in a box; those named `last` at its end.

@@ -181,7 +181,7 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
 
 def _taken(path: Path, words: str) -> FieldError:
     """The refusal of a folder with something else in it."""
-    return checks.refuse("store", str(path), f"a new folder, or this sweep's own: it {words}")
+    return checks.refuse("store", path.name, f"a new folder, or this sweep's own: {path} {words}")
 
 
 class Region(NamedTuple):

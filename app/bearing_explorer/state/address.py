@@ -73,6 +73,7 @@ LONGEST_LINK = 7_000
 LONGEST_TEXT = 2_500_000
 """Characters that are read at the most, of what a browser has kept: a floor of any length fits."""
 _MOST_FIELDS = 400
+_MOST_ESCAPES = 100_000
 _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
@@ -129,6 +130,8 @@ def read(text: str) -> Place | None:
     """
     if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
+    if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one
+        raise ValueError("It has far too many percent signs to be a scene.")
     try:
         pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
     except ValueError:

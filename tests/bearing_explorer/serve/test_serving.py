@@ -77,7 +77,7 @@ def test_names_of_sessions_cannot_be_made_up() -> None:
 @pytest.mark.parametrize(
     ("origins", "comes_from", "connects"),
     [
-        ((), "http://127.0.0.1:{port}", False),
+        ((), "http://127.0.0.1:{port}", True),
         (("127.0.0.1:{port}",), "http://127.0.0.1:{port}", True),
         (("127.0.0.1:{port}",), "https://127.0.0.1:{port}", True),
         (("https://lab.example.org",), "https://lab.example.org", True),

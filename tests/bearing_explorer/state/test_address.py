@@ -202,6 +202,7 @@ def test_every_preset_is_among_the_frozen_links() -> None:
         ("v=1&" + "&".join(f"x{i}=1" for i in range(1000)), "far too many"),
         ("v=1&fy_n=" + "9" * 3_000_000, "too long"),
         ("v=1&" + "%" * 100_000, "ignored"),
+        ("v=1&" + "%" * 2_000_000, "too many percent signs"),
         ("v=1&fy_n=%ff%fe", "not a number"),
         ("v=1&poisson=0.3", "Not possible"),
         ("v=1&__class__=1&tab=__init__", "ignored"),

@@ -25,6 +25,9 @@
     else missing.push(name)
   }
   const nothing = () => {}
+  const module = (place, name) => {
+    try { return globalThis.Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
+  }
 
   const renderer = view_of("GlyphRenderer")
   const line = view_of("Line")
@@ -199,19 +202,76 @@
     })
   })
 
-  // Where anything on the page grew by a line of text, or an axis by a digit, all figures of all tabs
-  // were laid out anew, with their toolbars. Style sheets place what is on the page, and a figure
-  // hears of its own size: it is laid out with those of its card, whose axes are in line.
+  // Colours and widths of an axis, a grid or a title may come from style sheets, and are asked for
+  // there, one by one, each time. No style sheet here says any.
+  const visual = module("core/visuals/visual", "VisualProperties")
+  part("looks out of style sheets", [method(visual, "_get_css_value")], () => {
+    visual._get_css_value = () => ""
+  })
+
+  // All style sheets of what is laid out are emptied and written anew, mostly as they were, and in
+  // between it is asked how large something is: the browser works out all styles each time. Here
+  // they are written when all of them are known, and those that stay are not touched.
+  const sheet = module("core/dom", "InlineStyleSheet")
+  const write = method(sheet, "_update")
+  const text = getter(sheet, "css")
+  let unwritten = null
+  const written_once = (act) => {
+    if (unwritten !== null) return act()
+    unwritten = new Map()
+    try {
+      return act()
+    } finally {
+      const sheets = unwritten
+      unwritten = null
+      for (const [one, css] of sheets) one._update(css)
+    }
+  }
+  part("style sheets that stay", [write, text], () => {
+    sheet._update = function (css) {
+      if (unwritten !== null) unwritten.set(this, css)
+      else if (text.call(this) !== css) write.call(this, css)
+    }
+    Object.defineProperty(sheet, "css", {
+      configurable: true,
+      get() { return unwritten?.get(this) ?? text.call(this) },
+    })
+  })
+
+  // Whatever changes in a figure, Bokeh lays out the page: all that it shows and all tabs that have
+  // ever been open, once a change. Style sheets place what is on the page: here a change lays out its
+  // card, one of a card its tab, all changes of a message do so once, and what is in a closed tab is
+  // laid out when that opens. A figure hears of its own size: it is laid out with those of its card,
+  // whose axes are in line.
   const column = view_of("Column")
   const resized = method(column, "_after_resize")
   const heard = method(figure, "after_resize")
   const lay_out = method(column, "compute_layout")
   const measure = method(column, "measure_layout")
+  const update = method(column, "update_layout")
   const update_bbox = method(column, "update_bbox")
   const compute = method(column, "_compute_layout")
   const follow = method(column, "after_layout")
-  part("layout of the page", [resized, heard, lay_out, measure, update_bbox, compute, follow], () => {
+  const invalidate = method(column, "invalidate_layout")
+  const laid_out = getter(column, "layoutable_views")
+  const needed = [resized, heard, lay_out, measure, update, update_bbox, compute, follow, invalidate, laid_out]
+  part("layout of the page", needed, () => {
+    const place = owner(column, "invalidate_layout")
     const is_figure = (view) => view instanceof figure.constructor
+    const is = (view, name) => view.el.classList.contains(name)
+    const is_layout = (view) => view instanceof place.constructor
+    const closed = (view) => is_layout(view) && (is(view, "off-screen") || closed(view.parent))
+    Object.defineProperty(owner(column, "layoutable_views"), "layoutable_views", {
+      configurable: true,
+      get() { return laid_out.call(this).filter((view) => !is(view, "off-screen")) },
+    })
+    const lay_out_all = (view) => {
+      view.measure_layout()
+      view.update_bbox()
+      view._compute_layout()
+      view.after_layout()
+      view._layout_computed = true
+    }
     owner(column, "_after_resize")._after_resize = function () {
       if (!this._was_built || is_figure(this)) resized.call(this)
     }
@@ -223,11 +283,24 @@
       if (this._was_built && this.is_displayed && stale) this.compute_layout()
     }
     owner(column, "compute_layout").compute_layout = function () {
-      if (!this.el.classList.contains("view")) return lay_out.call(this)
-      this.measure_layout()
-      this.update_bbox()
-      this._compute_layout()
-      this.after_layout()
+      if (!is(this, "view")) lay_out.call(this)
+      else if (!closed(this)) lay_out_all(this)
+    }
+
+    const waiting = new Set()
+    const within = (view) => is_layout(view.parent) && (waiting.has(view.parent) || within(view.parent))
+    const lay_out_waiting = () => {
+      const tops = [...waiting].filter((view) => view.el.isConnected && !closed(view) && !within(view))
+      waiting.clear()
+      written_once(() => { for (const view of tops) view.update_layout() })
+      for (const view of tops) lay_out_all(view)
+    }
+    place.invalidate_layout = function () {
+      let top = this
+      while (is_layout(top.parent) && (top === this || !is(top, "view"))) top = top.parent
+      if (!top._layout_computed && !is_layout(top.parent)) return invalidate.call(top)
+      if (waiting.size === 0) queueMicrotask(lay_out_waiting)
+      waiting.add(top)
     }
   })
 

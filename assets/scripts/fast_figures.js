@@ -34,15 +34,14 @@
   const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
 
-  // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
-  // own: styles and layout of the page are worked out anew each time they move.
+  // Lines, dots and grids have an element each, empty, with six style sheets, one of which puts it
+  // where they are: styles and layout of the page are worked out anew each time they move.
   const placed = method(renderer, "update_position")
-  part("places of glyphs", [placed], () => {
-    const gone = ":host { display: none; }"
-    renderer.update_position = function () {
-      const sheet = this.position
-      if (typeof sheet?.replace !== "function") placed.call(this)
-      else if (sheet.css !== gone) sheet.replace(gone)
+  const styled = method(renderer, "_update_stylesheets")
+  part("places of glyphs", [placed, styled], () => {
+    for (const view of [renderer, view_of("Grid")]) {
+      view._update_stylesheets = function () { this.el.style.display = "none" }
+      view.update_position = nothing
     }
   })
 
@@ -212,8 +211,12 @@
   // All style sheets of what is laid out are emptied and written anew, mostly as they were, and in
   // between it is asked how large something is: the browser works out all styles each time. Here
   // they are written when all of them are known, and those that stay are not touched.
+  // Half of them stay empty: what is in the document is looked through whenever a sheet changes, so
+  // an empty one has a comment in its place.
   const sheet = module("core/dom", "InlineStyleSheet")
   const write = method(sheet, "_update")
+  const install = method(sheet, "install")
+  const uninstall = method(sheet, "uninstall")
   const text = getter(sheet, "css")
   let unwritten = null
   const written_once = (act) => {
@@ -227,15 +230,49 @@
       for (const [one, css] of sheets) one._update(css)
     }
   }
-  part("style sheets that stay", [write, text], () => {
+  part("style sheets that stay", [write, install, uninstall, text], () => {
+    const gaps = new WeakMap()
     sheet._update = function (css) {
       if (unwritten !== null) unwritten.set(this, css)
       else if (text.call(this) !== css) write.call(this, css)
+      else return
+      if (css !== "") gaps.get(this)?.replaceWith(this.el)
+    }
+    sheet.install = function (root) {
+      if (this.css !== "") return install.call(this, root)
+      if (!gaps.has(this)) gaps.set(this, new Comment())
+      root.append(gaps.get(this))
+    }
+    sheet.uninstall = function () {
+      gaps.get(this)?.remove()
+      uninstall.call(this)
     }
     Object.defineProperty(sheet, "css", {
       configurable: true,
       get() { return unwritten?.get(this) ?? text.call(this) },
     })
+  })
+
+  // Each part of the page loads the style sheets of Panel for itself, a little later, and the page is
+  // worked out anew as each comes: from the second part on they are there.
+  const linked = module("core/dom", "ImportedStyleSheet")
+  const load = method(linked, "install")
+  part("style sheets that are known", [load], () => {
+    const known = new Map()
+    const absolute = (css, base) =>
+      css.replace(/url\("(?![a-z]+:|#)([^"]*)"\)/g, (_, at) => `url("${new URL(at, base)}")`)
+    const written = (css) => Object.assign(document.createElement("style"), { textContent: css })
+    linked.install = function (root) {
+      const link = this.el, { href } = link
+      if (known.has(href)) this.el = written(known.get(href))
+      else if (href) link.addEventListener("load", () => {
+        const css = [...link.sheet?.cssRules ?? []].map((rule) => rule.cssText).join("\n")
+        if (css === "") return
+        known.set(href, absolute(css, href))
+        link.replaceWith(this.el = written(known.get(href)))
+      }, { once: true })
+      load.call(this, root)
+    }
   })
 
   // Whatever changes in a figure, Bokeh lays out the page: all that it shows and all tabs that have

@@ -184,20 +184,14 @@
     }
   })
 
-  // The size of letters in "em", which no figure here has: asking for it works out all styles.
+  // The size of letters in "em", which no figure here has: asking for it works out all styles. It is
+  // asked for once.
   const size = getter(figure, "base_font_size")
   part("size of letters", [size], () => {
-    const sizes = new WeakMap()
+    let found = null
     Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
       configurable: true,
-      get() {
-        if (!sizes.has(this)) {
-          const found = size.call(this)
-          if (found === null) return found
-          sizes.set(this, found)
-        }
-        return sizes.get(this)
-      },
+      get() { return found ??= size.call(this) },
     })
   })
 
@@ -219,15 +213,19 @@
   const uninstall = method(sheet, "uninstall")
   const text = getter(sheet, "css")
   let unwritten = null
+  const write_all = (and_then) => {
+    const sheets = unwritten ?? []
+    unwritten = null
+    for (const [one, css] of sheets) one._update(css)
+    unwritten = and_then
+  }
   const written_once = (act) => {
     if (unwritten !== null) return act()
     unwritten = new Map()
     try {
       return act()
     } finally {
-      const sheets = unwritten
-      unwritten = null
-      for (const [one, css] of sheets) one._update(css)
+      write_all(null)
     }
   }
   part("style sheets that stay", [write, install, uninstall, text], () => {
@@ -290,8 +288,9 @@
   const compute = method(column, "_compute_layout")
   const follow = method(column, "after_layout")
   const invalidate = method(column, "invalidate_layout")
+  const came = method(column, "r_after_render")
   const laid_out = getter(column, "layoutable_views")
-  const needed = [resized, heard, lay_out, measure, update, update_bbox, compute, follow, invalidate, laid_out]
+  const needed = [resized, heard, lay_out, measure, update, update_bbox, compute, follow, invalidate, came, laid_out]
   part("layout of the page", needed, () => {
     const place = owner(column, "invalidate_layout")
     const is_figure = (view) => view instanceof figure.constructor
@@ -303,6 +302,7 @@
       get() { return laid_out.call(this).filter((view) => !is(view, "off-screen")) },
     })
     const lay_out_all = (view) => {
+      write_all(unwritten && new Map())
       view.measure_layout()
       view.update_bbox()
       view._compute_layout()
@@ -324,6 +324,19 @@
       else if (!closed(this)) lay_out_all(this)
     }
 
+    // ... and hears of it as it comes, when it is asked how large it is already
+    const come = owner(column, "r_after_render")
+    come.r_after_render = function () { written_once(() => came.call(this)) }
+
+    // What is out of the document costs nothing: styles are worked out for all that is in it.
+    owner(column, "update_layout").update_layout = function () {
+      for (const { el } of this.child_views) {
+        if (el.classList.contains("off-screen")) el.remove()
+        else if (el.classList.contains("on-screen") && !el.isConnected) this.shadow_el.append(el)
+      }
+      update.call(this)
+    }
+
     const waiting = new Set()
     const within = (view) => is_layout(view.parent) && (waiting.has(view.parent) || within(view.parent))
     const lay_out_waiting = () => {
@@ -335,7 +348,10 @@
     place.invalidate_layout = function () {
       let top = this
       while (is_layout(top.parent) && (top === this || !is(top, "view"))) top = top.parent
-      if (!top._layout_computed && !is_layout(top.parent)) return invalidate.call(top)
+      if (!top._layout_computed && !is_layout(top.parent)) {
+        written_once(() => top.update_layout())
+        return lay_out_all(top)
+      }
       if (waiting.size === 0) queueMicrotask(lay_out_waiting)
       waiting.add(top)
     }

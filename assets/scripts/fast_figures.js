@@ -195,6 +195,73 @@
     })
   })
 
+  // A tab may be many screens long: a figure is painted when it is nearly in sight. Whether its axes
+  // have room is looked at when it is shown.
+  const paint = method(figure, "paint")
+  const save = method(figure, "export")
+  const relayout = method(figure, "_invalidate_layout_if_needed")
+  part("figures out of sight", [paint, save, relayout], () => {
+    const NEAR = 0.7  // of the window, above and below it
+    const views = new WeakMap(), near = new WeakMap(), unpainted = new WeakSet()
+    const watch = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        const view = views.get(target)
+        near.set(view, isIntersecting)
+        if (isIntersecting && unpainted.has(view)) view.request_repaint()
+      }
+    }, { rootMargin: `${100 * NEAR}%`, scrollMargin: `${100 * NEAR}%` })
+    const is_near = (view) => {
+      if (!views.has(view.el)) {
+        views.set(view.el, view)
+        watch.observe(view.el)
+        const { top, bottom } = view.el.getBoundingClientRect()
+        near.set(view, bottom > -NEAR * innerHeight && top < (1 + NEAR) * innerHeight)
+      }
+      return near.get(view)
+    }
+    figure.paint = function () {
+      if (!this.is_displayed) return paint.call(this)
+      if (is_near(this)) {
+        unpainted.delete(this)
+        return paint.call(this)
+      }
+      unpainted.add(this)
+      this._is_displayed = false
+      try { paint.call(this) } finally { this._is_displayed = true }
+    }
+    figure.export = function (...rest) {
+      if (unpainted.delete(this)) paint.call(this)
+      return save.apply(this, rest)
+    }
+    figure._invalidate_layout_if_needed = function () {
+      if (this.is_displayed) relayout.call(this)
+    }
+  })
+
+  // The script of each part of the page is compiled for itself, and asks for the view of its model:
+  // all views are looked through, most of them glyphs.
+  const scripted = globalThis.Bokeh?.Models?.get("panel.models.esm.ReactiveESM")?.prototype
+  const compile = method(scripted, "compile")
+  const index_of_views = module("core/view_manager", "ViewManager")
+  const find = method(index_of_views, "find_one_by_id")
+  part("scripts of parts", [compile, find], () => {
+    const known = new Map()
+    scripted.compile = function () {
+      if (this.bundle != null) return compile.call(this)
+      const key = `${this.type} ${this.esm}`
+      if (!known.has(key)) known.set(key, compile.call(this))
+      return known.get(key)
+    }
+    const among = (views, id) => {
+      for (const view of views) {
+        const found = view.model.id === id ? view : among(view.child_views ?? [], id)
+        if (found) return found
+      }
+      return null
+    }
+    index_of_views.find_one_by_id = function (id) { return among(this, id) ?? find.call(this, id) }
+  })
+
   // Colours and widths of an axis, a grid or a title may come from style sheets, and are asked for
   // there, one by one, each time. No style sheet here says any.
   const visual = module("core/visuals/visual", "VisualProperties")

@@ -22,7 +22,9 @@ _WATCH = """() => {
   }
 }"""
 
-_FIGURES = """() => [...Bokeh.index.query((view) => view.model.type === "Figure" && view.is_displayed)]"""
+_FIGURES = (
+    """() => [...Bokeh.index.query((view) => view.model.type === "Figure" && view.is_displayed)]"""
+)
 _SIZES = f"""() => ({_FIGURES})().map((view) => {{
   const box = view.el.getBoundingClientRect()
   return [box.width, view.layout.bbox.width, box.height, view.layout.bbox.height]

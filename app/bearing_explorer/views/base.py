@@ -232,7 +232,7 @@ class View:
         return self._pictures[-1]
 
     def withhold(self, hidden: pn.Column) -> None:
-        """Keep the content of a hidden layout from the browser, which would build it, till `bring`."""
+        """Until `bring`, keep the content of a hidden layout from the browser, which would build it."""
         self._withheld.append((hidden, list(hidden.objects)))
         hidden.objects = []
 

@@ -195,14 +195,34 @@
     })
   })
 
-  // A tab may be many screens long: a figure is painted when it is nearly in sight. Whether its axes
-  // have room is looked at when it is shown.
+  // A tab may be many screens long: a figure that is not nearly in sight is painted once all others
+  // rest, one at a time. Whether its axes have room is looked at when it is shown.
   const paint = method(figure, "paint")
   const save = method(figure, "export")
   const relayout = method(figure, "_invalidate_layout_if_needed")
   part("figures out of sight", [paint, save, relayout], () => {
-    const NEAR = 0.7  // of the window, above and below it
-    const views = new WeakMap(), near = new WeakMap(), unpainted = new WeakSet()
+    const NEAR = 0.7, REST = 200  // of the window, above and below it; ms
+    const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
+    const paint_now = (view) => {
+      unpainted.delete(view)
+      return paint.call(view)
+    }
+    const idle = window.requestIdleCallback ?? ((act) => setTimeout(act, 50))
+    let rest
+    const paint_one = () => {
+      const [view] = unpainted
+      if (view === undefined) return
+      if (view.is_displayed) paint_now(view)
+      unpainted.delete(view)
+      idle(paint_one)
+    }
+    const paint_later = (view) => {
+      unpainted.add(view)
+      clearTimeout(rest)
+      rest = setTimeout(() => idle(paint_one), REST)
+      view._is_displayed = false
+      try { paint.call(view) } finally { view._is_displayed = true }
+    }
     const watch = new IntersectionObserver((entries) => {
       for (const { target, isIntersecting } of entries) {
         const view = views.get(target)
@@ -220,17 +240,11 @@
       return near.get(view)
     }
     figure.paint = function () {
-      if (!this.is_displayed) return paint.call(this)
-      if (is_near(this)) {
-        unpainted.delete(this)
-        return paint.call(this)
-      }
-      unpainted.add(this)
-      this._is_displayed = false
-      try { paint.call(this) } finally { this._is_displayed = true }
+      if (this.is_displayed && !is_near(this)) paint_later(this)
+      else paint_now(this)
     }
     figure.export = function (...rest) {
-      if (unpainted.delete(this)) paint.call(this)
+      if (unpainted.has(this)) paint_now(this)
       return save.apply(this, rest)
     }
     figure._invalidate_layout_if_needed = function () {

@@ -232,7 +232,7 @@ class View:
         return self._pictures[-1]
 
     def withhold(self, hidden: pn.Column) -> None:
-        """Until `bring`, keep the content of a hidden layout from the browser, which would build it."""
+        """Keep what a hidden layout holds from the browser, which would build it, till `bring`."""
         self._withheld.append((hidden, list(hidden.objects)))
         hidden.objects = []
 

@@ -201,7 +201,7 @@
   const save = method(figure, "export")
   const relayout = method(figure, "_invalidate_layout_if_needed")
   part("figures out of sight", [paint, save, relayout], () => {
-    const NEAR = 0.7, REST = 200  // of the window, above and below it; ms
+    const NEAR = 0.7, REST = 700  // of the window, above and below it; ms
     const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
     const paint_now = (view) => {
       unpainted.delete(view)

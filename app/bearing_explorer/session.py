@@ -383,7 +383,7 @@ class Explorer:
 
 
 def _classes(name: str, *, shown: bool) -> list[str]:
-    """What styles and scripts know a tab by."""
+    """Classes of the place of a tab, for styles and scripts."""
     return ["section", f"section-{name}", "on-screen" if shown else "off-screen"]
 
 

@@ -85,7 +85,6 @@ class Explorer:
         self.packed = PackedSource()
         self._sections = {section.name: section for section in sections}
         self._views: dict[str, list[View]] = {}
-        self._containers: dict[str, pn.Column] = {}
         self._drawn_mark = 0
         self._settings = Settings()
         self._life_inputs = LifeInputs()
@@ -122,7 +121,10 @@ class Explorer:
             names=[[section.name, section.title, section.group] for section in sections],
             active=self._shown,
         )
-        self.main = pn.Column(sizing_mode="stretch_both", margin=0)  # the page gives its height
+        # a place for each tab, or the browser would go through all of them whenever one comes
+        self._containers = {name: _place(name) for name in self._sections}
+        places = self._containers.values()
+        self.main = pn.Column(*places, sizing_mode="stretch_both", margin=0)  # the page's height
         self._parts = SessionParts(
             self.editor,
             self.jobs,
@@ -265,25 +267,18 @@ class Explorer:
         """
         if name not in self._views:
             self._views[name] = await in_turn(self._make, name)
-        if name not in self._containers:
-            self._containers[name] = self._container(self._views[name])
-        new = self._containers[name] not in self.main
+            for view in self._views[name]:
+                view.attach(self._parts)
+        new = not self._containers[name].objects
         await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
 
-    def _container(self, views: Sequence[View]) -> pn.Column:
-        """The layout with the views of a section."""
-        for view in views:
-            view.attach(self._parts)
-        return stack(*(view.panel for view in views), stylesheets=[asset_text("section.css")])
-
     def _attach_tab(self, name: str) -> None:
-        if self._containers[name] not in self.main:
-            self.main.append(self._containers[name])
+        if not self._containers[name].objects:
+            self._containers[name].objects = [view.panel for view in self._views[name]]
         for other, container in self._containers.items():
-            shown = "on-screen" if other == name else "off-screen"
-            container.css_classes = ["section", f"section-{other}", shown]
+            container.css_classes = _classes(other, shown=other == name)
             if other != name:
-                for view in self._views[other]:
+                for view in self._views.get(other, ()):
                     view.put_away()
         self.packed.introduce()
         self.tabs.active = self._on_screen = name
@@ -386,3 +381,13 @@ class Explorer:
             self.status.put(line={"mood": "bad", "words": BROKEN, "details": []})
 
         await one_message(self._doc, change)
+
+
+def _classes(name: str, *, shown: bool) -> list[str]:
+    """Classes of the place of a tab, for styles and scripts."""
+    return ["section", f"section-{name}", "on-screen" if shown else "off-screen"]
+
+
+def _place(name: str) -> pn.Column:
+    """The layout of a tab that is not open yet."""
+    return stack(css_classes=_classes(name, shown=False), stylesheets=[asset_text("section.css")])

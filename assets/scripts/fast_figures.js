@@ -25,21 +25,23 @@
     else missing.push(name)
   }
   const nothing = () => {}
+  const module = (place, name) => {
+    try { return globalThis.Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
+  }
 
   const renderer = view_of("GlyphRenderer")
   const line = view_of("Line")
   const axis = view_of("LinearAxis")
   const figure = view_of("Plot")
 
-  // Lines and dots have an element each, empty, which is put where they are by a style sheet of its
-  // own: styles and layout of the page are worked out anew each time they move.
+  // Lines, dots and grids have an element each, empty, with six style sheets, one of which puts it
+  // where they are: styles and layout of the page are worked out anew each time they move.
   const placed = method(renderer, "update_position")
-  part("places of glyphs", [placed], () => {
-    const gone = ":host { display: none; }"
-    renderer.update_position = function () {
-      const sheet = this.position
-      if (typeof sheet?.replace !== "function") placed.call(this)
-      else if (sheet.css !== gone) sheet.replace(gone)
+  const styled = method(renderer, "_update_stylesheets")
+  part("places of glyphs", [placed, styled], () => {
+    for (const view of [renderer, view_of("Grid")]) {
+      view._update_stylesheets = function () { this.el.style.display = "none" }
+      view.update_position = nothing
     }
   })
 
@@ -182,36 +184,212 @@
     }
   })
 
-  // The size of letters in "em", which no figure here has: asking for it works out all styles.
+  // The size of letters in "em", which no figure here has: asking for it works out all styles. It is
+  // asked for once.
   const size = getter(figure, "base_font_size")
   part("size of letters", [size], () => {
-    const sizes = new WeakMap()
+    let found = null
     Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
       configurable: true,
-      get() {
-        if (!sizes.has(this)) {
-          const found = size.call(this)
-          if (found === null) return found
-          sizes.set(this, found)
-        }
-        return sizes.get(this)
-      },
+      get() { return found ??= size.call(this) },
     })
   })
 
-  // Where anything on the page grew by a line of text, or an axis by a digit, all figures of all tabs
-  // were laid out anew, with their toolbars. Style sheets place what is on the page, and a figure
-  // hears of its own size: it is laid out with those of its card, whose axes are in line.
+  // A tab may be many screens long: a figure that is not nearly in sight is painted once all others
+  // rest, one at a time. Whether its axes have room is looked at when it is shown.
+  const paint = method(figure, "paint")
+  const save = method(figure, "export")
+  const relayout = method(figure, "_invalidate_layout_if_needed")
+  part("figures out of sight", [paint, save, relayout], () => {
+    const NEAR = 0.7, REST = 700  // of the window, above and below it; ms
+    const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
+    const paint_now = (view) => {
+      unpainted.delete(view)
+      return paint.call(view)
+    }
+    const idle = window.requestIdleCallback ?? ((act) => setTimeout(act, 50))
+    let rest
+    const paint_one = () => {
+      const [view] = unpainted
+      if (view === undefined) return
+      if (view.is_displayed) paint_now(view)
+      unpainted.delete(view)
+      idle(paint_one)
+    }
+    const paint_later = (view) => {
+      unpainted.add(view)
+      clearTimeout(rest)
+      rest = setTimeout(() => idle(paint_one), REST)
+      view._is_displayed = false
+      try { paint.call(view) } finally { view._is_displayed = true }
+    }
+    const watch = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries) {
+        const view = views.get(target)
+        near.set(view, isIntersecting)
+        if (isIntersecting && unpainted.has(view)) view.request_repaint()
+      }
+    }, { rootMargin: `${100 * NEAR}%`, scrollMargin: `${100 * NEAR}%` })
+    const is_near = (view) => {
+      if (!views.has(view.el)) {
+        views.set(view.el, view)
+        watch.observe(view.el)
+        const { top, bottom } = view.el.getBoundingClientRect()
+        near.set(view, bottom > -NEAR * innerHeight && top < (1 + NEAR) * innerHeight)
+      }
+      return near.get(view)
+    }
+    figure.paint = function () {
+      if (this.is_displayed && !is_near(this)) paint_later(this)
+      else paint_now(this)
+    }
+    figure.export = function (...rest) {
+      if (unpainted.has(this)) paint_now(this)
+      return save.apply(this, rest)
+    }
+    figure._invalidate_layout_if_needed = function () {
+      if (this.is_displayed) relayout.call(this)
+    }
+  })
+
+  // The script of each part of the page is compiled for itself, and asks for the view of its model:
+  // all views are looked through, most of them glyphs.
+  const scripted = globalThis.Bokeh?.Models?.get("panel.models.esm.ReactiveESM")?.prototype
+  const compile = method(scripted, "compile")
+  const index_of_views = module("core/view_manager", "ViewManager")
+  const find = method(index_of_views, "find_one_by_id")
+  part("scripts of parts", [compile, find], () => {
+    const known = new Map()
+    scripted.compile = function () {
+      if (this.bundle != null) return compile.call(this)
+      const key = `${this.type} ${this.esm}`
+      if (!known.has(key)) known.set(key, compile.call(this))
+      return known.get(key)
+    }
+    const among = (views, id) => {
+      for (const view of views) {
+        const found = view.model.id === id ? view : among(view.child_views ?? [], id)
+        if (found) return found
+      }
+      return null
+    }
+    index_of_views.find_one_by_id = function (id) { return among(this, id) ?? find.call(this, id) }
+  })
+
+  // Colours and widths of an axis, a grid or a title may come from style sheets, and are asked for
+  // there, one by one, each time. No style sheet here says any.
+  const visual = module("core/visuals/visual", "VisualProperties")
+  part("looks out of style sheets", [method(visual, "_get_css_value")], () => {
+    visual._get_css_value = () => ""
+  })
+
+  // All style sheets of what is laid out are emptied and written anew, mostly as they were, and in
+  // between it is asked how large something is: the browser works out all styles each time. Here
+  // they are written when all of them are known, and those that stay are not touched.
+  // Half of them stay empty: what is in the document is looked through whenever a sheet changes, so
+  // an empty one has a comment in its place.
+  const sheet = module("core/dom", "InlineStyleSheet")
+  const write = method(sheet, "_update")
+  const install = method(sheet, "install")
+  const uninstall = method(sheet, "uninstall")
+  const text = getter(sheet, "css")
+  let unwritten = null
+  const write_all = (and_then) => {
+    const sheets = unwritten ?? []
+    unwritten = null
+    for (const [one, css] of sheets) one._update(css)
+    unwritten = and_then
+  }
+  const written_once = (act) => {
+    if (unwritten !== null) return act()
+    unwritten = new Map()
+    try {
+      return act()
+    } finally {
+      write_all(null)
+    }
+  }
+  part("style sheets that stay", [write, install, uninstall, text], () => {
+    const gaps = new WeakMap()
+    sheet._update = function (css) {
+      if (unwritten !== null) unwritten.set(this, css)
+      else if (text.call(this) !== css) write.call(this, css)
+      else return
+      if (css !== "") gaps.get(this)?.replaceWith(this.el)
+    }
+    sheet.install = function (root) {
+      if (this.css !== "") return install.call(this, root)
+      if (!gaps.has(this)) gaps.set(this, new Comment())
+      root.append(gaps.get(this))
+    }
+    sheet.uninstall = function () {
+      gaps.get(this)?.remove()
+      uninstall.call(this)
+    }
+    Object.defineProperty(sheet, "css", {
+      configurable: true,
+      get() { return unwritten?.get(this) ?? text.call(this) },
+    })
+  })
+
+  // Each part of the page loads the style sheets of Panel for itself, a little later, and the page is
+  // worked out anew as each comes: from the second part on they are there.
+  const linked = module("core/dom", "ImportedStyleSheet")
+  const load = method(linked, "install")
+  part("style sheets that are known", [load], () => {
+    const known = new Map()
+    const absolute = (css, base) =>
+      css.replace(/url\("(?![a-z]+:|#)([^"]*)"\)/g, (_, at) => `url("${new URL(at, base)}")`)
+    const written = (css) => Object.assign(document.createElement("style"), { textContent: css })
+    linked.install = function (root) {
+      const link = this.el, { href } = link
+      if (known.has(href)) this.el = written(known.get(href))
+      else if (href) link.addEventListener("load", () => {
+        const css = [...link.sheet?.cssRules ?? []].map((rule) => rule.cssText).join("\n")
+        if (css === "") return
+        known.set(href, absolute(css, href))
+        link.replaceWith(this.el = written(known.get(href)))
+      }, { once: true })
+      load.call(this, root)
+    }
+  })
+
+  // Whatever changes in a figure, Bokeh lays out the page: all that it shows and all tabs that have
+  // ever been open, once a change. Style sheets place what is on the page: here a change lays out its
+  // card, one of a card its tab, all changes of a message do so once, and what is in a closed tab is
+  // laid out when that opens. A figure hears of its own size: it is laid out with those of its card,
+  // whose axes are in line.
   const column = view_of("Column")
   const resized = method(column, "_after_resize")
   const heard = method(figure, "after_resize")
   const lay_out = method(column, "compute_layout")
   const measure = method(column, "measure_layout")
+  const update = method(column, "update_layout")
   const update_bbox = method(column, "update_bbox")
   const compute = method(column, "_compute_layout")
   const follow = method(column, "after_layout")
-  part("layout of the page", [resized, heard, lay_out, measure, update_bbox, compute, follow], () => {
+  const invalidate = method(column, "invalidate_layout")
+  const came = method(column, "r_after_render")
+  const laid_out = getter(column, "layoutable_views")
+  const needed = [resized, heard, lay_out, measure, update, update_bbox, compute, follow, invalidate, came, laid_out]
+  part("layout of the page", needed, () => {
+    const place = owner(column, "invalidate_layout")
     const is_figure = (view) => view instanceof figure.constructor
+    const is = (view, name) => view.el.classList.contains(name)
+    const is_layout = (view) => view instanceof place.constructor
+    const closed = (view) => is_layout(view) && (is(view, "off-screen") || closed(view.parent))
+    Object.defineProperty(owner(column, "layoutable_views"), "layoutable_views", {
+      configurable: true,
+      get() { return laid_out.call(this).filter((view) => !is(view, "off-screen")) },
+    })
+    const lay_out_all = (view) => {
+      write_all(unwritten && new Map())
+      view.measure_layout()
+      view.update_bbox()
+      view._compute_layout()
+      view.after_layout()
+      view._layout_computed = true
+    }
     owner(column, "_after_resize")._after_resize = function () {
       if (!this._was_built || is_figure(this)) resized.call(this)
     }
@@ -223,11 +401,40 @@
       if (this._was_built && this.is_displayed && stale) this.compute_layout()
     }
     owner(column, "compute_layout").compute_layout = function () {
-      if (!this.el.classList.contains("view")) return lay_out.call(this)
-      this.measure_layout()
-      this.update_bbox()
-      this._compute_layout()
-      this.after_layout()
+      if (!is(this, "view")) lay_out.call(this)
+      else if (!closed(this)) lay_out_all(this)
+    }
+
+    // ... and hears of it as it comes, when it is asked how large it is already
+    const come = owner(column, "r_after_render")
+    come.r_after_render = function () { written_once(() => came.call(this)) }
+
+    // What is out of the document costs nothing: styles are worked out for all that is in it.
+    owner(column, "update_layout").update_layout = function () {
+      for (const { el } of this.child_views) {
+        if (el.classList.contains("off-screen")) el.remove()
+        else if (el.classList.contains("on-screen") && !el.isConnected) this.shadow_el.append(el)
+      }
+      update.call(this)
+    }
+
+    const waiting = new Set()
+    const within = (view) => is_layout(view.parent) && (waiting.has(view.parent) || within(view.parent))
+    const lay_out_waiting = () => {
+      const tops = [...waiting].filter((view) => view.el.isConnected && !closed(view) && !within(view))
+      waiting.clear()
+      written_once(() => { for (const view of tops) view.update_layout() })
+      for (const view of tops) lay_out_all(view)
+    }
+    place.invalidate_layout = function () {
+      let top = this
+      while (is_layout(top.parent) && (top === this || !is(top, "view"))) top = top.parent
+      if (!top._layout_computed && !is_layout(top.parent)) {
+        written_once(() => top.update_layout())
+        return lay_out_all(top)
+      }
+      if (waiting.size === 0) queueMicrotask(lay_out_waiting)
+      waiting.add(top)
     }
   })
 

@@ -97,6 +97,9 @@
     root.dataset.theme = theme = next
     paint_all()
     clear_all(document.body ?? root)
+    // closed tabs are not in the document
+    for (const { el } of window.Bokeh?.index.query(({ el }) => el && !el.isConnected) ?? [])
+      if (el.matches(".off-screen")) clear_all(el.shadowRoot)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of documents())
       for (const model of doc._all_models.values())

@@ -153,14 +153,6 @@
   const bokeh_class = (place, name) => {
     try { return Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
   }
-  // Bokeh writes the style sheet of every part of a figure anew at each paint, the same or not, and
-  // the browser then works out the styles of the page again, ten times a picture.
-  const keep_styles = () => {
-    const sheet = bokeh_class("core/dom", "InlineStyleSheet"), write = sheet?._update
-    if (write) sheet._update = function (css) {
-      if (this.el.textContent !== css) write.call(this, css)
-    }
-  }
   // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
   // and jumps where they come together. Here it stays under them.
   const pinch_with_fingers = () => {
@@ -176,7 +168,6 @@
 
   const begin = () => {
     if (!window.Bokeh?.documents?.length) return setTimeout(begin, 30)
-    keep_styles()
     pinch_with_fingers()
     announce("figures")
     if (location.hash.includes("projector")) announce("projector", true)

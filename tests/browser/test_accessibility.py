@@ -111,6 +111,7 @@ def silent_figures(page: Page) -> list[str]:
     return page.evaluate(
         """() => [...deep(document.querySelector('main'), '.on-screen')].flatMap(section =>
              [...deep(section.shadowRoot, '.view')]).filter(view => {
+               if (!view.getClientRects().length) return false  // a card that waits for a file
                const words = [...deep(view.shadowRoot, '[role=status]')].map(e => e.textContent)
                const title = [...deep(view.shadowRoot, 'h2')]
                const seen = [...deep(view.shadowRoot, 'canvas, svg.picture')]

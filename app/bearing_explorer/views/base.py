@@ -167,7 +167,8 @@ class View:
         self._has_drawn = False
         self._sentence = Sentence(css_classes=list(self.sentence_looks))
         #: parts of the content that are hidden without numbers
-        self._pictures: list[pn.viewable.Viewable] = []
+        self._pictures: list[pn.Column] = []
+        self._withheld: list[tuple[pn.Column, list[pn.viewable.Viewable]]] = []
         others = set(packed.columns)
         body = self.build(packed)
         #: its sources without numbers
@@ -185,6 +186,9 @@ class View:
             # whether a figure's own pane is visible is taken back from the figure
             body = body if isinstance(body, pn.Column) else stack(body)
             self._pictures.append(body)
+        if not self.needs:
+            for picture in self._pictures:
+                self.withhold(picture)
         line, rest = parts_of(self.caption())
         self._caption = Caption(
             title=self.title,
@@ -227,6 +231,17 @@ class View:
         self._pictures.append(stack(*parts, stylesheets=[AS_HIGH_AS_SHOWN], **params))
         return self._pictures[-1]
 
+    def withhold(self, hidden: pn.Column) -> None:
+        """Keep what a hidden layout holds from the browser, which would build it, till `bring`."""
+        self._withheld.append((hidden, list(hidden.objects)))
+        hidden.objects = []
+
+    def bring(self) -> None:
+        """Put what was withheld where it belongs. On the event loop only."""
+        for hidden, content in self._withheld:
+            hidden.objects = content
+        self._withheld = []
+
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Sources and ranges for these results; none where nothing comes in the packed source."""
         return {}, {}
@@ -253,6 +268,8 @@ class View:
         self._results = results or self._results
         if results is not None:
             self._has_drawn = not self.is_empty
+        if self._has_drawn:
+            self.bring()
         if self._pictures:
             for picture in self._pictures:
                 picture.visible = self._has_drawn

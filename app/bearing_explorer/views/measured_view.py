@@ -79,6 +79,8 @@ class MeasuredView(View):
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
         self.panel.visible = not self.waits
+        if self.waits:
+            self.withhold(self.panel)
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
@@ -208,6 +210,8 @@ class MeasuredView(View):
         super().say(results, sentence)
         there = self.measurement is not None and self.measurement.measured is not None
         self.panel.visible = there or not self.waits
+        if there:
+            self.bring()
         if self.hidden is not None:
             self.hidden.visible = self.measured is not None
         self._caption.put(nothing=self.measured is None)

@@ -1,0 +1,136 @@
+"""What opening a tab costs the browser does not depend on the tabs that were open before."""
+
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.browser.explorer_page import open_page, rest, show, wait
+from tests.browser.helpers import Server
+
+# Each time that a figure is laid out: its section, with whether that is closed.
+_WATCH = """() => {
+  let place = Bokeh.Models.get("Plot").prototype.default_view.prototype
+  while (!Object.hasOwn(place, "_update_layout")) place = Object.getPrototypeOf(place)
+  const lay_out = place._update_layout
+  const is_section = ({model}) => model.css_classes?.includes("section")
+  const section = (view) => is_section(view) ? view : section(view.parent)
+  window.__laid_out = []
+  place._update_layout = function () {
+    const closed = section(this).model.css_classes.includes("off-screen")
+    window.__laid_out.push([this.model.id, closed])
+    return lay_out.call(this)
+  }
+}"""
+
+_FIGURES = """() => [...Bokeh.index.query(
+  ({model, is_displayed}) => model.type === "Figure" && is_displayed)]"""
+_SIZES = f"""() => ({_FIGURES})().map((view) => {{
+  const box = view.el.getBoundingClientRect()
+  return [box.width, view.layout.bbox.width, box.height, view.layout.bbox.height]
+}})"""
+# Colours that a figure has: the corner of its paper, and of how many it is made.
+_COLORS = f"""() => ({_FIGURES})().map((view) => {{
+  const canvas = view.canvas_view.primary.canvas
+  const {{data}} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+  const pixels = new Uint32Array(data.buffer)
+  return [pixels[0], pixels[canvas.width - 1], pixels.at(-1), new Set(pixels).size]
+}})"""
+
+
+def _work_of(page: Page) -> Callable[[str], float]:
+    """Seconds of a processor that opening a tab takes, until it is drawn as finely as can be."""
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+
+    def spent() -> float:
+        metrics = session.send("Performance.getMetrics")["metrics"]
+        return float(next(m["value"] for m in metrics if m["name"] == "TaskDuration"))
+
+    def opening(tab: str) -> float:
+        before = spent()
+        show(page, tab)
+        rest(page)
+        return spent() - before
+
+    return opening
+
+
+def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Server) -> None:
+    open_page(page, explorer, "overview")
+    rest(page)
+    opening = _work_of(page)
+    first = opening("load")
+    later = {tab: opening(tab) for tab in ("vibration", "diagnosis", "accuracy", "paper")}
+    # a half more is asked for; here other tests may run at the same time
+    assert max(later.values()) < 3 * first, (first, later)
+    assert opening("load") < first
+    assert opening("vibration") < later["vibration"]
+
+
+def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explorer: Server) -> None:
+    open_page(page, explorer, "load")
+    show(page, "vibration")
+    rest(page)
+    page.evaluate(_WATCH)
+    show(page, "accuracy")
+    rest(page)
+    laid_out = page.evaluate("window.__laid_out")
+    assert not any(closed for _, closed in laid_out)
+    figures = {figure for figure, _ in laid_out}
+    assert len(figures) > 9, "Accuracy has a figure for each reference"
+    assert len(laid_out) <= 4 * len(figures)
+
+
+@pytest.mark.parametrize("tab", ["load", "vibration"])
+def test_a_tab_is_right_after_the_window_changed_while_it_was_closed(
+    page: Page, explorer: Server, tab: str
+) -> None:
+    open_page(page, explorer, tab)
+    show(page, "life")
+    page.set_viewport_size({"width": 1270, "height": 760})
+    show(page, tab)
+    rest(page)
+    sizes = page.evaluate(_SIZES)
+    assert len(sizes) > 2
+    for wide, laid_wide, high, laid_high in sizes:
+        assert (laid_wide, laid_high) == pytest.approx((wide, high), abs=1.0)
+        assert wide > 200
+
+
+def test_a_closed_tab_follows_the_theme(page: Page, explorer: Server) -> None:
+    open_page(page, explorer, "load")
+    rest(page)
+    light = page.evaluate(_COLORS)
+    show(page, "life")
+    page.locator("#theme-button").click()
+    show(page, "load")
+    rest(page)
+    dark = page.evaluate(_COLORS)
+    assert len(light) == len(dark) > 2
+    for one, other in zip(light, dark, strict=True):
+        # the paper, also along the edges
+        assert not set(one[:3]) & set(other[:3])
+        assert other[3] > 20
+
+
+_COUNT_PAINTS = """() => {
+  const place = Bokeh.Models.get("Plot").prototype.default_view.prototype
+  const paint = place._actual_paint
+  window.__painted = {}
+  place._actual_paint = function () {
+    window.__painted[this.model.id] = (window.__painted[this.model.id] ?? 0) + 1
+    return paint.call(this)
+  }
+}"""
+
+
+def test_what_is_out_of_sight_is_painted_once_all_rests(page: Page, explorer: Server) -> None:
+    open_page(page, explorer, "life")
+    page.evaluate(_COUNT_PAINTS)
+    show(page, "accuracy")
+    wait(page, lambda: all(one[3] > 20 for one in page.evaluate(_COLORS)), 20.0)
+    rest(page)
+    times = page.evaluate(f"({_FIGURES})().map((view) => window.__painted[view.model.id])")
+    assert len(times) > 9
+    assert max(times[-6:]) <= 3, "many screens below"

@@ -6,12 +6,12 @@ import dataclasses
 import sys
 from pathlib import Path
 
+from bearing_explorer.explorer.session import Explorer
+from bearing_explorer.kit.compute import cache
+from bearing_explorer.kit.compute.default_results import NAME, write
+from bearing_explorer.kit.pictures import Picture, picture_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.pictures import Picture, picture_of
-from bearing_explorer.results import cache
-from bearing_explorer.results.default_results import NAME, write
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.session import Explorer
 
 TABS = ("overview", "load", "stiffness", "modes", "vibration")
 """Those that are drawn before kernels are compiled."""

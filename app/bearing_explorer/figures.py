@@ -17,11 +17,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
+from bearing_explorer.explorer.views.still_figure import Figure, figure_of
+from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
+from bearing_explorer.kit.plots.plane import BINS, Field, color_limits
+from bearing_explorer.kit.views.base import View
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.plots.plane import BINS, Field, color_limits
-from bearing_explorer.views.base import View
-from bearing_explorer.views.still_figure import Figure, figure_of
 
 if TYPE_CHECKING:
     import holoviews as hv

@@ -10,55 +10,55 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.results import compiling
-from bearing_explorer.serve.fast import PLAIN
-from bearing_explorer.serve.live import on_loop
-from bearing_explorer.serve.template import PageTemplate
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.state import glossary
-from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
-from bearing_explorer.views.accuracy import Accuracy
-from bearing_explorer.views.alternatives import OtherModels
-from bearing_explorer.views.bearing import BearingDrawing
-from bearing_explorer.views.bearing_editor import BearingEditor
-from bearing_explorer.views.bearing_picture import bearing_picture
-from bearing_explorer.views.depth_profile import DepthProfile
-from bearing_explorer.views.diagnosis import PartDiagnosis
-from bearing_explorer.views.dof_comparison import DofDifferences
-from bearing_explorer.views.explore import ExplorePlane
-from bearing_explorer.views.extent import SpallExtent
-from bearing_explorer.views.how_sure import HowSure
-from bearing_explorer.views.life import LifeOfBearing
-from bearing_explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.views.maps import StiffnessMaps
-from bearing_explorer.views.mass_spectrum import MassInSpectrum
-from bearing_explorer.views.mass_time import MassInTime
-from bearing_explorer.views.measured_envelope import MeasuredEnvelope
-from bearing_explorer.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.views.measured_kurtogram import MeasuredKurtogram
-from bearing_explorer.views.measured_spectrogram import MeasuredSpectrogram
-from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
-from bearing_explorer.views.measurement import MeasuredSignal
-from bearing_explorer.views.mechanism import WhichMechanism
-from bearing_explorer.views.model_editor import ModelEditor
-from bearing_explorer.views.modes import NaturalFrequencies
-from bearing_explorer.views.orbit import SteadyOrbit
-from bearing_explorer.views.overview.bearing import OverviewBearing
-from bearing_explorer.views.overview.change import LastChange
-from bearing_explorer.views.overview.spectrum import OverviewSpectrum
-from bearing_explorer.views.overview.stiffness import OverviewStiffness
-from bearing_explorer.views.paper import PaperFigures
-from bearing_explorer.views.sizing import DefectSize
-from bearing_explorer.views.slow_passage import SlowPassage
-from bearing_explorer.views.speed_run import SpeedRunSpectra
-from bearing_explorer.views.stability_map import OrbitStability
-from bearing_explorer.views.stiffness import Stiffness
-from bearing_explorer.views.theme import dark_properties, themes
-from bearing_explorer.views.trend import TrendOfFiles
-from bearing_explorer.views.vibration_spectrum import VibrationSpectra
-from bearing_explorer.views.vibration_time import VibrationInTime
-from bearing_explorer.widgets.form import stack
+from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
+from bearing_explorer.diagnosis.views.extent import SpallExtent
+from bearing_explorer.diagnosis.views.how_sure import HowSure
+from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
+from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
+from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
+from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
+from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
+from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
+from bearing_explorer.diagnosis.views.sizing import DefectSize
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.explorer.session import Explorer, Section
+from bearing_explorer.explorer.state import glossary
+from bearing_explorer.explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
+from bearing_explorer.explorer.views.accuracy import Accuracy
+from bearing_explorer.explorer.views.alternatives import OtherModels
+from bearing_explorer.explorer.views.bearing import BearingDrawing
+from bearing_explorer.explorer.views.bearing_editor import BearingEditor
+from bearing_explorer.explorer.views.bearing_picture import bearing_picture
+from bearing_explorer.explorer.views.depth_profile import DepthProfile
+from bearing_explorer.explorer.views.dof_comparison import DofDifferences
+from bearing_explorer.explorer.views.explore import ExplorePlane
+from bearing_explorer.explorer.views.life import LifeOfBearing
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.maps import StiffnessMaps
+from bearing_explorer.explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.explorer.views.mass_time import MassInTime
+from bearing_explorer.explorer.views.mechanism import WhichMechanism
+from bearing_explorer.explorer.views.model_editor import ModelEditor
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.orbit import SteadyOrbit
+from bearing_explorer.explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.explorer.views.overview.change import LastChange
+from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness
+from bearing_explorer.explorer.views.paper import PaperFigures
+from bearing_explorer.explorer.views.slow_passage import SlowPassage
+from bearing_explorer.explorer.views.speed_run import SpeedRunSpectra
+from bearing_explorer.explorer.views.stability_map import OrbitStability
+from bearing_explorer.explorer.views.stiffness import Stiffness
+from bearing_explorer.explorer.views.theme import dark_properties, themes
+from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
+from bearing_explorer.explorer.views.vibration_time import VibrationInTime
+from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.serve.fast import PLAIN
+from bearing_explorer.kit.serve.live import on_loop
+from bearing_explorer.kit.serve.template import PageTemplate
+from bearing_explorer.kit.widgets.form import stack
 from bearingcore import presets
 
 SECTIONS = (

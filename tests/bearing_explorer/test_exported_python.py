@@ -18,16 +18,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.form import read_form
-from bearing_explorer.measurement.session import read_file
-from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.diagnosis.form import read_form
+from bearing_explorer.diagnosis.session import read_file
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.compared import Compared
+from bearing_explorer.explorer.views.python_lines import FILE, scene_code
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.compared import Compared
-from bearing_explorer.views.base import View
-from bearing_explorer.views.measured_view import MeasuredView
-from bearing_explorer.views.python_lines import FILE, scene_code
 from scipy.io import wavfile
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets

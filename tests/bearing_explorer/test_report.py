@@ -7,23 +7,23 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from bearing_explorer.measured_report import (
+from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
+from bearing_explorer.diagnosis.report import (
     NOT_FORESEEN,
     NOT_JUDGED,
     ONE_RECORD,
     measured_report,
 )
-from bearing_explorer.measurement.diagnoses import ExtentQuestion, Question, answered, extent_of
-from bearing_explorer.measurement.session import simulated
+from bearing_explorer.diagnosis.session import simulated
+from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.explorer.report import About, mark_of, page, report
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.compared import Compared
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.stability_map import OrbitStability
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.report import About, mark_of, page, report
-from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.compared import Compared
-from bearing_explorer.views import part_words
-from bearing_explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.views.modes import NaturalFrequencies
-from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
 
 from bearingcore import Defect, presets

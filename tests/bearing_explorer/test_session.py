@@ -4,9 +4,9 @@ import asyncio
 from collections.abc import Callable, Sequence
 
 import pytest
-from bearing_explorer.messages import LinksChange, SceneChange, take
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.views.alternatives import OtherModels, takeable
+from bearing_explorer.explorer.session import Explorer, Section
+from bearing_explorer.explorer.views.alternatives import OtherModels, takeable
+from bearing_explorer.kit.messages import LinksChange, SceneChange, take
 
 from bearingcore import presets
 from bearingcore.experiments.alternatives import alternatives
@@ -19,7 +19,7 @@ def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
     """What the controls were shown."""
     news: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
+        "bearing_explorer.explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
     )
     return news
 
@@ -145,7 +145,8 @@ def test_senseless_messages_change_nothing(news: list[dict]) -> None:
 def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch) -> None:
     answers: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.widgets.share.ShareBar.answer", lambda self, **news: answers.append(news)
+        "bearing_explorer.explorer.widgets.share.ShareBar.answer",
+        lambda self, **news: answers.append(news),
     )
 
     def ask_twice(explorer: Explorer) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from bearing_explorer.measurement.machine import GIVEN, Machine, of_scene
-from bearing_explorer.measurement.session import Measurement, simulated
-from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.diagnosis.machine import GIVEN, Machine, of_scene
+from bearing_explorer.diagnosis.session import Measurement, simulated
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, presets
 

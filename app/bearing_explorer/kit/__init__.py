@@ -1,0 +1,1 @@
+"""What both halves of the page stand on: neither is known here."""

@@ -1,0 +1,1 @@
+"""What views of both halves are made of."""

@@ -7,7 +7,7 @@ import time
 from importlib.resources import files
 
 import pytest
-from bearing_explorer.explorer.views.theme import DARK_COLORS
+from bearing_explorer.kit.plots.theme import DARK_COLORS
 from bearing_explorer.page import SECTIONS
 from playwright.sync_api import Page, ViewportSize, expect
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from bearing_explorer.explorer.session import Section
+from bearing_explorer.kit.half import Section
 from bearing_explorer.kit.views.base import View
 
 

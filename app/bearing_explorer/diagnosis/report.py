@@ -21,9 +21,9 @@ from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
-from bearing_explorer.explorer.report import About, document, heading, mark_of
-from bearing_explorer.explorer.views.still_figure import Figure
 from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.report_page import About, document, heading, mark_of
+from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.common.numbers import with_prefix

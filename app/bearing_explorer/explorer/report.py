@@ -11,54 +11,32 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from datetime import UTC, datetime
 from typing import Any
-from urllib.parse import urlsplit
 
 from bokeh.embed import json_item
 
-from bearing_explorer.explorer.plots.element_words import extent_words, row_words, with_elements_of
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
-from bearing_explorer.explorer.state.compared import WITHOUT_DEFECT
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.explorer.views.bearing_editor import facts_of
-from bearing_explorer.explorer.views.still_figure import Figure
-from bearing_explorer.explorer.widgets.limits import rows_of
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.element_words import extent_words, row_words, with_elements_of
+from bearing_explorer.kit.report_page import About, document, heading, mark_of
 from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text, sentence_html
-from bearing_explorer.kit.widgets.status import status_of
+from bearing_explorer.kit.widgets.limits import rows_of
 from bearingcore import Scene
 from bearingcore.fields import Field
-from bearingcore.sweep.grid import program_version
 
 log = logging.getLogger(__name__)
 
 FILE = "bearing-report.html"
 _LIMIT_COLUMNS = ("name", "value", "limit", "state", "sentence")
 _STATES = {"crossed": "exceeded", "kept": "passed", "unknown": "not checked"}
-_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 _DEFECT_GROUP = "Defect"
-
-
-@dataclass(frozen=True)
-class About:
-    """Head of a report: bearing, source of its numbers, link, day.
-
-    `title`, `machine` and `remarks` are free text; they may be empty.
-    """
-
-    bearing: str
-    note: str
-    link: str
-    date: datetime
-    title: str = ""
-    machine: str = ""
-    remarks: str = ""
 
 
 def report(
@@ -96,15 +74,10 @@ def report(
     }
 
 
-def mark_of(figure_id: str) -> str:
-    """Placeholder of a figure in the page."""
-    return f"<!--figure {figure_id}-->"
-
-
 def page(results: Results, about: About, parts: Iterable[str]) -> str:
     """The whole page with its `parts`, each a section of HTML."""
     scene = results.scene
-    said = status_of(results, 0.0)
+    said = results.status(0.0)
     limits = rows_of(results.limits)
     crossed = [row for row in limits if row["state"] == "crossed"]
     title = about.title.strip() or "Bearing report"
@@ -112,7 +85,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         *heading(about, title),
         "<section><h2>Scene</h2>",
         _changes(scene, about),
-        f"<p>Grey in the figures: {WITHOUT_DEFECT}. {_compared(results)}Cage angle: "
+        f"<p>Grey in the figures: {html_text(results.grey.name)}. {_compared(results)}Cage angle: "
         f"{html_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{html_text(said['words'])}; "
         f"{html_text('; '.join(said['details'][:-1]))}.</p></section>",
@@ -135,49 +108,9 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
     return document(about, title, body, asset_text("report.css"))
 
 
-def heading(about: About, title: str) -> list[str]:
-    """The head of a report, as HTML: title, machine, remarks, day, version and link."""
-    when = about.date.strftime("%d %B %Y, %H:%M UTC")
-    link = _link(about.link)
-    return [
-        f"<header><h1>{html_text(title)}</h1>",
-        f"<p>Machine: {html_text(about.machine)}</p>" if about.machine.strip() else "",
-        *(f"<p>{html_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
-        f"<p>{html_text(when)}, Bearing explorer "
-        f"{html_text(program_version())}{f', {link}' if link else ''}</p></header>",
-    ]
-
-
-def document(about: About, title: str, body: Iterable[str], style_sheet: str) -> str:
-    """A whole page of HTML that fetches and runs nothing."""
-    return (
-        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
-        "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-        f"<title>{html_text(title)}, {html_text(about.date.strftime('%Y-%m-%d'))}</title>"
-        f"<style>{style_sheet}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n"
-    )
-
-
-def now() -> datetime:
-    """The day and the hour."""
-    return datetime.now(UTC)
-
-
-def _link(address: str) -> str:
-    """An address as a link; nothing where it is none of the web's."""
-    try:
-        parts = urlsplit(address)
-    except ValueError:
-        return ""
-    if parts.scheme not in ("http", "https") or not parts.netloc:
-        return ""
-    return f"<a href='{html_text(address)}'>open this scene</a>"
-
-
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
     bearing = results.scene.bearing
-    caption = html_text(with_elements_of(bearing, view.caption()))
+    caption = html_text(with_elements_of(bearing, view.caption(results.grey.name)))
     title = html_text(with_elements_of(bearing, view.title))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (

@@ -10,9 +10,7 @@ import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from bearing_explorer.diagnosis.report import measured_report
-from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.explorer.report import About, now, report
+from bearing_explorer.explorer.report import report
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.address import Place
 from bearing_explorer.explorer.state.bookmarks import (
@@ -28,6 +26,7 @@ from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.views.base import View
 from bearingcore.bearings.catalogue import MOST_BYTES
 
@@ -51,8 +50,6 @@ class ForReport(NamedTuple):
 
 class Page(Protocol):
     """The part of a session that requests need."""
-
-    measurement: Measurement
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
@@ -92,6 +89,12 @@ class Requests:
         self.mark = 0
         self.share = ShareBar(self.change_links, state=bookmarks.state())
         self.lesson = LessonPanel(self.change_lesson, lessons)
+        #: makes the report on the measured signal, or None where there is none; and simulates a
+        #: measurement of the scene. The page sets them, where it has that half
+        self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | None] = lambda _: (
+            None
+        )
+        self.simulate: Callable[[str, str, str], None] = lambda noise, machine, pit: None
         self._page = page
         self._reporting = False
         self._open_lesson_of_link()
@@ -239,17 +242,15 @@ class Requests:
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
         parts = self._page.for_report()
-        measurement = self._page.measurement.snapshot() if words.get("measured") else None
-        if measurement is not None and (why := measurement.out_of_date):
-            self.bookmarks.say(f"No report: {why}")
+        on_signal = self.report_on_signal(about) if words.get("measured") else None
+        if isinstance(on_signal, str):
+            self.bookmarks.say(f"No report: {on_signal}")
             self.show_links()
             return
 
         def make() -> dict[str, Any] | None:
             try:
-                if measurement is not None:
-                    return measured_report(parts.results, measurement, parts.found, about)
-                return report(*parts, about)
+                return report(*parts, about) if on_signal is None else on_signal()
             except Exception:
                 log.exception("a report failed")
                 return None
@@ -294,4 +295,4 @@ class Requests:
         self.change_scene(message)  # the mark, and what a button changes
         if "simulate" in message and not (words_only or closed):
             wish = message["simulate"]
-            self._page.measurement.simulate(wish["noise"], wish["machine"], wish["pit"])
+            self.simulate(wish["noise"], wish["machine"], wish["pit"])

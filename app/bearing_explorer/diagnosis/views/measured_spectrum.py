@@ -21,8 +21,8 @@ from bearing_explorer.diagnosis.views.frequency_view import (
     amplitudes,
 )
 from bearing_explorer.diagnosis.views.measured_view import shown_unit
-from bearing_explorer.explorer.views.modes import BAND_WORDS, bands_along
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.frequency_bands import BAND_WORDS, bands_along
 from bearing_explorer.kit.plots.layers import Glyph, Layer, names_over
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Sources

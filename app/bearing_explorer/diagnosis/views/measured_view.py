@@ -10,10 +10,10 @@ import numpy as np
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
 from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.explorer.views.python_lines import code_of, lines_of, short
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
 from bearingcore.files.units import ACCELERATIONS
 
 if TYPE_CHECKING:

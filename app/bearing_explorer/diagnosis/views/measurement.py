@@ -17,12 +17,11 @@ from bearing_explorer.diagnosis.views.measured_view import (
     shown_unit,
 )
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
-from bearing_explorer.explorer.results.excerpt import least_and_greatest
-from bearing_explorer.explorer.views.passage_view import TIME
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import curve, draw, names_over, uprights
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
+from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 
@@ -76,7 +75,7 @@ class MeasuredSignal(MeasuredView):
 
     def _plot(self, packed: PackedSource, part: str) -> figure:
         plot = style.make_figure(
-            TIME,
+            style.TIME,
             ACCELERATION,
             packed.range(f"measurement_{part}_time", 0.0, 1.0),
             packed.range(f"measurement_{part}_size", -1.0, 1.0),

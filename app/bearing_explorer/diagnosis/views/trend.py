@@ -23,7 +23,6 @@ from bearing_explorer.diagnosis.views.measured_view import (
     shown_unit,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import (
@@ -40,6 +39,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import JobView
+from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN

@@ -16,7 +16,7 @@ from bearing_explorer.explorer.results.excerpt import (
     excerpt_of,
     why_ended,
 )
-from bearingcore import Motion, Scene, Spectrum
+from bearingcore import Motion, Scene
 from bearingcore.common.numbers import level_difference
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_comparison import (
@@ -26,7 +26,6 @@ from bearingcore.dynamics.ball_comparison import (
     compared_directions,
 )
 from bearingcore.dynamics.ball_comparison import compare_motions as compare_bands
-from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
 from bearingcore.scene.defect import RACES
 from bearingcore.statics.passes import path_kinks
@@ -81,10 +80,6 @@ class BallMass:
         the hard ones, of the ball that enters at 0, on a race that it has let go of.
     far_edge [s]
         when that ball meets the far edge, where it lets go of neither race; else NaN.
-    massless_spectra, spectra : {dof: Spectrum}
-        of the settled motions.
-    resonances : (lowest, highest) [Hz]
-        of loaded balls between their contacts; (0, 0) where none carries.
     octaves : (m + 1,) [Hz], share : (m,), spread : (m,)
         edges, share of the power along x and y that mass adds, 1 − P(massless)/P(with mass), and
         its standard error over parts of the motion, NaN where that is too short for it.
@@ -113,9 +108,6 @@ class BallMass:
     flights: tuple[Flight, ...]
     strikes: tuple[Strike, ...]
     far_edge: float
-    massless_spectra: dict[str, Spectrum]
-    spectra: dict[str, Spectrum]
-    resonances: tuple[float, float]
     octaves: Array
     share: Array
     spread: Array
@@ -135,19 +127,6 @@ class BallMass:
             *acceleration_columns("massless_", self.massless),
             *acceleration_columns("with_mass_", self.with_mass),
             *loads,
-        )
-
-    def spectrum_table(self) -> ResultTable:
-        """A row a frequency: the density without and with mass."""
-        both = (("massless", self.massless_spectra), ("with_mass", self.spectra))
-        any_of_all = [one for _, spectra in both for one in spectra.values()]
-        return table_of(
-            *(("frequency", "Hz", one.frequency) for one in any_of_all[:1]),
-            *(
-                (f"{who}_density_{dof}", "(m/s²)²/Hz", one.density)
-                for who, spectra in both
-                for dof, one in spectra.items()
-            ),
         )
 
     def share_table(self) -> ResultTable:
@@ -211,9 +190,6 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     added = level_difference(power[1], power[0])
     with np.errstate(divide="ignore", invalid="ignore"):
         share = 1.0 - power[0] / power[1]
-    named = [
-        {dof: core.Spectrum(f, density[:, i]) for i, dof in enumerate(dofs)} for f, density in both
-    ] or [{}, {}]
     return BallMass(
         scene=scene,
         sample_rate=rate,
@@ -235,9 +211,6 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
         ),
         strikes=struck,
         far_edge=math.nan if struck else _far_edge(scene, events, whole.motion_time),
-        massless_spectra=named[0],
-        spectra=named[1],
-        resonances=contact_resonance_band(scene),
         octaves=octaves,
         share=share,
         spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,17 +19,13 @@ from bearing_explorer.explorer.results import endurance, motions, statics
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.chain import Chain, chain
 from bearing_explorer.explorer.results.defect_shape import Profile, profile
-from bearing_explorer.explorer.results.dof_comparison import (
-    DofComparison,
-    other_dofs,
-    spectrum_differences,
-    static_differences,
-)
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.state.compared import Compared
+from bearing_explorer.explorer.results.python_arguments import arguments
+from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.field_values import defects_of
+from bearing_explorer.explorer.state.references import HEALTHY, Reference, grey_reference
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
@@ -42,6 +38,9 @@ from bearingcore.statics.ball_positions import EquilibriumWithMass
 from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
 from bearingcore.statics.positions import turns
 from bearingcore.statics.ranges import StaticRanges, ranges_of
+
+if TYPE_CHECKING:
+    from bearing_explorer.kit.views.base import View
 
 Compute = TypeVar("Compute", bound=Callable[..., object])
 
@@ -96,6 +95,8 @@ class Results:
         scenes that are drawn too, each under a name.
     before
         the scene before the last change, where there was one.
+    grey
+        kind of the reference that is drawn in grey.
     life_inputs
         steel, oil and surfaces as entered on the Life tab.
     give_up
@@ -114,8 +115,9 @@ class Results:
         focus: int = 0,
         *,
         moving: bool = False,
-        compared: Sequence[Compared] = (),
-        before: Scene | None = None,
+        compared: Sequence[Reference] = (),
+        before: Reference | None = None,
+        grey: str = HEALTHY,
         life_inputs: LifeInputs | None = None,
         give_up: Callable[[], bool] | None = None,
         like: Results | None = None,
@@ -127,40 +129,48 @@ class Results:
         self.moving = moving
         self.compared = tuple(compared)
         self.before = before
+        self.grey_kind = grey
+        self._against: dict[tuple[Scene, bool], Results] = {}
         self.life_inputs = life_inputs or LifeInputs()
         self._give_up = give_up
         self._like = like
 
-    def alike(self, scene: Scene) -> Results:
-        """Results of another scene, over the stretch and with the steps of these."""
-        moving, give_up = self.moving, self._give_up
-        return Results(
-            scene, self.cage_angle, self.settings, moving=moving, give_up=give_up, like=self
-        )
+    def against(self, reference: Reference, *, own_period: bool = False) -> Results:
+        """Results of another scene, to be compared with these.
+
+        Over the cage angles and with the steps of these, or over its `own_period` with its own.
+        """
+        key = reference.scene, own_period
+        if key not in self._against:
+            self._against[key] = Results(
+                reference.scene,
+                self.cage_angle,
+                self.settings,
+                moving=self.moving,
+                give_up=self._give_up,
+                like=None if own_period else self,
+            )
+        return self._against[key]
 
     @cached_property
-    def healthy(self) -> Results:
-        """Those of the bearing without its defect."""
-        return self.alike(self.scene.healthy())
+    def compared_results(self) -> list[Results]:
+        """Results of the compared scenes in their order, each over its own period."""
+        return [self.against(one, own_period=True) for one in self.compared]
 
     @cached_property
-    def of_compared(self) -> list[Results]:
-        """Results of the compared scenes, in their order."""
-        settings, moving = self.settings, self.moving
-        return [
-            Results(one.scene, self.cage_angle, settings, moving=moving, give_up=self._give_up)
-            for one in self.compared
-        ]
+    def grey(self) -> Reference:
+        """The reference that is drawn in grey."""
+        return grey_reference(self.scene, self.grey_kind)
 
-    @cached_property
-    def compared_alike(self) -> list[Results]:
-        """The same, over the stretch of these."""
-        return [self.alike(one.scene) for one in self.compared]
+    @property
+    def reference(self) -> Results:
+        """Results of that."""
+        return self.against(self.grey)
 
     @property
     def reference_label(self) -> str:
         """The name of the grey curves before their numbers; empty where the scene is the same."""
-        return "without the defect" if self.scene.defects else ""
+        return self.grey.label
 
     @property
     def over_shaft(self) -> bool:
@@ -237,11 +247,6 @@ class Results:
         """Static answer at the cage angle shown; arrays of length 1."""
         return statics.equilibrium_at(self.scene, self.cage_angle)
 
-    @property
-    def massless_now(self) -> Equilibrium:
-        """The same as maps have it: without the mass of the balls."""
-        return statics.equilibrium_at(self.scene.replace(balls=MASSLESS), self.cage_angle)
-
     @cached_property
     @of_kind(OVER_STRETCH)
     def modes(self) -> Modes:
@@ -291,10 +296,18 @@ class Results:
 
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
-        if {"late_spectra", "healthy"} <= needed:
-            key = self.scene.healthy(), self.marching
+        if {"late_spectra", "reference"} <= needed:
+            key = self.grey.scene, self.marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
+
+    def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
+        """The status line of results that took `seconds` [s], for views that need these."""
+        return status_of(self, seconds, needed)
+
+    def arguments(self, view: View) -> dict[str, str]:
+        """Arguments with which lines of Python make a figure of these."""
+        return arguments(view, self)
 
     @property
     def _with_mass(self) -> Scene:
@@ -305,8 +318,8 @@ class Results:
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """Whether what is shown of attributes is made of motions that are marched coarsely."""
         scenes = [self.scene] if shown & OF_MOTION else []
-        if "dof_comparison" in shown:
-            scenes.append(self.scene.replace(dofs=other_dofs(self.scene)))
+        if "reference" in shown and scenes:
+            scenes.append(self.grey.scene)
         if "ball_mass" in shown:
             scenes.append(self._with_mass)
         return any(map(self._is_coarse, scenes))
@@ -326,8 +339,7 @@ class Results:
         """In which way motions shown are coarse."""
         scene = self.scene if "ball_mass" not in shown else self._with_mass
         if scene.balls == MASSLESS:
-            part = "a quarter of" if "dof_comparison" in shown else "half"
-            return f"coarse while it moves: {part} the motion in half the steps"
+            return "coarse while it moves: half the motion in half the steps"
         seconds = motions.quick_duration(scene, self.settings.coarse_marching)
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
@@ -343,7 +355,9 @@ class Results:
     @cached_property
     def marching(self) -> Marching:
         """Settings of its motions; those of the scene with the defect where it is compared."""
-        return self._marching_of(self.scene) if self._like is None else self._like.marching
+        if self._like is not None:
+            return self._like.marching
+        return self._marching_of(self.scene, self.grey.scene)
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
@@ -462,30 +476,8 @@ class Results:
         """Results from the loads of the balls to the vibration."""
         return chain(self)
 
-    @cached_property
-    @of_kind(SLOW, OVER_STRETCH)
-    def chain_before(self) -> Chain:
-        """The same of the scene before the last change; before the first, without the defect."""
-        scene = self.scene.healthy() if self.before is None else self.before
-        if scene == self.scene:
+    def chain_of(self, reference: Reference) -> Chain:
+        """The same of a reference, looked up while a drag is compared with where it began."""
+        if reference.scene == self.scene:
             return self.chain
-        return _chain_of(scene, self.cage_angle, self.settings, self.moving)
-
-    @cached_property
-    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
-    def dof_comparison(self) -> DofComparison:
-        """The scene with its free directions against those it needs, or against all five."""
-        chosen, other = self.scene.active_dofs, other_dofs(self.scene)
-        if chosen == other:
-            return DofComparison(chosen, other, {}, {})
-        against = self.alike(self.scene.replace(dofs=other))
-        static = static_differences(self.equilibrium, against.equilibrium)
-        how = self._marching_of(self.scene, against.scene)
-        if how.coarse:  # two motions, one of them in five directions
-            how = dataclasses.replace(how, duration=0.5 * how.duration)
-        try:
-            pair = [motions.spectra(one, how) for one in (self.scene, against.scene)]
-            moving = spectrum_differences(*pair)
-        except ValueError as error:
-            return DofComparison(chosen, other, static, {}, str(error))
-        return DofComparison(chosen, other, static, moving)
+        return _chain_of(reference.scene, self.cage_angle, self.settings, self.moving)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.sentences import words_of
+from bearingcore.common.numbers import count, scientific
 from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.scene.scene import DOF_SYMBOLS
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
 
 ORBITS = frozenset({"orbit", "orbit_spectra"})
 """Attributes of the results that are of the steady orbit."""
@@ -110,3 +114,28 @@ def of_orbit(results: Results) -> Verdict:
         if results.moving
         else Verdict("bad", "No orbit found")
     )
+
+
+def status_of(
+    results: Results, seconds: float, shown: frozenset[str] = frozenset()
+) -> dict[str, Any]:
+    """The status line of results that took `seconds` [s] to compute.
+
+    `shown`: the attributes of the results that views on screen read.
+    """
+    found = results.equilibrium
+    n_angles = found.converged.size
+    mood, words = verdict(results, shown)
+    details = []
+    finite = found.residual[found.converged & np.isfinite(found.residual)]
+    if finite.size:
+        details.append(f"residual at most {scientific(float(finite.max()))}")
+    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
+    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
+    details.append(f"{freedom}: {symbols}")
+    details.append(count(n_angles, "cage angle"))
+    if results.is_coarse(shown):
+        details.append(results.coarse_words(shown))
+    by_hand = results.settings.changed_by_hand()
+    details = [*by_hand, *details, f"{1e3 * seconds:.1f} ms of computing"]
+    return {"mood": mood, "words": words, "details": details, "resting": not results.moving}

@@ -54,18 +54,16 @@ from urllib.parse import parse_qsl, urlencode
 from bearing_explorer.explorer.state import field_values
 from bearing_explorer.explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
-from bearing_explorer.explorer.state.compared import Compared, usual_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defects_of
+from bearing_explorer.explorer.state.references import Reference, usual_name
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.kit.sentences import one_line, sentence_of
+from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
 from bearingcore.bearings.rows import Row
 from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene.floor import MOST_ROWS
-
-TOO_LONG = "too-long"
-"""Version of an address that the server put in place of one that was far too long."""
 
 VERSION = "1"
 LONGEST_LINK = 7_000
@@ -78,7 +76,12 @@ _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
 """Links that name no tab are of days when this one came first."""
-FORMER_TABS = {"sizing": "diagnosis"}
+FORMER_TABS = {
+    "sizing": "diagnosis",
+    "ball-mass": "vibration",
+    "orbits": "over-speed",
+    "speed-run": "over-speed",
+}
 """Former names of tabs, in links that people have."""
 
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length")
@@ -106,7 +109,7 @@ class Place:
     tab: str = ""
     note: str = ""
     name: str = ""
-    compared: tuple[Compared, ...] = ()
+    compared: tuple[Reference, ...] = ()
 
 
 def write(place: Place, longest: int | None = None) -> str:
@@ -157,7 +160,7 @@ def read(text: str) -> Place | None:
 def opened(text: str, editor: SceneEditor) -> Place:
     """Show the place of a text on an editor. Never fails: `note` says where it could not be."""
     tab, note = "", ""
-    compared: tuple[Compared, ...] = ()
+    compared: tuple[Reference, ...] = ()
     try:
         place = read(text)
         if place is not None:
@@ -312,7 +315,7 @@ def _is_known_of_scene(name: str) -> bool:
     return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
 
 
-def _compared(given: dict[str, str]) -> tuple[Compared, ...]:
+def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
     """The compared scenes of an address, in the order of their numbers; they are taken out."""
     parts: dict[str, dict[str, str]] = {}
     for name in list(given):
@@ -322,7 +325,7 @@ def _compared(given: dict[str, str]) -> tuple[Compared, ...]:
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
         scene = _read({"v": VERSION, **part}).scene
-        found.append(Compared(scene, label or usual_name(scene)))
+        found.append(Reference(scene, label or usual_name(scene)))
     return tuple(found)
 
 

@@ -2,7 +2,7 @@
 
 Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
 and refused with a sentence. Scenes that a person keeps lie in the browser, as
-the text of `bearing_explorer.explorer.state.address` with a name; nothing of them stays on the server.
+the text of `explorer.state.address` with a name; nothing of them stays on the server.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ from bearing_explorer.explorer.state.address import (
     read,
     write,
 )
-from bearing_explorer.explorer.state.compared import MOST_COMPARED, Compared, scene_line, usual_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import History
+from bearing_explorer.explorer.state.references import Reference, scene_line, usual_name
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
+from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common.scene_file import LARGEST_TEXT
@@ -86,7 +87,7 @@ class Bookmarks:
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
         #: scenes that are drawn too
-        self.compared: tuple[Compared, ...] = place.compared
+        self.compared: tuple[Reference, ...] = place.compared
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
@@ -186,7 +187,7 @@ class Bookmarks:
         if len(self.compared) == MOST_COMPARED:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
-        self.compared += (Compared(scene, name),)
+        self.compared += (Reference(scene, name),)
         self.say(f"“{name}” is drawn with every scene now.")
 
     def kept(self, name: str) -> dict[str, str]:

@@ -124,6 +124,8 @@ class SceneEditor:
     """The state of the controls, and the scene that they stand for."""
 
     preset: str
+    listed: BearingTable = field(default_factory=BearingTable)
+    """Bearings to choose from."""
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Range] = field(init=False)
@@ -138,8 +140,6 @@ class SceneEditor:
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
-    listed: BearingTable = field(init=False, default_factory=BearingTable)
-    """Bearings to choose from."""
     effects: dict[str, str] = field(init=False, default_factory=dict)
     """Sentences on the effect of the last choices, by their names, where it is not plain."""
 

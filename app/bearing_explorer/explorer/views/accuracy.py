@@ -15,6 +15,7 @@ from bokeh.plotting import figure
 from bearing_explorer.explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.explorer.views.work_precision import (
     REST,
     WorkPrecision,
@@ -27,7 +28,6 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
@@ -97,7 +97,7 @@ def _grid(least: int) -> str:
     return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
 
 
-class Accuracy(JobView[Found]):
+class Accuracy(SceneJobView[Found]):
     """Error against cost, where steps are too long, and where the orbit is unstable."""
 
     name = "accuracy"

@@ -12,13 +12,13 @@ import panel as pn
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.explorer.views.work_precision import ALLOWED
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
 from bearingcore.common.numbers import decibels, percent
@@ -33,7 +33,7 @@ GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 OWN_STEPS = "the program's own steps"
 
 
-class OtherModels(JobView[Alternatives]):
+class OtherModels(SceneJobView[Alternatives]):
     """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
     name = "alternatives"

@@ -7,14 +7,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 from bokeh.models import Circle, CustomJS, LinearColorMapper, Range1d
-from bokeh.palettes import magma
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.element_words import element_name, elements
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearing_explorer.kit.plots.heat_map import color_bar
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -41,9 +40,6 @@ PLACE_AND_SIZE = ("x", "y", "radius")
 POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
 # pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
-LOAD_PALETTE = list(magma(256))[40:246][::-1]
-DARK_LOAD_PALETTE = list(magma(256))[62:]
-INKS = [style.INK, style.PAPER]
 IDLE_BALL = style.PAPER
 NO_VALUE = "#C9CED4"
 
@@ -205,7 +201,7 @@ class BearingDrawing(View):
         plot.js_on_change("inner_width", aspect)
         plot.js_on_change("inner_height", aspect)
         colors = LinearColorMapper(
-            palette=LOAD_PALETTE,
+            palette=color_scales.LOADS,
             low=1e-9,
             high=load.end,
             low_color=IDLE_BALL,
@@ -213,7 +209,7 @@ class BearingDrawing(View):
             syncable=False,
         )
         inks = LinearColorMapper(
-            palette=INKS,
+            palette=color_scales.INKS,
             low=0.0,
             high=load.end,
             nan_color=style.INK,
@@ -254,13 +250,13 @@ class BearingDrawing(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now
         load_range = self._load_range.fit(
-            results.equilibrium.ball_load, results.healthy.equilibrium.ball_load
+            results.equilibrium.ball_load, results.reference.equilibrium.ball_load
         )
         top = load_range[1]
         rows = scene.bearing.all_rows
         half = OF_A_ROW if len(rows) > 1 else HALF_WIDTH
         wide = half * len(rows)
-        healthy = results.healthy.load_curves
+        healthy = results.reference.load_curves
         several: list[Sources] = []
         for row in range(len(rows)):
             own = scene.bearing.balls_of_rows[row]

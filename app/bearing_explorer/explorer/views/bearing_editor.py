@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 import param
 
-from bearing_explorer.explorer.plots.element_words import elements
 from bearing_explorer.explorer.state.choice_list import KIND, MATERIAL, NUMBERS
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, values_of
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
@@ -19,6 +18,7 @@ from bearing_explorer.explorer.views.control_view import ControlView, table_of_f
 from bearing_explorer.explorer.widgets.controls import Rows, spec_of
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore.bearings.catalogue import COLUMNS, NEEDED
 from bearingcore.common.numbers import with_deviation

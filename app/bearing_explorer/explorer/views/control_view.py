@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS
+from bearing_explorer.explorer.views.parts import SceneParts
 from bearing_explorer.explorer.widgets.controls import Rows
 from bearing_explorer.kit.views.base import SessionParts, View
 
@@ -33,6 +34,7 @@ class ControlView(View):
     def attach(self, parts: SessionParts) -> None:
         """Send changes to the session, and follow its scene."""
         super().attach(parts)
+        assert isinstance(parts, SceneParts)
         self.rows.state = parts.editor.state()
         parts.add_controls(self.rows)
 

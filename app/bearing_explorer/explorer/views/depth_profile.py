@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.plots.element_words import extent_words, row_words
 from bearing_explorer.explorer.results.defect_shape import Profile
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import extent_words, row_words
 from bearing_explorer.kit.plots.layers import ball_dots, curve, draw
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -66,7 +65,7 @@ class DepthProfile(View):
         compared = compared_curves.sources(
             "depth_profile",
             ("angle", "drop"),
-            results.of_compared,
+            results.compared_results,
             lambda other: _path(other.profile),
         )
         deepest = self._range.fit(

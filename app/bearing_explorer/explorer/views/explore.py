@@ -32,7 +32,7 @@ from bearing_explorer.explorer.state.value_range import (
     table_of_places,
     value_of,
 )
-from bearing_explorer.explorer.views.still_figure import editor_of
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView, editor_of
 from bearing_explorer.explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
@@ -42,7 +42,7 @@ from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.job_view import JobView, last_shown
+from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
@@ -68,7 +68,7 @@ class MapRequest:
         return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
 
 
-class ExplorePlane(JobView[Plane]):
+class ExplorePlane(SceneJobView[Plane]):
     """A map of one output over two quantities, with lines across it and a histogram."""
 
     name = "explore"

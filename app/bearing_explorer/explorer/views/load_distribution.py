@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.plots.element_words import elements
 from bearing_explorer.explorer.results.defect_shape import pieces, spans
 from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.layers import (
     Layer,
     Words,
@@ -99,12 +98,12 @@ class LoadDistribution(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         (angle, load), *others = results.load_curves
-        (healthy_angle, healthy_load), *healthy_others = results.healthy.load_curves
+        (healthy_angle, healthy_load), *healthy_others = results.reference.load_curves
         now = results.now
         compared = compared_curves.sources(
             "load_distribution",
             ("angle", "load"),
-            results.of_compared,
+            results.compared_results,
             lambda other: _one_line(other.load_curves),
         )
         sources = {
@@ -122,7 +121,7 @@ class LoadDistribution(View):
             },
         }
         room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
-        loads = [room * one for _, one in (*results.load_curves, *results.healthy.load_curves)]
+        loads = [room * one for _, one in (*results.load_curves, *results.reference.load_curves)]
         loads.append(compared_curves.numbers(compared, "load"))
         return sources, {"load_distribution_load": self._range.fit(*loads)}
 
@@ -131,7 +130,7 @@ class LoadDistribution(View):
         if not results.equilibrium.converged.any():
             return f"There is no load distribution: {results.equilibrium.reason(0)}."
         parts: list[str] = []
-        curves = zip(results.load_curves, results.healthy.load_curves, strict=False)
+        curves = zip(results.load_curves, results.reference.load_curves, strict=False)
         for row, ((angle, load), (_, healthy)) in enumerate(curves):
             most = int(np.nanargmax(load))
             which = f" of row {row + 1}" if bearing.rows else ""
@@ -161,7 +160,7 @@ class LoadDistribution(View):
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
             tables += [_at_both_races(results.ranges.state, row) for row in rows]
-        tables.append(curves_table(results.healthy.load_curves).prefixed("healthy"))
+        tables.append(curves_table(results.reference.load_curves).prefixed("healthy"))
         return reduce(or_, tables).in_units().named()
 
 

@@ -16,7 +16,6 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots import matrix_cells
-from bearing_explorer.explorer.plots.element_words import elements
 from bearing_explorer.explorer.plots.matrix_cells import (
     NEGLIGIBLE,
     PLACES,
@@ -27,8 +26,10 @@ from bearing_explorer.explorer.plots.matrix_cells import (
 )
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
+from bearing_explorer.explorer.state.references import massless
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import Places, Side, ends, goes_there, reading
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix, words_of
@@ -136,7 +137,7 @@ class StiffnessMaps(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and where the sliders stand."""
-        maps, now = results.maps, results.massless_now
+        maps, now = results.maps, results.against(massless(results.scene)).now
         sizes = matrix_cells.term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
         points = [np.empty(0, np.uint16)]
@@ -214,7 +215,7 @@ class StiffnessMaps(View):
                 words += f", against {mean[0]:.1f} without the defect"
         words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
         words += in_degrees(results.cage_angle)
-        now = results.massless_now
+        now = results.against(massless(results.scene)).now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
             carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.passage_view import (
@@ -25,10 +24,11 @@ from bearing_explorer.explorer.views.passage_view import (
     places_of_labels,
     traces,
 )
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import Layer, by_number, curve, strips
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.folded_view import FoldedView
 from bearingcore.dynamics.strikes import RACES_OF_LOADS
 
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")
@@ -43,7 +43,7 @@ MASSLESS: dict[str, Any] = {"color": style.INK, "alpha": 0.35, "width": 3.0}
 """Look of curves of massless balls."""
 
 
-class MassInTime(PassageView):
+class MassInTime(FoldedView[Results], PassageView):
     """Acceleration of the housing and loads at both contacts of the balls near the defect."""
 
     name = "mass-time"
@@ -94,7 +94,7 @@ class MassInTime(PassageView):
         compared = compared_curves.sources(
             "mass_motion",
             ("time", *SHOWN),
-            results.of_compared,
+            results.compared_results,
             lambda other: traces(
                 other.ball_mass.time, along_both(other.ball_mass.time, other.ball_mass.with_mass)
             ),
@@ -110,7 +110,7 @@ class MassInTime(PassageView):
         drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
         return sources, self.ranges(shown.time, np.concatenate(drawn), shown.loads)
 
-    def sentence(self, results: Results) -> str:
+    def words(self, results: Results) -> str:
         shown = results.ball_mass
         if shown.broke_off:
             words = shown.broke_off

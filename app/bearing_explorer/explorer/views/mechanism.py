@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.models import Quad, Segment, Span
 
 from bearing_explorer.explorer.results.ball_mass import BallMass
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.wide_spectrum import FREQUENCY, in_hertz
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.folded_view import FoldedView
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
@@ -48,7 +47,7 @@ LAYERS: tuple[Layer, ...] = (
 """Bars, their standard errors and their numbers."""
 
 
-class WhichMechanism(View):
+class WhichMechanism(FoldedView[Results]):
     """Share of the housing's power that the mass of the balls adds, octave by octave."""
 
     name = "mechanism"
@@ -103,11 +102,15 @@ class WhichMechanism(View):
             "mechanism_share": (least, 115.0),
         }
 
-    def sentence(self, results: Results) -> str:
+    def words(self, results: Results) -> str:
         found = results.ball_mass
         if not np.isfinite(found.share).any():
             return "There is no settled motion to compute the power from."
-        return in_words(found)
+        words = in_words(found)
+        if found.comparison is None:
+            return f"{words} The motion is too short to show where massless balls will do."
+        sentence = found.comparison.sentence
+        return f"{words} {sentence[0].upper()}{sentence[1:]}."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.share_table().named()

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.kit.plots.layers import (
     Layer,
     Words,
@@ -30,7 +30,6 @@ from bearingcore.sweep.outputs import mode_symbol
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440
-LABEL_WIDTH = 0.17  # that a name needs of the width of a spectrum
 LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
 """[px] right of the frame, for the names of bands."""
@@ -41,16 +40,6 @@ const room = cb_obj.outer_width < larger*below ? 34 : larger*usual
 if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{sync: false}})
 """
 
-BAND_NAME = """
-const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
-"""
-BAND_SPAN = """
-const low = row.low.toFixed(0), high = row.high.toFixed(0)
-return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
-"""
-BAND_WORDS = BAND_NAME + BAND_SPAN
-SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
-"""The same for `style.fitting_words`."""
 _NAME_WORDS = f"{BAND_NAME}\nif (plot.min_border_right < larger*100) return name\n{BAND_SPAN}"
 
 
@@ -116,12 +105,12 @@ class NaturalFrequencies(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        modes, healthy = results.modes, results.healthy.modes
+        modes, healthy = results.modes, results.reference.modes
         bands = band_rows(results.bands)
         compared = compared_curves.sources(
             "modes",
             ("angle", "frequency"),
-            results.compared_alike,
+            (results.against(one) for one in results.compared),
             lambda other: lines(results.along(other.modes.cage_angles), other.modes.frequency),
         )
         shown = self._range.fit(
@@ -140,7 +129,7 @@ class NaturalFrequencies(View):
             **compared_curves.sources(
                 "modes_band",
                 ("low", "high"),
-                results.of_compared,
+                results.compared_results,
                 lambda other: band_rows(other.bands),
             ),
             "modes_bands": bands,
@@ -157,7 +146,7 @@ class NaturalFrequencies(View):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, healthy = results.bands, results.healthy.bands
+        bands, healthy = results.bands, results.reference.bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             why = results.equilibrium.reason(0)
@@ -178,7 +167,7 @@ class NaturalFrequencies(View):
             self._axis.axis_label = over.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        modes, healthy = results.modes, results.healthy.modes
+        modes, healthy = results.modes, results.reference.modes
         own, grey = modes.table(), healthy.table().prefixed("healthy")
         columns = (own | grey).in_units().named()
         if results.over_shaft:
@@ -191,65 +180,6 @@ def _from_to(band: tuple[float, float]) -> str:
     return f"from {words}" if " to " in words else f"at {words}"
 
 
-def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:
-    """Bands as columns: low and high [Hz], index of the direction, number of the mode."""
-    rows = [
-        (low, high, style.DIRECTIONS.index(label[:-1]), int(label[-1]))
-        for label, (low, high) in bands.items()
-        if np.isfinite(low)
-    ]
-    low, high, direction, number = np.array(rows, dtype=float).reshape(-1, 4).T
-    return {"low": low, "high": high, "direction": direction, "number": number}
-
-
-def highest(bands: Mapping[str, tuple[float, float]]) -> float:
-    """The upper end [Hz] of the highest band; 0 without one."""
-    return float(np.max(band_rows(bands)["high"], initial=0.0))
-
-
-def bands_along(
-    bands: Mapping[str, tuple[float, float]], dof: str, top: float
-) -> dict[str, np.ndarray]:
-    """`band_rows` of one direction, with the places of their names up to `top` [Hz]."""
-    rows = band_rows({label: ends for label, ends in bands.items() if label[:-1] == dof})
-    middle = 0.5 * (rows["low"] + rows["high"])
-    return {**rows, "label_at": spread(middle, LABEL_WIDTH * top, 0.0, top)}
-
-
 def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:
     """The columns over x as one line with a gap between one column and the next."""
     return with_gaps(((x, column) for column in columns.T), "angle", "frequency")
-
-
-def spread(
-    places: NDArray[np.float64], apart: float, lowest: float, highest: float
-) -> NDArray[np.float64]:
-    """`places` moved as little as it takes to be at least `apart` and stay within the limits.
-
-    Neighbours that are too close become a group around the mean of where they want to be; groups
-    that meet join. Where there are too many for the room they keep the distance and overrun it.
-    """
-    order = np.argsort(places, kind="stable")
-    groups: list[list[float]] = []  # wanted places, lowest first
-    for place in places[order]:
-        groups.append([float(place)])
-        while len(groups) > 1 and _bottom(groups[-1], apart, lowest, highest) < (
-            _bottom(groups[-2], apart, lowest, highest) + apart * len(groups[-2])
-        ):
-            last = groups.pop()
-            groups[-1] += last
-    moved = [
-        _bottom(group, apart, lowest, highest) + apart * i
-        for group in groups
-        for i in range(len(group))
-    ]
-    result = np.empty(places.size)
-    result[order] = moved
-    return result
-
-
-def _bottom(group: list[float], apart: float, lowest: float, highest: float) -> float:
-    """Where the lowest of a group stands."""
-    height = apart * (len(group) - 1)
-    wanted = float(np.mean(group)) - 0.5 * height
-    return max(min(wanted, highest - 0.5 * apart - height), lowest + 0.5 * apart)

@@ -10,10 +10,9 @@ from bokeh.models import ColumnDataSource, Range1d, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import of_orbit
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import Glyph, curve, draw, filled
 from bearing_explorer.kit.plots.levels import (
     FREQUENCY,
@@ -150,11 +149,16 @@ class SteadyOrbit(View):
         round_about = self._multiplier_range.fit(-1.05 * reach, 1.05 * reach)
         outside = np.abs(multipliers) >= 1.0
         path, marched = orbit_path(results), marched_path(results)
-        paths = compared_curves.sources("orbit_path", SHOWN, results.of_compared, orbit_path)
+        paths = compared_curves.sources(
+            "orbit_path",
+            SHOWN,
+            results.compared_results,
+            orbit_path,
+        )
         levels = compared_curves.sources(
             "orbit_levels",
             ("frequency", *SHOWN),
-            results.of_compared,
+            results.compared_results,
             lambda other: drawn_levels(other.orbit_spectra, HIGHEST),
         )
         x_range, y_range = (

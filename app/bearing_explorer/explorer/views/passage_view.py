@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearing_explorer.explorer.results.excerpt import least_and_greatest
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import (
     ON_PAPER,
@@ -21,11 +20,11 @@ from bearing_explorer.kit.plots.layers import (
 )
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, View
 from bearingcore import Bearing
 
-TIME = style.AxisQuantity("Time", "t", "s", prefixed=True)
 SLOTS = len(style.BALL_COLORS)
 PIXELS = 500  # stretches of a line that are kept apart
 LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
@@ -64,7 +63,7 @@ class PassageView(View):
         plots = []
         for number, (quantity, height, layers, shown) in enumerate(figures):
             name = f"{self.prefix}_drawing_{number}"
-            plot = style.make_figure(TIME, quantity, time, shown, height=height, name=name)
+            plot = style.make_figure(style.TIME, quantity, time, shown, height=height, name=name)
             add_all(plot, sources, layers)
             plots.append(plot)
         return plots

@@ -9,7 +9,6 @@ from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.element_words import element_name
 from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing import (
@@ -22,7 +21,7 @@ from bearing_explorer.explorer.views.bearing import (
     Shapes,
     load_words,
 )
-from bearing_explorer.explorer.views.passage_view import TIME, along_both, traces
+from bearing_explorer.explorer.views.passage_view import along_both, traces
 from bearing_explorer.explorer.views.vibration_time import (
     ACCELERATION,
     event_rows,
@@ -30,6 +29,7 @@ from bearing_explorer.explorer.views.vibration_time import (
 )
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.element_words import element_name
 from bearing_explorer.kit.plots.layers import draw, uprights
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.live_component import LiveComponent
@@ -91,7 +91,7 @@ class SlowPassage(BearingDrawing):
         }.items():
             packed.source(f"slow_{name}", *columns)
         motion = style.make_figure(
-            TIME,
+            style.TIME,
             ACCELERATION,
             packed.range("slow_time", 0.0, 0.04),
             packed.range("slow_acceleration", -5.0, 5.0),

@@ -23,10 +23,10 @@ from bearing_explorer.explorer.state.value_range import (
     usual_range,
     value_of,
 )
-from bearing_explorer.explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.explorer.views.swept_view import Swept, SweptView, compute_in_levels
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.kit.plots.heat_map import GridImage, Side, bright_image, ends
 from bearing_explorer.kit.plots.layers import (
     Glyph,

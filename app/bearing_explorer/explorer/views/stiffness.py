@@ -13,11 +13,11 @@ import numpy as np
 from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
-from bearing_explorer.explorer.plots import compared_curves, matrix_cells
-from bearing_explorer.explorer.plots.element_words import elements
+from bearing_explorer.explorer.plots import matrix_cells
 from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import layers, style
+from bearing_explorer.kit.plots import compared_curves, layers, style
+from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.style import in_degrees, with_prefix, words_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -88,7 +88,7 @@ class Stiffness(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
         found, now = results.equilibrium, results.now
-        alike = [results.healthy, *results.compared_alike]
+        alike = [results.reference, *(results.against(one) for one in results.compared)]
         answers = [found, *(other.equilibrium for other in alike)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]
@@ -150,7 +150,7 @@ class Stiffness(View):
 
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
-        ranges, healthy = results.ranges, results.healthy.ranges
+        ranges, healthy = results.ranges, results.reference.ranges
         found = ranges.state
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
@@ -181,7 +181,7 @@ class Stiffness(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""
-        found, healthy = results.equilibrium, results.healthy.equilibrium
+        found, healthy = results.equilibrium, results.reference.equilibrium
         columns: dict[str, np.ndarray] = {}
         for kind, answer in (("defective", found), ("healthy", healthy)):
             table = answer.table().in_units().prefixed(kind)

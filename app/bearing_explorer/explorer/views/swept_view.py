@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.value_range import Sweep, alike_but_for, focused
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import Work
-from bearing_explorer.kit.views.job_view import JobView
 from bearingcore import Scene
 from bearingcore.common.progress import Progress
 
@@ -64,7 +64,7 @@ def compute_in_levels(
     return shown
 
 
-class SweptView(JobView[Swept]):
+class SweptView(SceneJobView[Swept]):
     """A view of such a result; it is faint where it is that of another scene."""
 
     #: sentence before the first result

@@ -10,12 +10,13 @@ import numpy as np
 from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.modes import SHORT_BAND_WORDS, bands_along, highest
+from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
 from bearing_explorer.explorer.views.wide_spectrum import HEIGHT, WideSpectra
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.kit.plots.layers import (
     CENTERED,
     ON_PAPER,
@@ -35,7 +36,6 @@ from bearing_explorer.kit.plots.levels import (
     decibels,
     density_axis,
     drawn_levels,
-    levels_of_compared,
     seen_levels,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -47,12 +47,17 @@ from bearingcore import Scene
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.scene import WITH_MASS
 
+GREY: FieldSpec = {
+    "name": "grey",
+    "label": "Grey",
+    "options": [[HEALTHY, "without the defect"], [OTHER_BALLS, "with the mass of the balls"]],
+}
 AXIS: FieldSpec = {
     "name": "axis",
     "label": "Frequency",
     "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
 }
-"""The switch above the figures."""
+"""The switches above the figures."""
 
 NAMED_IN_FULL = 580.0
 """[px] width of a frame from which the names of bands have room for their frequencies."""
@@ -113,9 +118,9 @@ class VibrationSpectra(LookView):
         "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "healthy", "bands"})
-    look_fields = (AXIS,)
-    first_look: ClassVar[dict[str, Any]] = {"axis": "linear"}
+    needs = frozenset({"motion", "late_spectra", "reference", "bands"})
+    look_fields = (AXIS, GREY)
+    first_look: ClassVar[dict[str, Any]] = {"axis": "linear", "grey": HEALTHY}
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
@@ -132,7 +137,7 @@ class VibrationSpectra(LookView):
             plots.append(plot)
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [box, *plots]
-        self._wide = WideSpectra(packed, "spectrum_wide", {})
+        self._wide = WideSpectra(packed, "spectrum_wide")
         high = {"min-height": "calc(var(--room) - 170px)"}
         return self.only_with_numbers(
             self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
@@ -151,6 +156,20 @@ class VibrationSpectra(LookView):
     def still_figures(self) -> Sequence[LayoutDOM]:
         return self._wide.plots if self.wide else self._narrow[1:]
 
+    def look_changed(self, name: str, value: Any) -> None:
+        if name == "grey" and self.parts is not None:
+            self.parts.set_grey(value)  # what is drawn in grey is so on all tabs
+        else:
+            super().look_changed(name, value)
+
+    def choices(self) -> dict[str, Any]:
+        return {name: value for name, value in super().choices().items() if name != "grey"}
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        if results is not None:
+            self.look["grey"] = results.grey_kind
+        super().say(results, sentence)
+
     def show_look(self) -> None:
         super().show_look()
         for part in self._narrow:
@@ -163,12 +182,13 @@ class VibrationSpectra(LookView):
         if not self.wide:
             return {}, {}
         band = (0.0, 0.0)
-        if results.scene.balls == WITH_MASS:
-            band = contact_resonance_band(results.scene)
+        for scene in (results.scene, results.grey.scene):
+            if scene.balls == WITH_MASS:
+                band = contact_resonance_band(scene)
         return self._wide.data(
             results,
             results.late_spectra,
-            results.healthy.late_spectra,
+            results.reference.late_spectra,
             band,
             results.motion.bandwidth,
         )
@@ -184,13 +204,13 @@ class VibrationSpectra(LookView):
             sources |= compared_curves.sources(
                 f"spectrum_band_{dof}",
                 ("low", "high"),
-                results.of_compared,
+                results.compared_results,
                 partial(_bands_of, dof, top),
             )
         sources |= {
             **compared,
             "spectrum_lines": drawn,
-            "spectrum_healthy": drawn_levels(results.healthy.late_spectra, top),
+            "spectrum_healthy": drawn_levels(results.reference.late_spectra, top),
             "spectrum_passes": {"frequency": passing["frequency"]},
             "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
             **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
@@ -203,7 +223,8 @@ class VibrationSpectra(LookView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
-        spectra_of = {"": results.late_spectra, "healthy_": results.healthy.late_spectra}
+        before = f"{results.grey_kind.replace('-', '_')}_"
+        spectra_of = {"": results.late_spectra, before: results.reference.late_spectra}
         for prefix, drawn in spectra_of.items():
             for dof, one in drawn.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.plots.element_words import element_name
 from bearing_explorer.explorer.results.excerpt import Event, Excerpt
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.passage_view import (
@@ -23,7 +21,8 @@ from bearing_explorer.explorer.views.passage_view import (
     places_of_labels,
     traces,
 )
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import element_name
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -73,7 +72,7 @@ class VibrationInTime(PassageView):
         compared = compared_curves.sources(
             "vibration",
             ("time", *SHOWN),
-            results.of_compared,
+            results.compared_results,
             lambda other: traces(
                 other.excerpt.time, along_both(other.excerpt.time, other.excerpt.acceleration)
             ),

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from bokeh.plotting import figure
 
-from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import (
     ON_PAPER,
     Layer,
@@ -23,7 +21,6 @@ from bearing_explorer.kit.plots.levels import (
     SHOWN,
     density_axis,
     drawn_levels,
-    levels_of_compared,
     seen_levels,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -51,16 +48,14 @@ class WideSpectra:
         sends the numbers.
     name
         of the sources and ranges.
-    other
-        look of the other line, which is drawn beneath.
     """
 
-    def __init__(self, packed: PackedSource, name: str, other: dict[str, Any]) -> None:
+    def __init__(self, packed: PackedSource, name: str) -> None:
         self._name = name
         self._levels = StickyRange(-120.0, -20.0, least_span=60.0)
         frequency = packed.range(f"{name}_frequency", LOWEST, 32768.0)
         level = packed.range(f"{name}_level", -120.0, -20.0)
-        layers = {dof: self._layers(dof, other) for dof in SHOWN}
+        layers = {dof: self._layers(dof) for dof in SHOWN}
         sources = sources_of(packed, [layer for own in layers.values() for layer in own])
         #: along x and along y
         self.plots: list[figure] = []
@@ -78,14 +73,13 @@ class WideSpectra:
             add_all(plot, sources, layers[dof])
             self.plots.append(plot)
 
-    def _layers(self, dof: str, other: dict[str, Any]) -> list[Layer]:
+    def _layers(self, dof: str) -> list[Layer]:
         """Along a direction, from the lowest to the highest."""
         name = self._name
         color = style.color_along(dof)
-        beneath = {"color": style.HEALTHY, "width": 1.5, **other}
         return [
             strips(f"{name}_resonance", style.DEFECT, 0.22, reads=("above",)),
-            curve(f"{name}_others", "frequency", dof, **beneath),
+            curve(f"{name}_others", "frequency", dof, style.HEALTHY, 1.5),
             *compared_curves.curves(name, "frequency", dof, width=1.3),
             curve(f"{name}_lines", "frequency", dof, color, 1.4),
             Words(

@@ -11,10 +11,11 @@ from typing import Any, ClassVar
 
 import param
 
+from bearing_explorer.explorer.messages import SceneChange
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, Choice
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_FIELDS
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import SceneChange, take
+from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.live_component import LiveComponent
 
 

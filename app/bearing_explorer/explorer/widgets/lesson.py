@@ -8,9 +8,10 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
+from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import LessonChange, take
+from bearing_explorer.kit.messages import take
 
 
 class LessonPanel(JSComponent):

@@ -8,8 +8,9 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
+from bearing_explorer.explorer.messages import LinksChange
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import LinksChange, take
+from bearing_explorer.kit.messages import take
 
 
 class ShareBar(JSComponent):

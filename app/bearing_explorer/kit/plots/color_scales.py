@@ -8,9 +8,18 @@ blue below zero and orange above it, as light as paper at zero and equally dark 
 from __future__ import annotations
 
 import numpy as np
-from bokeh.palettes import Viridis256
+from bokeh.palettes import Viridis256, magma
+
+from bearing_explorer.kit.plots import style
 
 STEPS = 256
+
+LOADS = list(magma(256))[40:246][::-1]
+"""Loads of balls on a light page."""
+DARK_LOADS = list(magma(256))[62:]
+"""The same on a dark page."""
+INKS = [style.INK, style.PAPER]
+"""Text on a light colour, and on a dark one."""
 
 
 def _from_hex(color: str) -> np.ndarray:

@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearingcore import Spectrum
 
@@ -61,15 +59,3 @@ def seen_levels(
     levels = np.concatenate([spectrum[dof] for spectrum in spectra for dof in SHOWN])
     loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))
     return np.maximum(levels, loudest - depth), loudest + room
-
-
-def levels_of_compared(
-    name: str, results: Results, top: float, lowest: float = 0.0
-) -> dict[str, dict[str, np.ndarray]]:
-    """Spectra of the compared scenes from `lowest` to `top` [Hz], for `compared_curves`."""
-    return compared_curves.sources(
-        name,
-        ("frequency", *SHOWN),
-        results.of_compared,
-        lambda other: drawn_levels(other.late_spectra, top, lowest),
-    )

@@ -152,6 +152,7 @@ BALL_LOAD = AxisQuantity("Contact load", "Q", "N", prefixed=True)
 BALL_ANGLE = AxisQuantity("Angular position", "φ", "°", around=True)
 CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
 SHAFT_ANGLE = AxisQuantity("Shaft angle", "φs", "°")
+TIME = AxisQuantity("Time", "t", "s", prefixed=True)
 
 
 def make_figure(

@@ -12,15 +12,8 @@ from tornado.httputil import HTTPServerRequest
 from tornado.routing import Matcher
 from tornado.web import RequestHandler
 
-from bearing_explorer.explorer.state.address import TOO_LONG
 from bearing_explorer.kit.assets import asset_text
-
-LONGEST_ADDRESS = 16_000
-"""Characters of an address that reaches the page; links of the page have at most half of that.
-
-A session's token holds the address and goes back in a header: with a longer one the page would come
-and its connection never.
-"""
+from bearing_explorer.kit.serve.address import LONGEST_ADDRESS, TOO_LONG
 
 
 def message_page(title: str, words: str) -> str:

@@ -27,27 +27,22 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 import panel as pn
 import param
 from bokeh.models import LayoutDOM, Plot
 
-from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.explorer.plots.compared_curves import CurveKey
-from bearing_explorer.explorer.plots.element_words import with_elements_of
-from bearing_explorer.explorer.results.endurance import LifeInputs
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.compared import WITHOUT_DEFECT
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.views.python_lines import lines_of
-from bearing_explorer.explorer.widgets.controls import Rows
 from bearing_explorer.kit.assets import asset_path, asset_text, scripts
 from bearing_explorer.kit.compute.jobs import Jobs
+from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT, CurveKey
+from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.zoom import zoomable
 from bearing_explorer.kit.serve.live_component import LiveComponent
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.python_lines import lines_of
 from bearing_explorer.kit.widgets.facts import sentence_html, table_to_read
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 from bearingcore import Scene
@@ -98,48 +93,30 @@ class Sentence(LiveComponent):
 
 @dataclass(frozen=True)
 class SessionParts:
-    """Parts of the session for the views that are attached to it.
+    """Parts of the session for the views that are attached to it; each half adds its own.
 
     Parameters
     ----------
-    editor
-        the scene as the controls have it.
     jobs
         the background of the session.
-    measurement
-        the measured signal.
     draw
         requests a drawing.
-    ask
-        takes a message of the browser about the scene, which may be invalid.
-    add_controls
-        has a panel of controls follow the scene.
-    take_steps
-        sets the step rate [Hz] of time integration; None: the program's own.
-    open_link
-        opens what a link holds: a scene, compared ones, a tab; by a name and the link's text.
-    set_life_inputs
-        sets the data of steel, oil and surfaces.
     """
 
-    editor: SceneEditor
     jobs: Jobs
-    measurement: Measurement
     draw: Callable[[], None]
-    ask: Callable[[Any], None]
-    add_controls: Callable[[Rows], None]
-    take_steps: Callable[[float | None], None]
-    open_link: Callable[[str, str], None]
-    set_life_inputs: Callable[[LifeInputs], None]
 
 
-class View:
+C = TypeVar("C", bound=Content)
+
+
+class View(Generic[C]):
     """One picture of the scene. The head of this module lists the parts of a subclass."""
 
     name: ClassVar[str]
     title: ClassVar[str]
     about: ClassVar[str] = ""
-    needs: ClassVar[frozenset[str]] = frozenset()
+    needs: frozenset[str] = frozenset()
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
     #: whether its figures are drawings, in which circles are round
@@ -155,15 +132,15 @@ class View:
     leads_to: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen
     cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
-    #: parts of the session, on the page alone
-    parts: SessionParts | None = None
+    #: parts of the session that its half has, on the page alone
+    parts: Any = None
     #: result of a job of the view
     found: Any = None
     #: whether `choose` computes the content of the view
     computes: ClassVar[bool] = False
 
     def __init__(self, packed: PackedSource) -> None:
-        self._results: Results | None = None
+        self._results: C | None = None
         self._has_drawn = False
         self._sentence = Sentence(css_classes=list(self.sentence_looks))
         #: parts of the content that are hidden without numbers
@@ -242,24 +219,24 @@ class View:
             hidden.objects = content
         self._withheld = []
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, results: C) -> tuple[Sources, Ranges]:
         """Sources and ranges for these results; none where nothing comes in the packed source."""
         return {}, {}
 
-    def all_data(self, results: Results) -> tuple[Sources, Ranges]:
+    def all_data(self, results: C) -> tuple[Sources, Ranges]:
         """`data`, with all sources of the view."""
         sources, ranges = self.data(results)
         return {**self._empty, **sources}, ranges
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, results: C) -> str:
         """One sentence on the figure as it is now, numbers with units."""
         raise NotImplementedError
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, results: C) -> dict[str, np.ndarray]:
         """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
         raise NotImplementedError
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def say(self, results: C | None, sentence: str) -> None:
         """Show the sentence and keep the results for the table. On the event loop only.
 
         Without results the last ones stay, as the last picture does. Before the first picture, and
@@ -283,16 +260,17 @@ class View:
         )
         if results is not None:
             bearing = results.scene.bearing
-            line, rest = parts_of(with_elements_of(bearing, self.caption()))
+            about = self.caption(results.grey.name)
+            line, rest = parts_of(with_elements_of(bearing, about))
             title = with_elements_of(bearing, self.title)
             self._caption.put(title=title, line=line, rest=rest)
             for key in self._keys:
                 key.show([one.name for one in results.compared])
 
     @classmethod
-    def caption(cls) -> str:
-        """The text above the figure."""
-        return cls.about.replace("{grey}", WITHOUT_DEFECT)
+    def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
+        """The text above the figure; `grey` is the name of what is drawn in grey."""
+        return cls.about.replace("{grey}", grey)
 
     def put_away(self) -> None:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""
@@ -321,7 +299,7 @@ class View:
 
     # Outside of the page: see `views.still_figure`
 
-    def scene_drawn(self, results: Results) -> Scene:
+    def scene_drawn(self, results: C) -> Scene:
         """The scene that is drawn: the result of a job may be of an earlier one."""
         return results.scene
 
@@ -329,11 +307,8 @@ class View:
         """Choices made in the view itself, as plain values, for `choose`."""
         return {}
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+    def choose(self, choices: Mapping[str, Any], results: C) -> None:
         """Take `choices`, and compute as the page does when they are made."""
-
-    def take_measurement(self, measurement: Measurement) -> None:
-        """Take a measured signal, where the view shows one."""
 
     def lines_before(self) -> list[str]:
         """Lines of Python between those of the scene and of the figure."""

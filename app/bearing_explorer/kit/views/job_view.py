@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.views.still_figure import editor_of
 from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
-from bearing_explorer.kit.views.base import Sentence, SessionParts, View
+from bearing_explorer.kit.views.base import C, Sentence, SessionParts, View
 from bearing_explorer.kit.widgets.facts import sentence_html
 from bearing_explorer.kit.widgets.form import (
     SEARCHED,
@@ -28,6 +25,17 @@ from bearing_explorer.kit.widgets.form import (
 from bearingcore import Scene
 
 Found = TypeVar("Found")
+
+
+class Editor(Protocol):
+    """Where a form finds the scene that is computed."""
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the controls."""
+
+
+E = TypeVar("E", bound=Editor)
 
 _PROGRESS = """
 progress { width: 220px; height: 6px; accent-color: var(--accent); vertical-align: middle; }
@@ -139,7 +147,7 @@ class JobForm(pn.Column):
                 self._fields.widgets[spec["name"]].visible = shown
 
 
-class JobView(View, Generic[Found]):
+class JobView(View[C], Generic[C, Found, E]):
     """A view of the result of a job.
 
     A subclass puts `self.job` among what it builds, and provides `form` and `prepare`; `found` is
@@ -158,7 +166,7 @@ class JobView(View, Generic[Found]):
     #: values of the form, and the scene, of the newest result
     _found_for: tuple[dict[str, str], Scene] | None = None
     _jobs: Jobs | None = None
-    _editor: SceneEditor
+    _editor: E
     _draw: Callable[[], None]
 
     @property
@@ -173,9 +181,17 @@ class JobView(View, Generic[Found]):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self.employ(parts.jobs, parts.editor, parts.draw)
+        self.employ(parts.jobs, self.editor_on_page(parts), parts.draw)
 
-    def employ(self, jobs: Jobs, editor: SceneEditor, draw: Callable[[], None]) -> None:
+    def editor_on_page(self, parts: Any) -> E:
+        """The editor among the parts of the session."""
+        raise NotImplementedError
+
+    def editor_of(self, results: C) -> E:
+        """The editor as it is for what is drawn, outside of the page."""
+        raise NotImplementedError
+
+    def employ(self, jobs: Jobs, editor: E, draw: Callable[[], None]) -> None:
         """Allow jobs, for the scene of `editor`; `draw` requests a drawing."""
         self._jobs, self._editor, self._draw = jobs, editor, draw
         self.job.fill(*self.form(editor))
@@ -189,18 +205,18 @@ class JobView(View, Generic[Found]):
         """The fields of the form; none where there is nothing to choose."""
         return []
 
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+    def form(self, editor: E) -> tuple[dict[str, str], dict[str, Any]]:
         """First values of the fields, and the values that a choice brings with it.
 
         The second is {field: {its value: {other field: its value then}}}.
         """
         return {}, {}
 
-    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+    def prepare(self, given: Mapping[str, str], editor: E) -> Callable[[Work], str]:
         """The job for the values of the form; ValueError with a sentence where there is none."""
         raise NotImplementedError
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, results: C) -> dict[str, np.ndarray]:
         return {} if self.found is None else self.columns(self.found)
 
     def columns(self, found: Found) -> dict[str, np.ndarray]:
@@ -232,15 +248,15 @@ class JobView(View, Generic[Found]):
 
         self._jobs.start(work, take, self.job.show)
 
-    def scene_drawn(self, results: Results) -> Scene:
+    def scene_drawn(self, results: C) -> Scene:
         return results.scene if self._found_for is None else self._found_for[1]
 
     def choices(self) -> dict[str, Any]:
         return {} if self._found_for is None else dict(self._found_for[0])
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+    def choose(self, choices: Mapping[str, Any], results: C) -> None:
         """Compute the job of a form with these fields; missing ones have their usual values."""
-        editor = editor_of(results)
+        editor = self.editor_of(results)
         given = {**self.form(editor)[0], **choices}
         self.found = last_shown(self.prepare(given, editor))
         self._found_for = given, editor.scene

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.base import C, View
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearing_explorer.kit.widgets.look import LookPanel, checked
 
 
-class LookView(View):
+class LookView(View[C]):
     """A view with choices above its figures; `build` puts `self.panel_of_look` among its parts."""
 
     look_fields: ClassVar[Sequence[FieldSpec]]
@@ -47,13 +46,13 @@ class LookView(View):
     def choices(self) -> dict[str, Any]:
         return {name: v for name, v in self.look.items() if v != self.first_look[name]}
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+    def choose(self, choices: Mapping[str, Any], results: C) -> None:
         self.take_look(choices)
 
     def show_look(self) -> None:
         """Show the choices as they are."""
         self.panel_of_look.show(self.look)
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def say(self, results: C | None, sentence: str) -> None:
         super().say(results, sentence)
         self.show_look()

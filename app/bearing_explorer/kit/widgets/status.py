@@ -5,16 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar
 
-import numpy as np
 import param
 
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import verdict
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.messages import TabChange, take
 from bearing_explorer.kit.serve.live_component import LiveComponent
-from bearingcore.common.numbers import count, scientific
-from bearingcore.scene.scene import DOF_SYMBOLS
 
 
 class StatusLine(LiveComponent):
@@ -39,7 +34,7 @@ class StatusLine(LiveComponent):
 class Tabs(LiveComponent):
     """The tabs of the page."""
 
-    names = param.List(default=[])  # [[name, title, group], ...]
+    names = param.List(default=[])  # [[name, title, title of the tab], ...]
     active = param.String()
 
     _esm = scripts("element.js", "tabs.js")
@@ -48,28 +43,3 @@ class Tabs(LiveComponent):
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, **params)
         self.on_msg(lambda event: take(asked, TabChange, event.data))
-
-
-def status_of(
-    results: Results, seconds: float, shown: frozenset[str] = frozenset()
-) -> dict[str, Any]:
-    """The status line of results that took `seconds` [s] to compute.
-
-    `shown`: the attributes of the results that views on screen read.
-    """
-    found = results.equilibrium
-    n_angles = found.converged.size
-    mood, words = verdict(results, shown)
-    details = []
-    finite = found.residual[found.converged & np.isfinite(found.residual)]
-    if finite.size:
-        details.append(f"residual at most {scientific(float(finite.max()))}")
-    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
-    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
-    details.append(f"{freedom}: {symbols}")
-    details.append(count(n_angles, "cage angle"))
-    if results.is_coarse(shown):
-        details.append(results.coarse_words(shown))
-    by_hand = results.settings.changed_by_hand()
-    details = [*by_hand, *details, f"{1e3 * seconds:.1f} ms of computing"]
-    return {"mood": mood, "words": words, "details": details, "resting": not results.moving}

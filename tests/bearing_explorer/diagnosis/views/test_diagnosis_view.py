@@ -22,9 +22,10 @@ from bearing_explorer.diagnosis.views.part_lines import (
     named,
     window,
 )
+from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.session import Explorer
-from bearing_explorer.kit.messages import LessonChange, take
+from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
 

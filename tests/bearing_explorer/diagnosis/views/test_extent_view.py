@@ -11,8 +11,8 @@ from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered, exten
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.extent import BEFORE, SpallExtent
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.still_figure import Figure
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.still_figure import Figure
 
 from bearingcore import MeasuredExtent, Recording, presets
 from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal

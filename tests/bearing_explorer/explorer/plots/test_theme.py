@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
-from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.views import stability_map, work_precision
-from bearing_explorer.explorer.views.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
 FIGURES = [Path(style.__file__).parent, Path(stability_map.__file__).parent]
 #: a map's own colours, the same on both pages, and what lies on top of pictures

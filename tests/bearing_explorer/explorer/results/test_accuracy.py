@@ -9,6 +9,7 @@ import time
 import pytest
 from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
@@ -20,7 +21,6 @@ from bearing_explorer.explorer.views.work_precision import (
 )
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.status import status_of
 
 from bearingcore import presets
 from bearingcore.experiments import (

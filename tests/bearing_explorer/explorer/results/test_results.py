@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
 from bearing_explorer.explorer.results import motions
 from bearing_explorer.explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.compared import Compared
+from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.kit.compute.cache import Overtaken
-from bearing_explorer.kit.plots.levels import levels_of_compared
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
@@ -23,7 +23,7 @@ def test_equal_scenes_share_their_answers() -> None:
     scene = presets["fan-rig"]
     one, two = Results(scene), Results(scene.replace(fy=scene.load.fy))
     assert one.equilibrium is two.equilibrium
-    assert one.healthy.equilibrium is Results(scene.replace(extent=0.5)).healthy.equilibrium
+    assert one.reference.equilibrium is Results(scene.replace(extent=0.5)).reference.equilibrium
 
 
 def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
@@ -39,14 +39,14 @@ def test_a_motion_that_takes_too_many_steps_is_shorter_or_refused() -> None:
 
 def test_compared_scenes_have_results_of_their_own() -> None:
     scene, other = presets["fan-rig"], presets["liew-lim"].replace(n_balls=9)
-    results = Results(scene, 0.1, compared=[Compared(other, "mine")])
+    results = Results(scene, 0.1, compared=[Reference(other, "mine")])
     first, last, n = results.stretch
     angles = np.linspace(first, last, n)
-    found = results.compared_alike[0].equilibrium
+    found = results.against(results.compared[0]).equilibrium
     np.testing.assert_array_equal(found.term("k_yy"), equilibrium(other, angles).term("k_yy"))
-    (own,) = results.of_compared
+    (own,) = results.compared_results
     assert own.equilibrium.cage_angles[-1] == pytest.approx(2.0 * np.pi / 9)
-    assert Results(scene, 0.1).of_compared == []
+    assert Results(scene, 0.1).compared_results == []
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_curves_of_a_compared_scene_are_those_that_it_has_alone(
     view: type[View], drawn: str, compared: str
 ) -> None:
     scene, other = presets["fan-rig"], presets["fan-rig"].replace(extent=0.1)
-    both, _ = view(PackedSource()).data(Results(scene, compared=[Compared(other, "shorter")]))
+    both, _ = view(PackedSource()).data(Results(scene, compared=[Reference(other, "shorter")]))
     alone, _ = view(PackedSource()).data(Results(other))
     for column, values in both[compared].items():
         assert values.size
@@ -73,7 +73,7 @@ def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_thei
     still = presets["liew-lim"].replace(stiffness_z=None)
     shorter = presets["fan-rig"].replace(extent=0.1)
     results = Results(
-        presets["fan-rig"], compared=[Compared(still, "still"), Compared(shorter, "shorter")]
+        presets["fan-rig"], compared=[Reference(still, "still"), Reference(shorter, "shorter")]
     )
     drawn = levels_of_compared("here", results, 2000.0)
     sizes = [one["x"].size for one in drawn.values()]

@@ -19,7 +19,6 @@ from bearing_explorer.diagnosis.diagnoses import SLIP
 from bearing_explorer.diagnosis.session import simulated
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.session import Explorer
 from bearing_explorer.explorer.state import lessons
 from bearing_explorer.explorer.state.lessons import (
     Fault,
@@ -52,8 +51,10 @@ from bearingcore import (
     simulate,
     spectrum,
 )
+from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.experiments import motion_experiment
 from tests.helpers.contact_law import Balls, newton
+from tests.helpers.sessions import SceneSession
 
 FILES = sorted(own_folder().glob("*.md"))
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -395,7 +396,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
          (mass_shares(PIT, 500.0).max(), -mass_shares(PIT, 16e3)[0], 16)),
         ("Under 50 N the same ball flies, and strikes: there mass adds 87 %",
          (50, mass_shares(LIGHT_PIT, 16e3)[0])),
-        ("that is 20 to 29 kHz", tuple(1e-3 * f for f in with_mass(FAN).resonances)),
+        ("that is 20 to 29 kHz", tuple(1e-3 * f for f in contact_resonance_band(FAN))),
         ("a ball of 2.1 g moves a housing of 2 kg little",
          (1e3 * FAN.bearing.ball_mass, FAN.support.outer_mass)),
     ],
@@ -562,7 +563,7 @@ def test_the_page_for_teachers_can_be_shown() -> None:
 
 
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
-    explorer = Explorer(SECTIONS, lessons=lessons_in(own_folder(), TABS))
+    explorer = SceneSession(SECTIONS, lessons=lessons_in(own_folder(), TABS))
     explorer.draw = lambda: None  # type: ignore[method-assign]
     explorer.requests.change_scene({"mark": 1, "typed": {"fy_n": -77.0}})
     before = explorer.scene
@@ -712,7 +713,7 @@ def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
     (tmp_path / "1.md").write_text(GOOD, encoding="utf-8")
     (tmp_path / "2.md").write_text(GOOD.replace("show:maps", "show:nothing"), encoding="utf-8")
     assert options(["--lessons", str(tmp_path)]).lessons == tmp_path
-    explorer = Explorer(SECTIONS, lessons=lessons_in(tmp_path, TABS))
+    explorer = SceneSession(SECTIONS, lessons=lessons_in(tmp_path, TABS))
     panel = explorer.lesson
     assert [(title, name) for title, _, name in panel.titles] == [("A title", "1"), ("2.md", "")]
     assert panel.titles[1][1].startswith("2.md, line 18: “nothing” is not a tab")

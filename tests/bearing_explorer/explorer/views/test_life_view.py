@@ -9,7 +9,7 @@ import pytest
 from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.life import groups_of
-from bearing_explorer.explorer.widgets.limits import rows_of
+from bearing_explorer.kit.widgets.limits import rows_of
 
 from bearingcore import (
     Limit,

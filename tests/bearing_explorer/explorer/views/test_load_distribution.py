@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.load_curve import load_curve
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import massless as massless_balls
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution, shaded
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -114,4 +115,6 @@ def test_balls_with_mass_show_both_races() -> None:
     massless = Results(heavy.replace(balls="massless"))
     assert not view.data(massless)[0]["load_distribution_inner"]["angle"].size
     assert "inner race" not in view.sentence(massless)
-    assert np.array_equal(massless.now.ball_load, results.massless_now.ball_load)
+    assert np.array_equal(
+        massless.now.ball_load, results.against(massless_balls(results.scene)).now.ball_load
+    )

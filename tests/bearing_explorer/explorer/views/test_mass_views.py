@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.mass_spectrum import MassInSpectrum
+from bearing_explorer.explorer.state.references import OTHER_BALLS
 from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.mechanism import WhichMechanism, in_words
+from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import SessionParts
 
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
@@ -52,20 +54,42 @@ def test_shares_are_those_of_the_core(found: BallMass) -> None:
 
 def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> None:
     packed = PackedSource()
-    time, spectra, octaves = (kind(packed) for kind in (MassInTime, MassInSpectrum, WhichMechanism))
+    time, octaves = (kind(packed) for kind in (MassInTime, WhichMechanism))
     sources, ranges = time.data(results)
     assert np.nanmax(sources["mass_motion"]["y"]) == np.max(found.with_mass["y"])
     assert np.nanmax(sources["mass_motion"]["y_massless"]) == np.max(found.massless["y"])
     assert sources["mass_flights"]["from"].size >= 1
     assert ranges["mass_time"] == (found.time[0], found.time[-1])
-    sources, _ = spectra.data(results)
-    band = sources["mass_spectrum_resonance"]
-    assert band["high"][0] == pytest.approx(contact_resonance(FAN_RIG))
-    assert band["above"][0] == 0.0
-    assert sources["mass_spectrum_lines"]["frequency"][-1] < 0.5 * found.sample_rate
     sources, ranges = octaves.data(results)
     bars = sources["mechanism_bars"]
     np.testing.assert_allclose(bars["top"], 100.0 * found.share)
     assert (bars["right"][:-1] < bars["left"][1:]).all()
     words = in_words(found)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
+
+
+def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> None:
+    """In grey, with the band of the contact resonances, named in the caption and the table."""
+    packed = PackedSource()
+    spectra = VibrationSpectra(packed)
+    spectra.take_look({"axis": "logarithmic"})
+    results = Results(FAN_RIG, grey=OTHER_BALLS)
+    sources, _ = spectra.data(results)
+    band = sources["spectrum_wide_resonance"]
+    assert band["high"][0] == pytest.approx(contact_resonance(FAN_RIG))
+    assert band["above"][0] == 0.0
+    own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_others"]
+    high = own["frequency"] > 9e3
+    assert np.median(other["y"][high] - own["y"][high]) > 10.0, "mass adds above 8 kHz"
+    assert "with the mass of its balls" in spectra.caption(results.grey.name)
+    assert any(name.startswith("other_balls_") for name in spectra.table(results))
+
+
+def test_what_is_folded_is_not_computed() -> None:
+    view = MassInTime(PackedSource())
+    assert view.needs == frozenset({"ball_mass"}), "outside of the page it is open"
+    view.attach(SessionParts(None, lambda: None))  # type: ignore[arg-type]
+    assert view.needs == frozenset()
+    assert view.sentence(Results(FAN_RIG)) == ""
+    view._turn()
+    assert view.needs == frozenset({"ball_mass"})

@@ -1,20 +1,16 @@
-"""The editors' numbers, the comparison of directions, and the warnings."""
+"""The editors' numbers, the free directions, and the warnings."""
 
 import math
 from xml.etree import ElementTree
 
-import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.bearing_editor import facts_of
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
-from bearing_explorer.explorer.views.dof_comparison import DofDifferences
+from bearing_explorer.explorer.views.free_directions import FreeDirections
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import DOF_NAMES, presets
-
-SHORT = Settings(duration=0.3)
+from bearingcore import presets
 
 
 def facts(name: str, **changes: float) -> dict[str, str]:
@@ -43,24 +39,9 @@ def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None
     assert "nan" not in bearing_picture(bearing)
 
 
-def test_an_exact_reduction_changes_nothing() -> None:
-    results = Results(presets["fan-rig"], settings=SHORT)
-    found = results.dof_comparison
-    assert (found.chosen, found.other) == (("x", "y"), DOF_NAMES)
-    assert max(found.static.values()) < 1e-9
-    assert max(found.motion.values()) < 0.05
-    assert "as the scene needs" in DofDifferences(PackedSource()).sentence(results)
-
-
-def test_a_forced_set_shows_its_error() -> None:
-    scene = presets["liew-lim"].replace(dofs=("x", "y"))
-    results = Results(scene, settings=SHORT)
-    found = results.dof_comparison
-    assert found.other == scene.needed_dofs
-    forced, free = Results(scene).equilibrium, Results(scene.replace(dofs=None)).equilibrium
-    expected = np.abs(forced.term("k_yy") - free.term("k_yy")).max() / free.term("k_yy").max()
-    assert found.static["k_yy"] == pytest.approx(expected)
-    assert expected > 0.01
-    words = DofDifferences(PackedSource()).sentence(results)
-    assert "forced on the scene" in words
-    assert "%" in words
+def test_free_directions_are_those_that_the_scene_needs_or_forced() -> None:
+    view = FreeDirections(PackedSource())
+    assert view.sentence(Results(presets["fan-rig"])) == "x and y are free, as the scene needs."
+    forced = Results(presets["liew-lim"].replace(dofs=("x", "y")))
+    assert "forced on the scene" in view.sentence(forced)
+    assert view.table(forced)["free"].tolist() == [1.0, 1.0, 0.0, 0.0, 0.0]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import BEFORE, Reference
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
 from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness, free_terms
@@ -22,7 +23,9 @@ LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spa
 
 
 def told(now: Scene, before: Scene | None) -> str:
-    return LastChange(PackedSource()).sentence(Results(now, before=before))
+    return LastChange(PackedSource()).sentence(
+        Results(now, before=before and Reference(before, BEFORE))
+    )
 
 
 def test_a_ball_spacing_longer() -> None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from bearing_explorer import figures
 from bearing_explorer.explorer.state.address import read
+from bearing_explorer.explorer.views.paper import TAB_TITLES
 from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
 from bearing_explorer.page import SECTIONS
 
@@ -31,24 +31,6 @@ def test_each_has_the_sentence_of_the_model_and_every_value(figure: PaperFigure)
     assert all(value and "no value" not in value for value in ours(figure.number).values())
 
 
-@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
-def test_the_curves_lie_on_the_printed_axes(figure: PaperFigure) -> None:
-    """At most a twentieth of a curve is cut off, where the paper's axes cut peaks off too."""
-    for panel in figure.panels:
-        x0, x1, y0, y1 = panel.shown
-        for extent, scene in zip(figure.extents_deg, figure.scenes, strict=True):
-            if panel.extents_deg is not None and extent not in panel.extents_deg:
-                continue
-            lines = panel.curves(scene)
-            assert lines or panel.grid
-            for line in lines:
-                inside = (line.x >= x0) & (line.x <= x1) & np.isfinite(line.y)
-                assert inside.any(), panel.title
-                seen = line.y[inside]
-                cut_off = np.mean((seen < y0) | (seen > y1))
-                assert cut_off < 0.05, (panel.title, extent)
-
-
 def test_what_the_paper_says_comes_out() -> None:
     assert ours(3)["Balls in the defect at 5°, 40° and 70°"] == "0 or 1, 1 or 2, 2 or 3"
     assert ours(5)["Mean k_yy is least at an extent of"] == "63.75°"
@@ -69,9 +51,13 @@ def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
     assert alone.compared == ()
 
 
-def test_a_figure_is_drawn_outside_of_the_page() -> None:
-    drawn = figures.paper(presets["6205"], choices={"figure": 8})
-    assert len(drawn.layout.children) == 6
-    assert "(a) k xx 0° x" in drawn.table()
+def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
+    shown = figures.paper(presets["6205"], choices={"figure": 8})
+    assert shown.table()["paper"][0] == "25.7°"
+    assert "the tab Frequencies draws it" in shown.sentence
     with pytest.raises(ValueError, match="figure is 2"):
         figures.paper(presets["6205"], choices={"figure": 2})
+
+
+def test_every_tab_of_a_figure_has_its_title() -> None:
+    assert {one.tab for one in FIGURES} == set(TAB_TITLES)

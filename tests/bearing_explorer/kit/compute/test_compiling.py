@@ -9,7 +9,6 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from bearing_explorer.default_results import TABS, draw_all
-from bearing_explorer.explorer.session import Explorer
 from bearing_explorer.kit.compute import cache, compiling, default_results
 from bearing_explorer.kit.compute.compiling import Compilation, StillCompiling
 from bearing_explorer.page import SECTIONS
@@ -18,6 +17,7 @@ from bearingcore import kernels
 from bearingcore.warm_up import PARTS
 from tests.helpers.loops import run
 from tests.helpers.served import wait_until
+from tests.helpers.sessions import SceneSession
 
 
 @pytest.fixture
@@ -62,7 +62,7 @@ def test_parts_are_ready_one_after_the_other(
     assert compilation.progress() == {}
 
 
-async def until_drawn(explorer: Explorer) -> None:
+async def until_drawn(explorer: SceneSession) -> None:
     async with asyncio.timeout(60.0):
         while not explorer._loop.drawn:
             await asyncio.sleep(0.01)
@@ -76,7 +76,7 @@ def test_the_first_picture_comes_before(
     monkeypatch.setattr(compiling, "warm", lambda *_: None)
 
     async def live() -> None:
-        explorer = Explorer(SECTIONS)
+        explorer = SceneSession(SECTIONS)
         assert not compilation.wait(0.2)
         explorer.draw()
         await until_drawn(explorer)
@@ -116,7 +116,7 @@ def test_pictures_of_other_scenes_say_that_they_are_not_ready(compilation: Compi
     compilation._left = tuple(PARTS)
 
     async def live() -> tuple[str, str]:
-        explorer = Explorer(SECTIONS)
+        explorer = SceneSession(SECTIONS)
         before = explorer.scene
         explorer.requests.change_scene({"set": {"extent_deg": 33.0}})
         assert explorer.scene == before, "sliders do not move yet"

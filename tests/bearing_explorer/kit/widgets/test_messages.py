@@ -5,10 +5,11 @@ import random
 from typing import Any
 
 import pytest
+from bearing_explorer.explorer.messages import LessonChange, LinksChange, SceneChange
 from bearing_explorer.explorer.widgets.controls import Controls
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
-from bearing_explorer.kit.messages import LessonChange, LinksChange, SceneChange, TabChange, read
+from bearing_explorer.kit.messages import TabChange, read
 from bearing_explorer.kit.widgets.status import Tabs
 from panel.models.esm import DataEvent
 

@@ -34,7 +34,7 @@ class LastChange(View):
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
         "is compared with the bearing without its defect."
     )
-    needs = frozenset({"chain", "chain_before", "late_spectra", "healthy"})
+    needs = frozenset({"chain", "before", "late_spectra", "reference"})
     compact = True
     sentence_looks = ("large",)
     in_report = False
@@ -45,16 +45,17 @@ class LastChange(View):
     def sentence(self, results: Results) -> str:
         before = results.before
         if before is not None:
-            cause = difference(results.scene, before, results.focus)
+            cause = difference(results.scene, before.scene, results.focus)
         elif results.scene.defects:
             cause = "With the defect"
         else:
             return _NOTHING
-        return story(cause, results.chain, results.chain_before, why_not(results.scene, before))
+        why = "" if before is None else why_not(results.scene, before.scene)
+        return story(cause, results.chain, results.chain_of(before or results.grey), why)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         now = results.chain.table().in_units().named()
-        before = results.chain_before.table().in_units().named()
+        before = results.chain_of(results.before or results.grey).table().in_units().named()
         return {
             "number": np.array(list(now)),
             "before": np.array([_only(before.get(name)) for name in now]),
@@ -62,9 +63,9 @@ class LastChange(View):
         }
 
 
-def why_not(now: Scene, before: Scene | None) -> str:
+def why_not(now: Scene, before: Scene) -> str:
     """Reason why a change may leave all loads as they are; empty where it is not known."""
-    if before is None or len(now.defects) != 1 or len(before.defects) != 1:
+    if len(now.defects) != 1 or len(before.defects) != 1:
         return ""
     if now.defects[0].floor is None and now == before.replace(depth=now.defects[0].depth):
         return "no ball is pressed against the floor of the defect at either depth"

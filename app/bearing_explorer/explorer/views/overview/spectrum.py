@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.views.modes import BAND_NAME, BAND_SPAN, band_rows, highest, spread
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra, loudest_words
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.frequency_bands import (
+    BAND_NAME,
+    BAND_SPAN,
+    band_rows,
+    highest,
+    spread,
+)
 from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.kit.plots.levels import (
     FREQUENCY,
@@ -18,7 +24,6 @@ from bearing_explorer.kit.plots.levels import (
     SHOWN,
     density_axis,
     drawn_levels,
-    levels_of_compared,
     seen_levels,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -96,7 +101,7 @@ class OverviewSpectrum(View):
         "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
-    needs: ClassVar[frozenset[str]] = VibrationSpectra.needs | {"bands"}
+    needs = VibrationSpectra.needs | {"bands"}
     compact = True
     sentence_looks = ("unseen",)
     leads_to = "vibration"
@@ -119,7 +124,7 @@ class OverviewSpectrum(View):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
         drawn = drawn_levels(results.late_spectra, top)
-        healthy = drawn_levels(results.healthy.late_spectra, top)
+        healthy = drawn_levels(results.reference.late_spectra, top)
         compared = levels_of_compared("overview_spectrum", results, top)
         shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
         names = end_names(drawn, shown, top)

@@ -11,7 +11,6 @@ from bokeh.core.properties import value
 from bokeh.models import ColumnDataSource, Quad, Range1d, Scatter
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.matrix_cells import (
     PLACES,
     SERIF,
@@ -24,7 +23,7 @@ from bearing_explorer.explorer.plots.matrix_cells import (
     trace_limits,
     write,
 )
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.glyphs import add_glyph
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
@@ -114,8 +113,8 @@ class OverviewStiffness(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found, healthy, now = results.equilibrium, results.healthy.equilibrium, results.now
-        answers = [found, healthy, *(other.equilibrium for other in results.compared_alike)]
+        found, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
+        answers = [found, healthy, *(results.against(one).equilibrium for one in results.compared)]
         first, last, _ = results.stretch
         pick = [_some(answer.cage_angles.size) for answer in answers]
         shares = [
@@ -165,7 +164,7 @@ class OverviewStiffness(View):
         }, {}
 
     def sentence(self, results: Results) -> str:
-        found, healthy, ranges = results.equilibrium, results.healthy.equilibrium, results.ranges
+        found, healthy, ranges = results.equilibrium, results.reference.equilibrium, results.ranges
         if not found.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         scales = term_sizes(lambda term: np.concatenate([found.term(term), healthy.term(term)]))

@@ -8,7 +8,6 @@ from typing import TypeVar
 import numpy as np
 from bokeh.models import GlyphRenderer, Legend, LegendItem, Plot
 
-from bearing_explorer.explorer.state.compared import MOST_COMPARED
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, curve, strips
 
@@ -16,6 +15,11 @@ Other = TypeVar("Other")
 
 COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
 DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
+MOST_COMPARED = len(COLORS)
+"""Greatest number of compared scenes: more colours are hard to distinguish."""
+WITHOUT_DEFECT = "the bearing without its defect"
+"""The scene that is drawn in grey."""
+
 _SLOT = "_compared_"
 _LONGEST_NAME = 28
 

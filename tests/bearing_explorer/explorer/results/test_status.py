@@ -4,10 +4,10 @@ import math
 
 import pytest
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
-from bearing_explorer.kit.widgets.status import status_of
 
 from bearingcore import presets
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import json
 
-from bearing_explorer.explorer.views import bearing
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import color_scales, style
 
 DARK_COLORS = {
     style.PAPER: "#1A222B",
@@ -49,8 +48,8 @@ DARK_COLORS = {
 """By the light colour, as upper-case hex."""
 
 DARK_PALETTES = [
-    (bearing.LOAD_PALETTE, bearing.DARK_LOAD_PALETTE),
-    (bearing.INKS, [DARK_COLORS[style.INK], DARK_COLORS[style.PAPER]]),
+    (color_scales.LOADS, color_scales.DARK_LOADS),
+    (color_scales.INKS, [DARK_COLORS[style.INK], DARK_COLORS[style.PAPER]]),
 ]
 """Lists of colours that do not change one by one."""
 

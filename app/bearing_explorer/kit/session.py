@@ -1,43 +1,32 @@
-"""The one state object of a session: controls -> Scene -> Results -> the views on screen."""
+"""A session: newest inputs -> what is drawn of them -> the views on screen."""
 
 from __future__ import annotations
 
 import asyncio
-import dataclasses
 import logging
 import math
 import time
-from collections.abc import Callable, Coroutine, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from functools import partial
 from typing import Any, TypeVar
 
 import panel as pn
 
-from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.explorer.requests import ForReport, Requests
-from bearing_explorer.explorer.results.endurance import LifeInputs
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.bookmarks import Bookmarks
-from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, Values
-from bearing_explorer.explorer.state.last_state import LastState
-from bearing_explorer.explorer.state.lessons import Fault, Lesson
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.settings import Settings
-from bearing_explorer.explorer.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
 from bearing_explorer.kit.compute.executors import in_thread, in_turn
-from bearing_explorer.kit.compute.jobs import Jobs
-from bearing_explorer.kit.pictures import BROKEN, Inputs, Picture, picture_of
+from bearing_explorer.kit.compute.jobs import Change, Jobs
+from bearing_explorer.kit.half import Half, Section
+from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
 from bearing_explorer.kit.serve import log as write
 from bearing_explorer.kit.serve.live import one_message, send_at_once
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.content import Inputs
 from bearing_explorer.kit.widgets.form import stack
+from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
-from bearingcore import Scene
 from bearingcore.statics.limit import summary
 
 log = logging.getLogger(__name__)
@@ -61,33 +50,25 @@ _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
 
 
-@dataclass(frozen=True)
-class Section:
-    """A part of the page that is on screen as a whole: a tab; a group is listed together."""
+class Session:
+    """A session. `page.py` puts its parts on a page; the browser's messages arrive in its halves.
 
-    name: str
-    title: str
-    views: tuple[type[View], ...]
-    group: str = ""
+    Parameters
+    ----------
+    halves
+        of the program, by the tabs of each; the page has the tabs in this order.
+    tab
+        that is open at first; the first one where there is no such tab.
+    """
 
-
-class Explorer:
-    """A session. `page.py` puts its parts on a page; the browser's messages arrive here."""
-
-    def __init__(
-        self,
-        sections: Sequence[Section],
-        preset: str = "fan-rig",
-        address: str = "",
-        lessons: Sequence[Lesson | Fault] = (),
-    ) -> None:
-        """`address`: the query of the page's address; it is not trusted."""
+    def __init__(self, halves: Mapping[Section, Half], tab: str = "") -> None:
         self.packed = PackedSource()
-        self._sections = {section.name: section for section in sections}
+        #: number of the newest change of the browser
+        self.mark = 0
+        self._halves = {section.name: half for section, half in halves.items()}
+        self._sections = {section.name: section for section in halves}
         self._views: dict[str, list[View]] = {}
         self._drawn_mark = 0
-        self._settings = Settings()
-        self._life_inputs = LifeInputs()
         self._slow_cost = self._quick_cost = math.inf
         self._slow_at = self._limits_at = -math.inf
         self._pictures = 0  # since the limits were looked at
@@ -97,70 +78,43 @@ class Explorer:
             self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
         self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
-        self.jobs = Jobs(lambda change: one_message(self._doc, change))
-
-        self.editor = SceneEditor(preset)
-        self.bookmarks = Bookmarks(self.editor, address)
-        self.requests = Requests(self.editor, self.bookmarks, lessons, self)
-        self.share, self.lesson = self.requests.share, self.requests.lesson
-        self.controls = self.requests.controls
-        self.measurement = Measurement(
-            self.editor, lambda change: one_message(self._doc, change), self.draw
-        )
-        self.measurement.change_scene = self.requests.change_scene
-        self._last_state = LastState(self.editor.scene)
-        tab = self.bookmarks.tab
+        self.jobs = Jobs(self.assign)
         self._shown = tab if tab in self._sections else next(iter(self._sections))
-        self.bookmarks.show(self._shown)  # links always say which tab is open
-        self.requests.show_links()
         self.status = StatusLine(folded=True, css_classes=["one-line"])
         self.limits = LimitsStrip()
         self._on_screen = ""
         self.tabs = Tabs(
             self.show_tab,
-            names=[[section.name, section.title, section.group] for section in sections],
+            names=[[one.name, one.title, one.tab or one.title] for one in halves],
             active=self._shown,
         )
         # a place for each tab, or the browser would go through all of them whenever one comes
         self._containers = {name: _place(name) for name in self._sections}
         places = self._containers.values()
         self.main = pn.Column(*places, sizing_mode="stretch_both", margin=0)  # the page's height
-        self._parts = SessionParts(
-            self.editor,
-            self.jobs,
-            self.measurement,
-            draw=self.draw,
-            ask=self.requests.change_scene,
-            add_controls=self.requests.panels.append,
-            take_steps=self._take_steps,
-            open_link=self.requests.open_link,
-            set_life_inputs=self._set_life_inputs,
-        )
+        for half in self._each_half():
+            half.join(self)
+
+    def _each_half(self) -> list[Half]:
+        return list({id(half): half for half in self._halves.values()}.values())
+
+    @property
+    def shown(self) -> str:
+        """Name of the tab that is open."""
+        return self._shown
 
     @property
     def inputs(self) -> Inputs:
         """The inputs of the next picture."""
-        angle = math.radians(self.values[CAGE_ANGLE])
-        return Inputs(
-            self.scene,
-            angle,
-            self.requests.mark,
-            self.editor.focus,
-            self._settings,
-            compared=self.bookmarks.compared,
-            before=self._last_state.before,
-            life_inputs=self._life_inputs,
-        )
+        return self._halves[self._shown].inputs()
 
-    @property
-    def scene(self) -> Scene:
-        """The scene as the controls have it."""
-        return self.editor.scene
+    async def assign(self, change: Change) -> None:
+        """Change models of the page, in one message."""
+        await one_message(self._doc, change)
 
-    @property
-    def values(self) -> Values:
-        """The numbers of the controls."""
-        return self.editor.values
+    def views_made(self) -> list[View]:
+        """All views that have been on screen."""
+        return [view for views in self._views.values() for view in views]
 
     def start(self) -> None:
         """The page is up: draw."""
@@ -173,24 +127,21 @@ class Explorer:
         """The session is over: nothing is begun any longer, and what waits for its turn is not."""
         self._loop.stop()
         self.jobs.stop()
-        self.measurement.stop()
         for task in self._tasks:
             task.cancel()
-        for view in [view for views in self._views.values() for view in views]:
+        for half in self._each_half():
+            half.stop()
+        for view in self.views_made():
             view.end()
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
-        self._last_state.follow(self.scene, self.bookmarks.moving)
-        self.measurement.take_scene(self.scene)
         inputs = self.inputs
-        # turning the bearing leaves a fine picture fine
-        fine = self._refined == self._what_is_fine(inputs)
-        self._loop.submit(dataclasses.replace(inputs, rested=fine))
+        self._loop.submit(inputs.at_rest(self._refined == self._what_is_fine(inputs)))
 
     def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
         """The key of a fine picture; another key needs one of its own."""
-        return self._shown, inputs.scene, inputs.settings, inputs.compared
+        return self._shown, *inputs.fine_key
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""
@@ -226,31 +177,13 @@ class Explorer:
         task.add_done_callback(done)
         return task
 
-    def for_report(self) -> ForReport:
-        """Results, views and findings for a report."""
-        results = dataclasses.replace(self.inputs, rested=True).results()
-        kinds = [view for section in self._sections.values() for view in section.views]
-        made = [view for views in self._views.values() for view in views]
-        found = {view.name: view.found for view in made if view.found is not None}
-        return ForReport(results, kinds, found)
-
-    def _take_steps(self, step_rate: float | None) -> None:
-        """March motions with steps [Hz] set by hand, or None: with the program's own."""
-        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
-        self.draw()
-
-    def _set_life_inputs(self, inputs: LifeInputs) -> None:
-        """Judge life and film with this steel, oil and these surfaces."""
-        self._life_inputs = inputs
-        self.draw()
-
     def show_tab(self, message: Any) -> None:
         """Open the tab that a message names."""
         name = message.get("show") if isinstance(message, dict) else None
         if isinstance(name, str) and name in self._sections:
             self._shown = name
-            self.bookmarks.show(name)
-            self.requests.show_links()
+            for half in self._each_half():
+                half.tab_opened(name)
             self.draw()
 
     def _make(self, name: str) -> list[View]:
@@ -268,7 +201,7 @@ class Explorer:
         if name not in self._views:
             self._views[name] = await in_turn(self._make, name)
             for view in self._views[name]:
-                view.attach(self._parts)
+                self._halves[name].attach(view)
         new = not self._containers[name].objects
         await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
 
@@ -291,7 +224,7 @@ class Explorer:
             await self._open_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
-        slow = [view for view in views if view.needs & Results.slow]
+        slow = [view for view in views if view.needs & inputs.slow]
         quick = [view for view in views if view not in slow]
         # where nothing else follows the slider there is nothing to delay
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
@@ -308,7 +241,7 @@ class Explorer:
         if slow:
             before = time.perf_counter()
             limits = not quick and self._limits_due(inputs)
-            picture = await in_thread(picture_of, inputs.results(), slow, limits)
+            picture = await in_thread(picture_of, inputs.content(), slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(picture, inputs.mark)
@@ -322,13 +255,13 @@ class Explorer:
     def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
         """A picture of the newest inputs: others may have waited for a thread too."""
         inputs = self._loop.newest(inputs)
-        return inputs, picture_of(inputs.results(), views, self._limits_due(inputs))
+        return inputs, picture_of(inputs.content(), views, self._limits_due(inputs))
 
     def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
         """Views that are finer at rest, with the limits; None where all is drawn finely already."""
         if inputs.rested:
             return None
-        results, drawn = dataclasses.replace(inputs, rested=True).results(give_up), inputs.results()
+        fine, drawn = inputs.at_rest().content(give_up), inputs.content()
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
         finer = [
@@ -336,7 +269,7 @@ class Explorer:
             for view in on_screen
             if view.at_rest or not view.needs or drawn.is_finer_at_rest(view.needs)
         ]
-        return picture_of(results, finer, limits=True, on_screen=on_screen)
+        return picture_of(fine, finer, limits=True, on_screen=on_screen)
 
     async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
         await self._assign(picture, inputs.mark)
@@ -364,7 +297,7 @@ class Explorer:
         def change() -> None:
             self.packed.send(sources, ranges, self._drawn_mark, picture.seconds)
             for drawing in picture.drawings:
-                drawing.view.say(picture.results if drawing.data else None, drawing.sentence)
+                drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
             self.status.put(line={**picture.status, "tab": self.tabs.active})
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
@@ -373,8 +306,9 @@ class Explorer:
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
-        write.log_warning("failed", self._doc, scene=write.scene_name(self.scene), view=self._shown)
-        self._drawn_mark = self.requests.mark
+        scene = write.scene_name(self.inputs.scene)
+        write.log_warning("failed", self._doc, scene=scene, view=self._shown)
+        self._drawn_mark = self.mark
 
         def change() -> None:
             self.packed.send({}, {}, self._drawn_mark)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 import html
 import tempfile
 import webbrowser
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Generic
 
 import numpy as np
 from bokeh.document import Document
@@ -17,23 +16,8 @@ from bokeh.events import DocumentReady
 from bokeh.models import Column, CustomJS
 from bokeh.resources import Resources
 
-from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, Machine, of_scene
-from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.explorer.results.endurance import LifeInputs
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.compared import Compared
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.kit.serve.packed_source import Columns, PackedSource
-from bearingcore.common import checks
-
-if TYPE_CHECKING:
-    from bearing_explorer.kit.views.base import View
-    from bearingcore import Recording, Scene
-
-BEARINGS = (GIVEN, BY_FREQUENCIES, "unknown")
-"""Knowledge of the bearing of a recording."""
+from bearing_explorer.kit.views.base import C, View
 
 _FOLLOW = """
 for (const range of ranges) for (const end of ["start", "end"]) range.properties[end].change.emit()
@@ -62,13 +46,14 @@ class FilledSources(PackedSource):
         return CustomJS(args=args, code=_FOLLOW)
 
 
-class Figure:
+class Figure(Generic[C]):
     """A view with the numbers of one scene in it.
 
     Attributes
     ----------
     results
-        everything that is known about the scene; its attributes are results of `bearingcore`.
+        everything that is known about what is drawn; of a scene its attributes are results of
+        `bearingcore`.
     sentence
         the sentence on the figure.
     layout
@@ -80,19 +65,8 @@ class Figure:
     ----------
     choices
         choices in the view itself, by its fields: computations are made anew with them.
-    recording
-        the signal that was measured, for views of a measurement, on the bearing and at the speed
-        of the scene.
-    in_si
-        whether its numbers are in m/s².
-    speed
-        knowledge of the shaft speed: "given" (that of the scene), "rough" (good to 10 %),
-        "unknown", or another one [rad/s].
-    bearing
-        knowledge of the bearing: "given" (that of the scene), "frequencies" (the scene has the
-        frequencies of its parts alone), or "unknown".
-    measurement
-        of a session, in place of a recording.
+    prepare
+        called with the view, before it is asked for anything.
     found
         the result of the computation of the view, where that is known already.
     computed
@@ -106,29 +80,18 @@ class Figure:
 
     def __init__(
         self,
-        kind: type[View],
-        results: Results,
+        kind: type[View[C]],
+        results: C,
         *,
         choices: Mapping[str, Any] | None = None,
-        recording: Recording | None = None,
-        in_si: bool = True,
-        speed: str | float = GIVEN,
-        bearing: str = GIVEN,
-        measurement: Measurement | None = None,
+        prepare: Callable[[View[C]], None] = lambda _: None,
         found: Any = None,
         computed: bool = True,
     ) -> None:
         self.results = results
         sources = FilledSources()
         self.view = kind(sources)
-        if recording is not None:
-            machine = of_scene(results.scene, GIVEN).knowing(speed)
-            if checks.choice("bearing", bearing, BEARINGS) == "unknown":
-                machine = dataclasses.replace(machine, bearing=None)
-            machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)
-            measurement = _measurement(recording, machine, in_si)
-        if measurement is not None:
-            self.view.take_measurement(measurement)
+        prepare(self.view)
         if found is not None:
             self.view.found = found
         elif choices is not None or (computed and self.view.computes):
@@ -181,66 +144,6 @@ class Figure:
     def _repr_html_(self) -> str:
         """In a notebook; Bokeh itself comes with the first figure."""
         return _bokeh_once() + self._place()
-
-
-def figure_of(
-    kind: type[View],
-    scene: Scene,
-    *,
-    cage_angle: float = 0.0,
-    focus: int = 0,
-    compared: Mapping[str, Scene] | None = None,
-    before: Scene | None = None,
-    settings: Mapping[str, Any] | None = None,
-    endurance: Mapping[str, Any] | None = None,
-    **more: Any,
-) -> Figure:
-    """The figure of a view for a scene.
-
-    Parameters
-    ----------
-    cage_angle
-        [rad] shown.
-    focus
-        number of the defect that is looked at.
-    compared
-        further scenes that are drawn, by their names.
-    before
-        the scene before the last change, for the view of the last change.
-    settings, endurance
-        fields of `Settings` (how finely it is computed) and of steel, oil and surfaces.
-    more
-        further parameters of `Figure`.
-    """
-    results = Results(
-        scene,
-        cage_angle,
-        Settings(**(settings or {})),
-        focus,
-        compared=[Compared(one, name) for name, one in (compared or {}).items()],
-        before=before,
-        life_inputs=LifeInputs(**(endurance or {})),
-    )
-    return Figure(kind, results, **more)
-
-
-def editor_of(results: Results) -> SceneEditor:
-    """The controls as they are for a scene."""
-    editor = SceneEditor("fan-rig")
-    editor.take_scene(results.scene, selected=results.focus)
-    return editor
-
-
-def _measurement(recording: Recording, machine: Machine, in_si: bool) -> Measurement:
-    """A measurement that is there already."""
-
-    async def assign(change: Any) -> None:
-        change()
-
-    made = Measurement(SceneEditor("fan-rig"), assign, lambda: None)
-    bare = dataclasses.replace(recording, shaft_speed=None)
-    made.measured = Measured(bare, machine, in_si=in_si)
-    return made
 
 
 _has_bokeh = False

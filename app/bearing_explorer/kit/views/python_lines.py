@@ -7,13 +7,10 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from bearing_explorer.explorer.results.endurance import LifeInputs
-from bearing_explorer.explorer.state.settings import Settings
 from bearingcore import Defect, Scene, presets
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearing_explorer.kit.views.base import View
+    from bearing_explorer.kit.views.base import C, View
 
 FILE = "bearing-scene.toml"
 LONGEST_SCENE = 6000
@@ -22,14 +19,16 @@ NOTHING_YET = "# Nothing has been computed in this view yet."
 _DEGREES = frozenset({"extent", "center", "contact_angle"})
 
 
-def lines_of(view: View, results: Results) -> str:
+def lines_of(view: View[C], content: C) -> str:
     """Lines that make the scene, the figure of a view and its numbers."""
-    scene = view.scene_drawn(results)
+    scene = view.scene_drawn(content)
     body = [f"scene = {scene_code(scene)}", *view.lines_before()]
-    if view.is_empty and not view.choices():
+    choices = {"choices": code_of(chosen)} if (chosen := view.choices()) else {}
+    arguments = {**content.arguments(view), **choices, **view.more_arguments()}
+    if view.is_empty and not choices:
         body.append(NOTHING_YET)
     else:
-        given = ["scene", *(f"{name}={code}" for name, code in arguments(view, results).items())]
+        given = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
         call = f"drawn = figures.{view.name.replace('-', '_')}({', '.join(given)})"
         if len(call) > 88 or "\n" in call:
             call = call.partition("(")[0] + "(\n" + "".join(f"    {one},\n" for one in given) + ")"
@@ -49,30 +48,7 @@ def lines_of(view: View, results: Results) -> str:
     return f"{''.join(imports)}\n{text}\n"
 
 
-def arguments(view: View, results: Results) -> dict[str, str]:
-    """Arguments of the figure's function besides the scene, as expressions, if not as usual."""
-    given: dict[str, str] = {}
-    if results.cage_angle:
-        given["cage_angle"] = short(results.cage_angle)
-    if results.focus:
-        given["focus"] = str(results.focus)
-    if results.compared and view.compares:
-        named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in results.compared)
-        given["compared"] = "{" + ", ".join(named) + "}"
-    if results.before is not None and "chain_before" in view.needs:
-        given["before"] = scene_code(results.before)
-    for name, value, usual in (
-        ("settings", results.settings, Settings()),
-        ("endurance", results.life_inputs, LifeInputs()),
-    ):
-        if changed := _changed(value, usual):
-            given[name] = code_of(changed)
-    if choices := view.choices():
-        given["choices"] = code_of(choices)
-    return given | view.more_arguments()
-
-
-def _changed(value: Any, usual: Any) -> dict[str, Any]:
+def changed_fields(value: Any, usual: Any) -> dict[str, Any]:
     """Fields of a dataclass that are not as usual."""
     return {
         field.name: getattr(value, field.name)
@@ -116,7 +92,7 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
         parts.append((scene.defect, base.defect))
     found: dict[str, Any] = {}
     for own, other in parts:
-        found |= _changed(own, other)
+        found |= changed_fields(own, other)
     if len(parts) == 5:
         found.pop("defect", None)
     return {name: v for name, v in found.items() if name not in ("load", "support", "bearing")}

@@ -82,7 +82,7 @@ class Halves:
         if self.explorer is not None and self.diagnosis is not None:
             self.explorer.requests.report_on_signal = self.diagnosis.report
             self.explorer.requests.simulate = self.diagnosis.simulate
-            self.diagnosis.change_scene = self.explorer.requests.change_scene
+            self.diagnosis.change_scene_by(self.explorer.requests.change_scene)
 
     def _scene_of_signal(self) -> Any:
         """The scene with which a signal is compared."""

@@ -13,8 +13,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.settings import Settings
+from bearing_explorer.diagnosis.model import motion
 from bearingcore import Defect, Scene
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
@@ -31,7 +30,7 @@ def true_part(scene: Scene) -> str:
 
 def noise_level(
     scene: Scene, signal: NDArray[np.float64], columns: list[int], noise_db: float,
-    settings: Settings,
+    duration: float, sample_rate: float,
 ) -> NDArray[np.float64]:  # fmt: skip
     """Root mean square of the noise in each direction (d,) [m/s²].
 
@@ -45,8 +44,8 @@ def noise_level(
         of a motion of the scene, that are measured.
     noise_db
         signal over noise [dB].
-    settings
-        of its motion.
+    duration, sample_rate
+        [s], [Hz] of its motion.
     """
     share = 10.0 ** (-noise_db / 20.0)
     if share == 0.0:
@@ -54,7 +53,7 @@ def noise_level(
     if true_part(scene) == "none":
         loaded = math.atan2(scene.load.fy, scene.load.fx)
         damaged = scene.replace(defect=Defect(REFERENCE_EXTENT, REFERENCE_DEPTH, loaded))
-        motion = Results(damaged, 0.0, settings).motion
-        strongest = motion.outer_acceleration[len(motion.time) // 4 :, columns]
+        moved = motion(damaged, duration, sample_rate)
+        strongest = moved.outer_acceleration[len(moved.time) // 4 :, columns]
         return np.full(len(columns), float(np.std(strongest, axis=0).max()) * share)
     return np.asarray(np.sqrt(np.mean(signal**2, axis=0)) * share)

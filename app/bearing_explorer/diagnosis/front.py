@@ -12,11 +12,12 @@ from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogra
 from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
+from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.diagnosis.views.sizing import DefectSize
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.kit.half import Section
 
-__all__ = ["SECTIONS", "DiagnosisOfSignal"]
+__all__ = ["SECTIONS", "DiagnosisOfSignal", "figure_of"]
 
 SECTIONS = (
     Section(

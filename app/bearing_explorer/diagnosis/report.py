@@ -29,7 +29,7 @@ from bearingcore import Diagnosis
 from bearingcore.common.numbers import with_prefix
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
 
 FILE = "bearing-measurement.html"
 WIDTH, HEIGHT = 470, 250
@@ -54,7 +54,7 @@ NO_SIZE = "The level of the vibration is not known, as the unit of the signal is
 
 
 def measured_report(
-    results: Results, measurement: Measurement, found: Mapping[str, Any], about: About
+    model: Model, measurement: Measurement, found: Mapping[str, Any], about: About
 ) -> dict[str, Any]:
     """The page for the browser to finish. For any thread: it touches no models of the page.
 
@@ -81,9 +81,13 @@ def measured_report(
     figures: list[str] = []
     for kind, title in FIGURES.items():
         figure = Figure(
-            kind, results, measurement=measurement, found=found.get(kind.name), computed=False
+            kind,
+            model,
+            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
+            found=found.get(kind.name),
+            computed=False,
         )
-        data, _ = figure.view.data(results)
+        data, _ = figure.view.data(model)
         first, *_ = figure.view.figures
         if kind is SpallExtent and (extent is None or not extent.passes):
             continue
@@ -106,7 +110,7 @@ def measured_report(
     machine = question.measured.machine
     of = machine.bearing_name
     if not of:
-        of = about.bearing if results.scene.bearing == machine.bearing else "Bearing"
+        of = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
     title = about.title.strip() or f"{of}: {question.measured.recording.name}"
     body = [
         *heading(about, title),

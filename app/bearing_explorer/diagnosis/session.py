@@ -59,6 +59,7 @@ from bearing_explorer.diagnosis.machine import (
     find_published,
     of_scene,
 )
+from bearing_explorer.diagnosis.model import motion as motion_of
 from bearing_explorer.diagnosis.series import (
     MOST_FILES,
     Series,
@@ -67,9 +68,7 @@ from bearing_explorer.diagnosis.series import (
 )
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.upload import NAME_IN_LINE, Upload, without_middle
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.settings import Settings
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.executors import FILES, in_thread
 from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
@@ -173,8 +172,10 @@ class Measurement:
 
     Parameters
     ----------
-    editor
-        of the scene that is measured.
+    scene
+        gives the scene that may be measured, as it is now.
+    bearings
+        to choose from.
     assign
         runs a change of the page's models and sends it, as `live.one_message` does.
     draw
@@ -183,7 +184,8 @@ class Measurement:
 
     def __init__(
         self,
-        editor: SceneEditor,
+        scene: Callable[[], Scene],
+        bearings: BearingTable,
         assign: Callable[[Change], Awaitable[None]],
         draw: Callable[[], None],
     ) -> None:
@@ -202,7 +204,7 @@ class Measurement:
         self.series = Series()
         #: takes a message as the controls send it
         self.change_scene: Callable[[dict[str, Any]], None] = lambda _: None
-        self._editor = editor
+        self._scene_now, self._bearings = scene, bearings
         self._assign = assign
         self._draw = draw
         #: which part is damaged, looked for in the background
@@ -211,7 +213,7 @@ class Measurement:
         self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
         #: listed bearings, where the one that is given does not explain the signal
         self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
-        self._scene = of_scene(editor.scene)
+        self._scene = of_scene(scene())
         self._arrival: _Arrival | None = None
         self._table: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
@@ -237,9 +239,9 @@ class Measurement:
 
     # The machine
 
-    def take_scene(self, scene: Scene) -> None:
+    def take_scene(self) -> None:
         """Follow the scene: its bearing and speed count where a person chose them."""
-        now = of_scene(scene)
+        now = of_scene(self._scene_now())
         if now != self._scene:
             self._scene = now
             self._follow()
@@ -252,7 +254,7 @@ class Measurement:
         if SCENE not in (values["bearing"], values["speed"]):
             return
         try:
-            machine = machine_of(table, values, self._scene, self._editor.listed.find)
+            machine = machine_of(table, values, self._scene, self._bearings.find)
         except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
             self._tell(words=str(error), bad=True, refused=error.sentences)
             return
@@ -310,7 +312,7 @@ class Measurement:
 
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
-        named = {one.name: one.bearing for one, _ in self._editor.listed.all()}
+        named = {one.name: one.bearing for one, _ in self._bearings.all()}
         try:
             loop = asyncio.get_running_loop()
             progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
@@ -388,7 +390,7 @@ class Measurement:
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, find = self._scene, self._editor.listed.find
+        scene, find = self._scene, self._bearings.find
 
         def read_or_why() -> _Read | str:
             try:
@@ -421,7 +423,7 @@ class Measurement:
         given = self.state.values
         changed = {name: given[name] for name in given if given[name] != self._first.get(name)}
         return recordings_of(
-            self.series, shown, changed, direction, self._scene, self._editor.listed.find
+            self.series, shown, changed, direction, self._scene, self._bearings.find
         )
 
     def _take_read(self, found: _Read) -> None:
@@ -485,7 +487,7 @@ class Measurement:
         self._tell(values=texts, settling=True)
         scene = self._scene
         self._in_background(
-            lambda: _tried(table, texts, scene, self._editor.listed.find),
+            lambda: _tried(table, texts, scene, self._bearings.find),
             lambda found: self._take_tried(texts, found, left),
             table.name,
         )
@@ -546,14 +548,14 @@ class Measurement:
     @property
     def _own_bearings(self) -> list[str]:
         """Names of the bearings of a person's table."""
-        return list(self._editor.listed.own)
+        return list(self._bearings.own)
 
     def take_bearing(self, name: str) -> None:
         """Take a listed bearing as the one that was measured."""
         measured = self.measured
         if self._table is None:
             if measured is not None:
-                bearing = self._editor.listed.find(name).bearing
+                bearing = self._bearings.find(name).bearing
                 machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
                                   bearing_name=name)  # fmt: skip
                 self.measured = replace(measured, machine=machine)
@@ -621,7 +623,7 @@ class Measurement:
         self._upload = self._arrival = None
         self._latest += 1
         self._simulations += 1
-        seed, scene = self._simulations, self._editor.scene
+        seed, scene = self._simulations, self._scene_now()
         self._tell(words="Simulating a measurement.", bad=False, busy=True)
 
         def make() -> Measured:
@@ -863,9 +865,9 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         truth = variant(scene, defect.extent, defect.edge, exponents)
     passing = scene.bearing.bpfo(scene.shaft_speed)
     duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
-    settings = Settings(duration=duration + SETTLING, sample_rate=RATE)
+    duration += SETTLING
     try:
-        motion = Results(truth, 0.0, settings).motion
+        motion = motion_of(truth, duration, RATE)
     except ValueError as error:
         raise ValueError(sentence_of(error)) from None
     columns = [index for index, dof in enumerate(motion.dofs) if dof in ("x", "y")]
@@ -874,7 +876,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     signal = motion.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
-    level = noise_level(truth, signal, columns, noise_db, settings)
+    level = noise_level(truth, signal, columns, noise_db, duration, RATE)
     noisy = signal + level * rng.standard_normal(signal.shape)
     name = "Simulated" + (", balls with mass" if scene.balls == WITH_MASS else "")
     name += f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else ""

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.settings import Settings
+from bearing_explorer.diagnosis.model import Model, motion_of
 from bearing_explorer.kit.compute.cache import cached
 from bearingcore.common.lazy import cached_property
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
@@ -196,26 +195,17 @@ class Simulated:
     The start of the motion is left out, so that spectra hold the steady state alone.
     """
 
-    def __init__(self, results: Results, measured: Measured) -> None:
-        scene, self._moving = measured.scene(results.scene), results.moving
-        self.results = Results(scene, 0.0, results.settings, moving=self._moving)
-
-    @property
-    def scene(self) -> Scene:
-        """That is simulated."""
-        return self.results.scene
+    def __init__(self, model: Model, measured: Measured) -> None:
+        #: that is simulated
+        self.model = Model(measured.scene(model.scene), model.moving)
 
     def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
         """Spectrum along a direction; None where the housing cannot move along it."""
-        return simulated_spectrum(
-            self.scene, self.results.settings, self._moving, direction, resolution
-        )
+        return simulated_spectrum(self.model, direction, resolution)
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
         """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
-        return simulated_envelope(
-            self.scene, self.results.settings, self._moving, direction, *band, top
-        )
+        return simulated_envelope(self.model, direction, *band, top)
 
 
 def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
@@ -229,10 +219,8 @@ def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
 
 
 @cached
-def simulated_spectrum(
-    scene: Scene, settings: Settings, moving: bool, direction: str, resolution: float
-) -> Spectrum | None:
-    motion = Results(scene, 0.0, settings, moving=moving).motion
+def simulated_spectrum(model: Model, direction: str, resolution: float) -> Spectrum | None:
+    motion = motion_of(model)
     signal = _steady(motion, direction)
     if signal is None:
         return None
@@ -242,15 +230,9 @@ def simulated_spectrum(
 
 @cached
 def simulated_envelope(
-    scene: Scene,
-    settings: Settings,
-    moving: bool,
-    direction: str,
-    low: float,
-    high: float,
-    top: float,
+    model: Model, direction: str, low: float, high: float, top: float
 ) -> Spectrum | None:
-    motion = Results(scene, 0.0, settings, moving=moving).motion
+    motion = motion_of(model)
     signal = _steady(motion, direction)
     if signal is None or high >= 0.5 * motion.sample_rate or not signal.any():
         return None

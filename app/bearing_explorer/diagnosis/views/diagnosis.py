@@ -34,8 +34,8 @@ from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 FIELDS: list[FieldSpec] = [
@@ -137,9 +137,9 @@ class PartDiagnosis(LookView, MeasuredView):
             return None
         return self.measurement.diagnoses.of(question)
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+    def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         known = {name: value for name, value in choices.items() if name != "speed"}
-        super().choose(known, results)
+        super().choose(known, model)
         measurement, measured = self.measurement, self.measured
         if measurement is None or measured is None:
             return
@@ -156,15 +156,15 @@ class PartDiagnosis(LookView, MeasuredView):
     def drawn(self) -> bool:
         return self._seen.visible
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         found = self.answer()
         if not isinstance(found, Diagnosis) or found.spectrum is None:
             return {}, {}
         return self.lines.data(found, Zoom.of(self.look["zoom"]))
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def say(self, model: Model | None, sentence: str) -> None:
         self._show()
-        super().say(results, sentence)
+        super().say(model, sentence)
 
     def _show(self) -> None:
         """Bring the panels up to date, and have the question answered if it is not."""
@@ -257,7 +257,7 @@ class PartDiagnosis(LookView, MeasuredView):
         if self.measurement is not None:
             self.measurement.take_bearing(name)
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         question = None if self.measurement is None else self.measurement.question()
         if question is None:
             return self.why_nothing if self.measured is None else NOTHING_NAMED
@@ -268,7 +268,7 @@ class PartDiagnosis(LookView, MeasuredView):
             return answer
         return part_words.sentence(answer, question)
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         found = self.answer()
         return found.table().in_units().named() if isinstance(found, Diagnosis) else {}
 

@@ -23,7 +23,7 @@ from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Diagnosis, MeasuredExtent
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 HEIGHT = 236
@@ -136,8 +136,8 @@ class SpallExtent(LookView, MeasuredView):
     def found(self, given: MeasuredExtent) -> None:
         self._given = given
 
-    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        super().choose(choices, results)
+    def choose(self, choices: Mapping[str, Any], model: Model) -> None:
+        super().choose(choices, model)
         if self.measurement is None or self.measured is None:
             return
         about = self.measurement.question()
@@ -151,7 +151,7 @@ class SpallExtent(LookView, MeasuredView):
     def drawn(self) -> bool:
         return self._seen.visible
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         found = self.answer()
         if not isinstance(found, MeasuredExtent) or not found.passes:
             return {}, {}
@@ -173,9 +173,9 @@ class SpallExtent(LookView, MeasuredView):
             "extent_size": with_head(self._size, drawn, 0.3),
         }
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def say(self, model: Model | None, sentence: str) -> None:
         self._show()
-        super().say(results, sentence)
+        super().say(model, sentence)
 
     def _show(self) -> None:
         question, answer = self.question(), self.answer()
@@ -186,7 +186,7 @@ class SpallExtent(LookView, MeasuredView):
             self.status.line = status(answer)
             self.plot.visible = bool(answer.passes)
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         answer = self.answer()
         if answer is None:
             if self.measured is None:
@@ -200,7 +200,7 @@ class SpallExtent(LookView, MeasuredView):
         )  # fmt: skip
         return answer.sentence + known
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         answer = self.answer()
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
 

@@ -10,11 +10,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import frequency_lines
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, of_rows
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.frequency_cursor import FrequencyCursor
 from bearing_explorer.kit.plots.layers import Layer, add_all, curve, sources_of
@@ -143,11 +143,11 @@ class FrequencyView(LookView, MeasuredView):
         """Layers beneath the spectra."""
         return []
 
-    def decoration(self, results: Results, shown: Shown) -> Sources:
+    def decoration(self, model: Model, shown: Shown) -> Sources:
         """The numbers of that."""
         return {}
 
-    def shown(self, results: Results, measured: Measured) -> Shown:
+    def shown(self, model: Model, measured: Measured) -> Shown:
         """The spectra as the look has them."""
         raise NotImplementedError
 
@@ -201,9 +201,9 @@ class FrequencyView(LookView, MeasuredView):
 
     # The picture
 
-    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         p, look = self.prefix, self.look
-        shown = self.shown(results, measured)
+        shown = self.shown(model, measured)
         turning, speed = self.turning, self.shaft_speed
         lines = [] if turning is None else of_rows(turning)
         top, resolution = shown.top, shown.resolution
@@ -232,15 +232,15 @@ class FrequencyView(LookView, MeasuredView):
             f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
         }
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
-        sources |= self.decoration(results, shown)
+        sources |= self.decoration(model, shown)
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
                 columns[name] = columns[name] / per
         cage = math.nan if turning is None else fundamentals(turning)["ftf"]
         return sources | self._cursor.columns(turn, cage, per), ranges
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
-        shown = self.shown(results, measured)
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
+        shown = self.shown(model, measured)
         unit, size = shown_unit(measured)
         words = unit.replace("/", "_per_").replace("²", "2") if measured.in_si else "as_in_file"
         table: dict[str, np.ndarray] = {}
@@ -255,7 +255,7 @@ class FrequencyView(LookView, MeasuredView):
                 table[f"{name}_amplitude_{shown.direction}_{words}"] = amplitude
         return table
 
-    def words_on_model(self, results: Results, measured: Measured, shown: Shown) -> str:
+    def words_on_model(self, model: Model, measured: Measured, shown: Shown) -> str:
         """The scale of the simulated spectrum, and its speed where the sliders have another."""
         if not self.look["overlay"]:
             return ""
@@ -265,7 +265,7 @@ class FrequencyView(LookView, MeasuredView):
                 f" The simulated amplitudes are multiplied by {style.number(shown.share, 3)}, to "
                 "have the measured root mean square."
             )
-        ours, theirs = results.scene.shaft_speed, measured.shaft_speed
+        ours, theirs = model.scene.shaft_speed, measured.shaft_speed
         if theirs is None or measured.bearing is None:
             words += " It is simulated as it is: speed or bearing of the signal are not known."
         elif not math.isclose(ours, theirs, rel_tol=1e-4):

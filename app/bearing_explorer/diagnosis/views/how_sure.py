@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from bokeh.models import Range1d, Scatter
 
-from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Words, curve, draw, segments
@@ -125,7 +125,7 @@ class HowSure(View):
         draw(right, packed, EXTENTS)
         return row(left, right, stylesheets=[style.WRAPPED])
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         bins, sizes, ends = reliability(), extents(), np.array([0.0, 100.0])
         stated, true = bins["stated_percent"], _side_by_side(sizes["true_extent_deg"])
         return {
@@ -140,7 +140,7 @@ class HowSure(View):
             "how_sure_extents": {"true": true, "measured": sizes["extent_deg"]},
         }, {}  # fmt: skip
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         rows, told = scoreboard()["records"], answers()
         right = sum(row["verdict"] == "right" for row in told)
         sure = [row for row in told if row["probability"] >= 0.9]
@@ -155,7 +155,7 @@ class HowSure(View):
             f"{len(held)} measured extents have the true one in their interval."
         )
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         return reliability()
 
 

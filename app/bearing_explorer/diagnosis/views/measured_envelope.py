@@ -24,7 +24,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
 
 
 def _edge(name: str, label: str, words: str) -> FieldSpec:
@@ -64,7 +64,7 @@ class MeasuredEnvelope(FrequencyView):
         MODEL,
     ]
 
-    def shown(self, results: Results, measured: Measured) -> Shown:
+    def shown(self, model: Model, measured: Measured) -> Shown:
         turning = self.turning
         direction = self.direction(measured)
         band = self.band(measured, direction).band
@@ -77,7 +77,7 @@ class MeasuredEnvelope(FrequencyView):
         spectrum = measured.envelope(direction, band, top)
         shown = Shown(direction, top, spectrum, None, measured.envelope_resolution(top), band=band)
         return self.with_model(
-            shown, lambda: Simulated(results, measured).envelope(direction, band, top)
+            shown, lambda: Simulated(model, measured).envelope(direction, band, top)
         )
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
@@ -110,8 +110,8 @@ class MeasuredEnvelope(FrequencyView):
         low, high = self.band(measured, chosen["direction"]).band
         return chosen | {"low": f"{low!r}", "high": f"{high!r}"}
 
-    def words_of(self, results: Results, measured: Measured) -> str:
-        shown = self.shown(results, measured)
+    def words_of(self, model: Model, measured: Measured) -> str:
+        shown = self.shown(model, measured)
         turning = self.turning
         assert shown.band is not None
         words = (
@@ -120,7 +120,7 @@ class MeasuredEnvelope(FrequencyView):
         )
         sets = [] if turning is None else of_rows(turning)
         words += telling(shown, sets, *shown_unit(measured))
-        return words + self.words_on_model(results, measured, shown)
+        return words + self.words_on_model(model, measured, shown)
 
 
 _PLACES = {

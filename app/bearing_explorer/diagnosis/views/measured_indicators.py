@@ -16,8 +16,8 @@ from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.widgets.form import stack
 
 MEDIUM = "15 to 300 kW"
@@ -65,15 +65,15 @@ class MeasuredIndicators(LookView, MeasuredView):
         self.hidden = stack(self.panel_of_look, self._facts, visible=False)
         return self.hidden
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
         if self.measured is not None:
             self._facts.object = facts_html(facts(self.measured))
 
-    def words_of(self, results: Results, measured: Measured) -> str:
+    def words_of(self, model: Model, measured: Measured) -> str:
         return severity(measured, self.look["machine"])
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         return named_columns(measured.indicators.table(), measured.in_si)
 
 

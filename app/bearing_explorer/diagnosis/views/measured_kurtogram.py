@@ -18,8 +18,8 @@ from bearing_explorer.kit.widgets.form import stack
 from bearingcore.signals.filter_bank import PARTS
 
 if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
     from bearingcore import Kurtogram
 
 CELLS = 48
@@ -62,7 +62,7 @@ class MeasuredKurtogram(MeasuredView):
         self.hidden = stack(plot, visible=False)
         return self.hidden
 
-    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         direction = self.direction_of(measured)
         found = measured.kurtogram(direction)
         nyquist = 0.5 * measured.recording.sample_rate
@@ -81,7 +81,7 @@ class MeasuredKurtogram(MeasuredView):
             "kurtogram_kurtosis": (0.0, top),
         }
 
-    def words_of(self, results: Results, measured: Measured) -> str:
+    def words_of(self, model: Model, measured: Measured) -> str:
         direction = self.direction_of(measured)
         found = measured.kurtogram(direction)
         most = int(found.kurtosis.argmax())
@@ -92,7 +92,7 @@ class MeasuredKurtogram(MeasuredView):
             f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}."
         )
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         return measured.kurtogram(self.direction_of(measured)).table().in_units().named()
 
 

@@ -27,8 +27,8 @@ from bearingcore.signals.spectrogram import (
 )
 
 if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.widgets.form import stack
 
 MOST_COLUMNS, MOST_ROWS = 220, 320
@@ -120,7 +120,7 @@ class MeasuredSpectrogram(LookView, MeasuredView):
             f"{style.number(turns, 2)}."
         )
 
-    def shown(self, results: Results, measured: Measured) -> Shown:
+    def shown(self, model: Model, measured: Measured) -> Shown:
         """The map as the look has it."""
         direction = self.direction_of(measured)
         band = None
@@ -160,10 +160,10 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
         return spectrogram(signal, rate, rate / length), 0.5 * rate
 
-    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         if self.too_short(measured):
             return {}, {}
-        shown = self.shown(results, measured)
+        shown = self.shown(model, measured)
         orders = self.look["map"] == "orders"
         across, up = ("turns", "order") if orders else ("time", "frequency")
         cells = self._image.columns(
@@ -181,7 +181,7 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         }
         return sources, ranges
 
-    def words_of(self, results: Results, measured: Measured) -> str:
+    def words_of(self, model: Model, measured: Measured) -> str:
         if why := self.too_short(measured):
             return why
         if self.shaft_speed is None:
@@ -193,10 +193,10 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         known = measured.machine.exact_speed is not None
         return f"Shaft speed {words}, {'as given' if known else 'found in the signal'}."
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         if self.too_short(measured):
             return {}
-        shown = self.shown(results, measured)
+        shown = self.shown(model, measured)
         orders = self.look["map"] == "orders"
         across, up = ("turns", "order") if orders else ("time_s", "frequency_hz")
         x, y = np.meshgrid(shown.x, shown.y, indexing="ij")

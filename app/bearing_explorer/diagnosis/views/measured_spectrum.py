@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from bokeh.models import VStrip
 
+from bearing_explorer.diagnosis import model as compared
 from bearing_explorer.diagnosis.signal import Measured, Simulated
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
@@ -29,7 +30,7 @@ from bearing_explorer.kit.views.base import Sources
 from bearing_explorer.kit.widgets.form import FieldSpec
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
     from bearingcore import Spectrum
 
 
@@ -71,30 +72,30 @@ class MeasuredSpectrum(FrequencyView):
             ]  # fmt: skip
         return drawn
 
-    def decoration(self, results: Results, shown: Shown) -> Sources:
+    def decoration(self, model: Model, shown: Shown) -> Sources:
         measured = self.measured
         if measured is None or shown.simulated is None:
             return {}
-        bands = Simulated(results, measured).results.bands
-        own = bands_along(bands, shown.direction, shown.top)
+        own_bands = compared.bands(measured.scene(model.scene))
+        own = bands_along(own_bands, shown.direction, shown.top)
         return {f"{self.prefix}_bands_{shown.direction}": own}
 
-    def shown(self, results: Results, measured: Measured) -> Shown:
+    def shown(self, model: Model, measured: Measured) -> Shown:
         direction = self.direction(measured)
         resolution = measured.finest(float(self.look["resolution"]))
         top = 0.5 * measured.recording.sample_rate
         shown = Shown(direction, top, measured.spectrum(direction, resolution), None, resolution)
         return self.with_model(
-            shown, lambda: Simulated(results, measured).spectrum(direction, resolution)
+            shown, lambda: Simulated(model, measured).spectrum(direction, resolution)
         )
 
-    def words_of(self, results: Results, measured: Measured) -> str:
-        shown = self.shown(results, measured)
+    def words_of(self, model: Model, measured: Measured) -> str:
+        shown = self.shown(model, measured)
         unit, size = shown_unit(measured)
         words = f"Along {shown.direction} above 100 Hz the highest line is "
         words += _highest(shown.measured, unit, size)
         words += f"; resolution {style.number(shown.resolution, 2)} Hz."
-        return words + self.words_on_model(results, measured, shown)
+        return words + self.words_on_model(model, measured, shown)
 
 
 def _highest(spectrum: Spectrum, unit: str, size: float) -> str:

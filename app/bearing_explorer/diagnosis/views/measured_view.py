@@ -17,8 +17,8 @@ from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
 from bearingcore.files.units import ACCELERATIONS
 
 if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
     from bearingcore import Scene
     from bearingcore.common.table import ResultTable
     from bearingcore.diagnosis.part.evidence import EnvelopeLines
@@ -57,7 +57,7 @@ WITHOUT_SIZE = "Choose the unit above to see this."
 WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 
 
-class MeasuredView(View):
+class MeasuredView(View[Model]):
     """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
 
     A subclass provides `data_of`, `words_of` and `columns_of` of a signal, or `data`, `sentence`
@@ -84,7 +84,7 @@ class MeasuredView(View):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self.measure(parts.measurement)
+        self.measure(self.parts.measurement)
 
     def measure(self, measurement: Measurement) -> None:
         """From now on draw what is measured there."""
@@ -98,27 +98,27 @@ class MeasuredView(View):
             return None
         return measured
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         measured = self.measured
-        return ({}, {}) if measured is None else self.data_of(results, measured)
+        return ({}, {}) if measured is None else self.data_of(model, measured)
 
-    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         """`View.data` of the signal."""
         return {}, {}
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         measured = self.measured
-        return self.why_nothing if measured is None else self.words_of(results, measured)
+        return self.why_nothing if measured is None else self.words_of(model, measured)
 
-    def words_of(self, results: Results, measured: Measured) -> str:
+    def words_of(self, model: Model, measured: Measured) -> str:
         """`View.sentence` of the signal."""
         raise NotImplementedError
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         measured = self.measured
-        return {} if measured is None else self.columns_of(results, measured)
+        return {} if measured is None else self.columns_of(model, measured)
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         """`View.table` of the signal."""
         raise NotImplementedError
 
@@ -173,17 +173,14 @@ class MeasuredView(View):
 
     def python(self) -> str:
         """Lines of Python that read the file and make what is drawn."""
-        measured, results = self.measured, self._results
-        if measured is None or results is None:
+        measured, model = self.measured, self._results
+        if measured is None or model is None:
             return f"# {self.why_nothing or NOTHING}\n"
-        return lines_of(self, results)
+        return lines_of(self, model)
 
-    def scene_drawn(self, results: Results) -> Scene:
+    def scene_drawn(self, model: Model) -> Scene:
         measured = self.measured
-        return results.scene if measured is None else measured.scene(results.scene)
-
-    def take_measurement(self, measurement: Measurement) -> None:
-        self.measure(measurement)
+        return model.scene if measured is None else measured.scene(model.scene)
 
     def lines_before(self) -> list[str]:
         """Lines that read the recording, or simulate it."""
@@ -206,8 +203,8 @@ class MeasuredView(View):
             name: code for name, code in known.items() if code and code != usual.get(name)
         }
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
         there = self.measurement is not None and self.measurement.measured is not None
         self.panel.visible = there or not self.waits
         if there:

@@ -27,8 +27,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.machine import Turning
+    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
-    from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.widgets.form import row, stack
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "")
@@ -109,8 +109,8 @@ class MeasuredSignal(MeasuredView):
     def is_empty(self) -> bool:
         return self.measured is None
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
         self._show_or_hide()
         if (measured := self.measured) is not None:
             quantity = ACCELERATION if measured.in_si else AS_IN_FILE
@@ -123,7 +123,7 @@ class MeasuredSignal(MeasuredView):
                 close = style.with_prefix((last - first) / measured.recording.sample_rate, "s", 2)
             self._close_title.text = close
 
-    def data_of(self, results: Results, measured: Measured) -> tuple[Sources, Ranges]:
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         first, last = close_view(measured, self.turning)
         rate = measured.recording.sample_rate
         signal = measured.recording.acceleration
@@ -158,7 +158,7 @@ class MeasuredSignal(MeasuredView):
             "named": (times[kept] < end - 0.11 * (end - begin)).astype(float),
         }
 
-    def words_of(self, results: Results, measured: Measured) -> str:
+    def words_of(self, model: Model, measured: Measured) -> str:
         recording = measured.recording
         name, size = shown_unit(measured)
         unit = f" {name}" if measured.in_si else ""
@@ -172,7 +172,7 @@ class MeasuredSignal(MeasuredView):
         of = "the acceleration" if measured.in_si else "the numbers of the file"
         return f"Root mean square of {of}: {style.list_words(sizes)}."
 
-    def columns_of(self, results: Results, measured: Measured) -> dict[str, np.ndarray]:
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         recording = measured.recording
         first, last = close_view(measured, self.turning)
         table = {"time_s": np.arange(first, last) / recording.sample_rate}

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from bearing_explorer.diagnosis.session import Sized
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.extent import BEFORE, EDGE_WORDS
+from bearing_explorer.diagnosis.views.measured_job_view import MeasuredJobView, SceneNow
 from bearing_explorer.diagnosis.views.measured_view import (
     MEASURED,
     NOTHING,
     WITHOUT_BEARING,
     WITHOUT_SPEED,
-    MeasuredView,
 )
 from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.diagnosis.widgets.candidates import (
@@ -30,8 +30,6 @@ from bearing_explorer.diagnosis.widgets.candidates import (
     in_degrees,
     rows,
 )
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.value_range import focused
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import (
@@ -47,7 +45,6 @@ from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
@@ -55,7 +52,7 @@ from bearingcore.common.numbers import with_deviation
 from bearingcore.signals.averaging import BallPasses
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
 
 HEIGHT = 236
 SAMPLES = 600
@@ -88,7 +85,7 @@ class Cancelled(Exception):  # noqa: N818
     """The work is cancelled."""
 
 
-class DefectSize(JobView[Sized], MeasuredView):
+class DefectSize(MeasuredJobView[Sized]):
     """Candidates for the extent with their probabilities, and their curves over the measured."""
 
     name = "sizing"
@@ -145,10 +142,10 @@ class DefectSize(JobView[Sized], MeasuredView):
             {"name": "support", "label": "Support is", "options": SUPPORTS},
         ]
 
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+    def form(self, editor: SceneNow) -> tuple[dict[str, str], dict[str, Any]]:
         return {"fault": "", "support": ""}, {}
 
-    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+    def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
         measured = self.measured
         if measured is None:
             raise ValueError(self.why_nothing or NOTHING)
@@ -158,7 +155,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             raise ValueError(WITHOUT_SPEED)
         if measured.machine.by_frequencies:
             raise ValueError("Frequencies do not give the dimensions of the bearing: choose it.")
-        scene = measured.scene(focused(editor.scene, editor.selected))
+        scene = measured.scene(editor.scene)
         fault = given.get("fault") or None
         if fault not in (None, OUTER):
             raise ValueError(f"Not possible: damaged is {OUTER!r}, or the diagnosed part.")
@@ -201,7 +198,7 @@ class DefectSize(JobView[Sized], MeasuredView):
 
     # The picture
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         sized = self.sized
         if sized is None or not sized.sizing.candidates:
             return {}, {}
@@ -228,8 +225,8 @@ class DefectSize(JobView[Sized], MeasuredView):
             )
         return sources, ranges
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
         sized = self.sized
         answered = sized is not None and bool(sized.sizing.candidates)
         self._answer_part.visible = answered
@@ -241,12 +238,12 @@ class DefectSize(JobView[Sized], MeasuredView):
         for dof, row in self._rows.items():
             row.visible = dof in sized.measured.directions
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         if self.measured is None:
             return self.why_nothing
         sized = self.sized
         if sized is None:
-            return self._not_yet(results)
+            return self._not_yet(model)
         sizing = sized.sizing
         words = sizing.sentence
         if sizing.conclusive:
@@ -254,13 +251,11 @@ class DefectSize(JobView[Sized], MeasuredView):
         truth = sized.measured.true_extent
         if truth is not None:
             words += f" The signal is simulated: the true extent is {in_degrees(truth)}."
-        if not same_machine(
-            sized.scene, sized.measured.scene(focused(results.scene, results.focus))
-        ):
+        if not same_machine(sized.scene, sized.measured.scene(model.scene)):
             words += " The scene has changed since; this is the answer for the one before."
         return words
 
-    def _not_yet(self, results: Results) -> str:
+    def _not_yet(self, model: Model) -> str:
         """That nothing was looked for, and whether there is something to look for."""
         words = "The size has not been estimated yet."
         if self.measured is not None and self.measured.bearing is None:
@@ -273,7 +268,7 @@ class DefectSize(JobView[Sized], MeasuredView):
             return f"{words} That of an inner race cannot be estimated this way: see step 3."
         return f"{words} Choose the outer race here if it is known to be damaged."
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         sized = self.sized
         if sized is None:
             return {}

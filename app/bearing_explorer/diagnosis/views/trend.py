@@ -16,13 +16,12 @@ from bokeh.plotting import figure
 from bearing_explorer.diagnosis.series import Series, SeriesRecordings
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
+from bearing_explorer.diagnosis.views.measured_job_view import MeasuredJobView, SceneNow
 from bearing_explorer.diagnosis.views.measured_view import (
     NOTHING,
-    MeasuredView,
     named_columns,
     shown_unit,
 )
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import (
@@ -38,7 +37,6 @@ from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
@@ -47,7 +45,7 @@ from bearingcore.diagnosis.trend import LINES
 from bearingcore.errors import FieldError
 
 if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+    from bearing_explorer.diagnosis.model import Model
 
 HEIGHT = 210
 COLORS = {
@@ -99,7 +97,7 @@ class FoundTrend:
     measured: Measured
 
 
-class TrendOfFiles(JobView[FoundTrend], MeasuredView):
+class TrendOfFiles(MeasuredJobView[FoundTrend]):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"
@@ -143,10 +141,10 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
     def fields(self) -> list[FieldSpec]:
         return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
 
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+    def form(self, editor: SceneNow) -> tuple[dict[str, str], dict[str, Any]]:
         return {"baseline": "1"}, {}
 
-    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+    def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
             raise ValueError(self.why_nothing or NOTHING)
@@ -193,8 +191,8 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             and len(found.trend.points) == len(found.recordings.recordings)
         )
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
             return
@@ -203,11 +201,11 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
         self._results_part.visible = self.drawn
         self._write_axes()
         if several and measurement.series.together and self._jobs is not None:
-            self._begin_once(results, (measurement.series, measured))
+            self._begin_once(model, (measurement.series, measured))
 
-    def _begin_once(self, results: Results | None, now: tuple[Series, Measured]) -> None:
+    def _begin_once(self, model: Model | None, now: tuple[Series, Measured]) -> None:
         """Begin without a click once the last file of a series is diagnosed."""
-        if results is None or self._began == now or self.measurement is None:
+        if model is None or self._began == now or self.measurement is None:
             return
         question = self.measurement.question()
         if question is None or self.measurement.diagnoses.of(question) is not None:
@@ -241,7 +239,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             if name in ("rms", "lines"):
                 plot.yaxis[0].axis_label = dataclasses.replace(AXES[name], unit=unit).label()
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
         found = self.found
         if found is None or not self.drawn:
             return {}, {}
@@ -272,7 +270,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             ranges[f"trend_{name}"] = self._heights[name].fit(np.append(values, 0.0))
         return sources, ranges
 
-    def sentence(self, results: Results) -> str:
+    def sentence(self, model: Model) -> str:
         measured, found = self.measured, self.found
         if measured is None or self.measurement is None:
             return self.why_nothing
@@ -287,7 +285,7 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
             words += " Your answers have changed since: compute it again."
         return words
 
-    def table(self, results: Results) -> dict[str, np.ndarray]:
+    def table(self, model: Model) -> dict[str, np.ndarray]:
         found = self.found
         if found is None or not self.drawn:
             return {}
@@ -295,11 +293,11 @@ class TrendOfFiles(JobView[FoundTrend], MeasuredView):
 
     def python(self) -> str:
         """Lines of Python that read the files and compute the trend without the page."""
-        found, results = self.found, self._results
+        found, model = self.found, self._results
         origins = () if found is None else found.recordings.origins
-        if found is None or results is None or None in origins:
+        if found is None or model is None or None in origins:
             return super().python()
-        return python_lines(found, results)
+        return python_lines(found, model)
 
 
 def words_on(shown: Trend) -> str:
@@ -338,9 +336,9 @@ def part_words(shown: Trend) -> str:
     return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
 
 
-def python_lines(found: FoundTrend, results: Results) -> str:
+def python_lines(found: FoundTrend, model: Model) -> str:
     """Lines that read the files of a trend and compute it."""
-    scene, shown = found.measured.scene(results.scene), found.trend
+    scene, shown = found.measured.scene(model.scene), found.trend
     machine, files = found.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"
     speed = "None" if machine.range is None else code_of(machine.range)

@@ -7,6 +7,7 @@ import io
 import math
 import struct
 import zlib
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -31,7 +32,7 @@ from bearing_explorer.diagnosis.upload import (
 from bearing_explorer.kit.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
-from bearingcore import catalogue, presets, read_table
+from bearingcore import Scene, catalogue, presets, read_table
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.reading import read_in_this_process
@@ -80,9 +81,14 @@ async def bring(measurement: Measurement, name: str, content: bytes) -> None:
     await settled(measurement)
 
 
-def brought(name: str, content: bytes, before: Measured | None = None) -> Measurement:
+def brought(
+    name: str,
+    content: bytes,
+    before: Measured | None = None,
+    scene: Callable[[], Scene] = lambda: presets["fan-rig"],
+) -> Measurement:
     async def all_of_it() -> Measurement:
-        made = measuring(before)
+        made = measuring(before, scene)
         await bring(made, name, content)
         return made
 

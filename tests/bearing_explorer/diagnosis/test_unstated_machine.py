@@ -12,6 +12,7 @@ from functools import cache
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import (
     CHANGED,
@@ -25,6 +26,7 @@ from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
+from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
@@ -33,11 +35,9 @@ from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.sizing import DefectSize
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
-from bearing_explorer.explorer.report import About
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.session import Explorer
+from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.page import SECTIONS
+from bearing_explorer.page import Halves
 
 from bearingcore import Diagnosis, presets
 from tests.bearing_explorer.diagnosis.test_measurement import answer, bring, brought
@@ -46,7 +46,7 @@ from tests.helpers.measuring import measuring
 from tests.helpers.reading import read_in_this_process
 
 MOTOR, RIG = presets["6205"], presets["fan-rig"]
-RESULTS = Results(RIG)
+MODEL = Model(RIG)
 NOW = datetime(2026, 11, 26, tzinfo=UTC)
 TURN = 2.0 * math.pi
 
@@ -79,8 +79,8 @@ def shown(made: Measurement) -> PartDiagnosis:
 
 
 def redraw(view: PartDiagnosis) -> None:
-    view.all_data(RESULTS)
-    view.say(RESULTS, view.sentence(RESULTS))
+    view.all_data(MODEL)
+    view.say(MODEL, view.sentence(MODEL))
 
 
 def diagnosed(made: Measurement) -> Diagnosis:
@@ -103,7 +103,7 @@ def test_a_file_without_bearing_and_speed_names_no_part() -> None:
     assert view.part.state["headline"] == "Which bearing is it?"
     assert view.part.state.get("part", "") == ""
     assert not view._seen.visible
-    assert view.table(RESULTS) == {}
+    assert view.table(MODEL) == {}
     assert made.diagnoses.wanted is None
     html = part_html(view.part.state)
     assert not any(number in html for number in ("420", "14 balls", "damaged</h3>"))
@@ -119,16 +119,16 @@ def test_a_file_without_bearing_and_speed_names_no_part() -> None:
 def test_what_needs_no_bearing_is_shown_and_the_scene_changes_nothing_of_it(kind: type) -> None:
     view = kind(PackedSource())
     view.measure(brought("silent.csv", silent()))
-    sentence = view.sentence(RESULTS)
-    sources, _ = view.all_data(RESULTS)
-    other = Results(RIG.replace(n_balls=9, shaft_speed=30.0 * TURN))
+    sentence = view.sentence(MODEL)
+    sources, _ = view.all_data(MODEL)
+    other = Model(RIG.replace(n_balls=9, shaft_speed=30.0 * TURN))
     assert view.sentence(other) == sentence
     assert "420" not in sentence
     again, _ = view.all_data(other)
     for name, columns in sources.items():
         for column, values in columns.items():
             np.testing.assert_array_equal(values, again[name][column], err_msg=f"{name} {column}")
-    view.say(RESULTS, sentence)
+    view.say(MODEL, sentence)
     lines = view.python()
     assert 'speed="unknown"' in lines
     assert 'bearing="unknown"' in lines
@@ -139,16 +139,16 @@ def test_sizes_wait_for_the_bearing_and_the_speed() -> None:
     extent, sizing = SpallExtent(PackedSource()), DefectSize(PackedSource())
     for view in (extent, sizing):
         view.measure(made)
-        assert WITHOUT_BEARING in view.sentence(RESULTS)
+        assert WITHOUT_BEARING in view.sentence(MODEL)
     with pytest.raises(ValueError, match="which bearing"):
-        sizing.prepare({}, made._editor)
+        sizing.prepare({}, SceneNow(lambda: RIG))
     answer(made, bearing="designation", designation="6205")
     with pytest.raises(ValueError, match=WITHOUT_SPEED):
-        sizing.prepare({}, made._editor)
+        sizing.prepare({}, SceneNow(lambda: RIG))
     answer(made, bearing="frequencies", speed="given", shaft_speed="1797 rpm", bpfo="3.585 x",
            bpfi="5.415 x")  # fmt: skip
     with pytest.raises(ValueError, match="do not give the dimensions"):
-        sizing.prepare({}, made._editor)
+        sizing.prepare({}, SceneNow(lambda: RIG))
 
 
 def test_a_bearing_that_is_then_said_has_its_answer_at_once() -> None:
@@ -171,8 +171,9 @@ def test_a_bearing_that_is_then_said_has_its_answer_at_once() -> None:
 
 
 def test_the_scene_is_followed_at_once_where_it_is_chosen_and_only_there() -> None:
-    made = brought("silent.csv", silent())
-    made.take_scene(MOTOR)
+    scene = MOTOR
+    made = brought("silent.csv", silent(), scene=lambda: scene)
+    made.take_scene()
     assert made.question() is None
     answer(made, bearing="scene", speed="scene")
     first = made.question()
@@ -183,22 +184,27 @@ def test_the_scene_is_followed_at_once_where_it_is_chosen_and_only_there() -> No
     facts = dict(part_words.facts(found, first))
     assert "the scene's, as chosen" in facts["Shaft"]
     assert facts["Bearing"].endswith("the scene's, as chosen")
-    made.take_scene(MOTOR.replace(extent=0.1, fy=-50.0))  # nothing of that counts
+    scene = MOTOR.replace(extent=0.1, fy=-50.0)  # nothing of that counts
+    made.take_scene()
     assert made.question() == first
     view = shown(made)
     assert "stale" not in view.part.state
-    made.take_scene(MOTOR.replace(shaft_speed=25.0 * TURN))
+    scene = MOTOR.replace(shaft_speed=25.0 * TURN)
+    made.take_scene()
     assert made.question().speed == pytest.approx(25.0 * TURN)
     assert "1500 rpm" in made.state.line
     assert view.part.state["stale"] == NOT_YET
-    made.take_scene(RIG)
+    scene = RIG
+    made.take_scene()
     assert made.question().bearing == RIG.bearing
-    made.take_scene(MOTOR)  # which has its answer already
+    scene = MOTOR  # which has its answer already
+    made.take_scene()
     redraw(view)
     assert "stale" not in view.part.state
     answer(made, bearing="6203, Paderborn", speed="given", shaft_speed="900 rpm")
     given = made.question()
-    made.take_scene(RIG)
+    scene = RIG
+    made.take_scene()
     assert made.question() == given
 
 
@@ -217,7 +223,7 @@ def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
         panel = view.part
         assert not any(button.disabled for button in (panel._copy, panel._report))
         assert panel._summary.object
-        measured_report(RESULTS, made.snapshot(), {}, about)
+        measured_report(MODEL, made.snapshot(), {}, about)
         made.take_form({**values, "shaft_speed": "1500 rpm"})  # is being read
         marked(view, made, CHANGED)
         await settled(made)
@@ -242,7 +248,7 @@ def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
         assert "Out of date." in html
         assert "Summary to copy" not in html
         with pytest.raises(ValueError, match=why):
-            measured_report(RESULTS, made.snapshot(), {}, about)
+            measured_report(MODEL, made.snapshot(), {}, about)
 
     async def settled(made: Measurement) -> None:
         while made._tasks:
@@ -252,11 +258,11 @@ def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
 
 
 def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
-    explorer = Explorer(SECTIONS)
-    explorer.draw = lambda: None  # type: ignore[method-assign]
-    explorer.measurement.measured = simulated(MOTOR, 20.0, False, 1)
-    explorer.requests.change_links({"report": "http://localhost", "measured": True})
-    assert explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
+    halves = Halves()
+    halves.session.draw = lambda: None  # type: ignore[method-assign]
+    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    halves.explorer.requests.change_links({"report": "http://localhost", "measured": True})
+    assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 
 
 def test_frequencies_in_hertz_need_a_speed_and_a_wrong_name_says_so() -> None:
@@ -282,14 +288,14 @@ def test_a_trend_without_bearing_and_speed_has_levels_and_no_part() -> None:
     view = TrendOfFiles(PackedSource())
     view.measure(made)
     work = Work()
-    view.prepare({"baseline": "1"}, made._editor)(work)
+    view.prepare({"baseline": "1"}, SceneNow(lambda: RIG))(work)
     (view.found,) = work.taken()
     assert view.drawn
-    table = view.table(RESULTS)
+    table = view.table(MODEL)
     assert table["rms_m_per_s2"][0] > 0.0
     assert table["fault"].tolist() == ["cannot tell"]
     assert np.isnan(table["bpfo_line_m_per_s2"]).all()
-    assert "is not known before the bearing is" in view.sentence(RESULTS)
+    assert "is not known before the bearing is" in view.sentence(MODEL)
 
 
 def test_two_questions_about_one_recording_share_what_is_computed_of_it() -> None:

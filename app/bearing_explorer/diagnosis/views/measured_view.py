@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -17,7 +18,6 @@ from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
 from bearingcore.files.units import ACCELERATIONS
 
 if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
     from bearing_explorer.diagnosis.signal import Measured
     from bearingcore import Scene
     from bearingcore.common.table import ResultTable

@@ -204,6 +204,13 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
     return float(loads.max(initial=0.0))
 
 
+def as_far_as_with_mass(light: Scene, how: Marching) -> Marching:
+    """The same for massless balls, with which their motion is known as far as one with mass is."""
+    if how.coarse or how.step_rate is not None:
+        return how
+    return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))
+
+
 @cached
 def ball_mass(scene: Scene, how: Marching) -> BallMass:
     """The motions without and with the balls' mass, compared over the same time."""
@@ -211,9 +218,7 @@ def ball_mass(scene: Scene, how: Marching) -> BallMass:
     alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
     moved = motion(heavy, alike)
     light = scene.replace(balls=MASSLESS)
-    if not alike.coarse and alike.step_rate is None:  # known as far as the motion with mass is
-        alike = dataclasses.replace(alike, step_rate=fine_step_rate(light, alike.sample_rate))
-    massless = motion(light, alike)
+    massless = motion(light, as_far_as_with_mass(light, alike))
     return compare_motions(massless.motion, moved.motion, moved.since)
 
 

@@ -25,7 +25,12 @@ from bearing_explorer.explorer.results.load_curve import Curve, load_curve
 from bearing_explorer.explorer.results.python_arguments import arguments
 from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.field_values import defects_of
-from bearing_explorer.explorer.state.references import HEALTHY, Reference, grey_reference
+from bearing_explorer.explorer.state.references import (
+    HEALTHY,
+    OTHER_BALLS,
+    Reference,
+    grey_reference,
+)
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
@@ -297,7 +302,7 @@ class Results:
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in another thread what of these attributes can be computed at the same time."""
         if {"late_spectra", "reference"} <= needed:
-            key = self.grey.scene, self.marching
+            key = self.grey.scene, self.reference.marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
 
@@ -355,9 +360,11 @@ class Results:
     @cached_property
     def marching(self) -> Marching:
         """Settings of its motions; those of the scene with the defect where it is compared."""
-        if self._like is not None:
-            return self._like.marching
-        return self._marching_of(self.scene, self.grey.scene)
+        first = self._like or self
+        how = first._marching_of(first.scene, first.grey.scene)
+        if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
+            return motions.as_far_as_with_mass(self.scene, how)
+        return how
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)

@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import simulated
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
@@ -23,17 +24,15 @@ from bearing_explorer.diagnosis.views.part_lines import (
     window,
 )
 from bearing_explorer.explorer.messages import LessonChange
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.session import Explorer
 from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.page import SECTIONS
+from bearing_explorer.page import SECTIONS, Halves
 
 from bearingcore import Diagnosis, Recording, presets
 from tests.helpers.measuring import at, measuring
 
 MOTOR = presets["6205"]
-RESULTS = Results(MOTOR)
+MODEL = Model(MOTOR)
 SCENES = {
     "outer race": MOTOR,
     "inner race": MOTOR.replace(race="inner"),
@@ -69,8 +68,8 @@ def view_of(measured: Measured | None = None, answer: Diagnosis | str | None = N
 def shown(truth: str):
     """A view that knows its answer and has said it."""
     view = view_of(heard(truth), diagnosed(truth))
-    view.all_data(RESULTS)
-    view.say(RESULTS, view.sentence(RESULTS))
+    view.all_data(MODEL)
+    view.say(MODEL, view.sentence(MODEL))
     return view
 
 
@@ -95,7 +94,7 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
     assert rests["Slip"] == "balls up to 2 % slower or faster, assumed"
     assert rests["Bearing"].startswith("9 balls of 7.94 mm on 39.04 mm")
     assert "turns a minute" in rests["Shaft"]
-    sentence = view.sentence(RESULTS)
+    sentence = view.sentence(MODEL)
     assert diagnosed(truth).detail in sentence
     assert "turns a minute (of the simulation" in sentence
     truthful = "the bearing is healthy" if truth == "none" else f"the {truth} is damaged"
@@ -109,12 +108,12 @@ def test_a_step_is_on_the_page_once_there_is_a_signal():
     for kind in (form, *waiting):
         view = kind(PackedSource())
         view.measure(measuring(None))
-        view.say(RESULTS, view.sentence(RESULTS))
+        view.say(MODEL, view.sentence(MODEL))
         assert view.panel.visible == (kind is form)
     view = shown("outer race")
     assert view.panel.visible
     view.measure(measuring(None))
-    view.say(RESULTS, "")
+    view.say(MODEL, "")
     assert not view.panel.visible
 
 
@@ -159,10 +158,10 @@ def test_nothing_is_marked_where_it_cannot_be_told():
     found = answered(Question.about(short))
     assert isinstance(found, Diagnosis)
     view = view_of(short, found)
-    sources, ranges = view.all_data(RESULTS)
+    sources, ranges = view.all_data(MODEL)
     assert not ranges
     assert all(not column.size for columns in sources.values() for column in columns.values())
-    view.say(RESULTS, view.sentence(RESULTS))
+    view.say(MODEL, view.sentence(MODEL))
     state = view.part.state
     assert (state["mood"], state["part"], state["probability"]) == ("unknown", "", "")
     assert state["headline"] == "No clear result"
@@ -176,8 +175,8 @@ def test_a_refusal_is_a_sentence():
     assert isinstance(answer, str)
     assert "shaft speed" in answer
     view = view_of(still, answer)
-    assert view.sentence(RESULTS) == answer
-    view.say(RESULTS, answer)
+    assert view.sentence(MODEL) == answer
+    view.say(MODEL, answer)
     assert view.part.state["plain"] == answer
 
 
@@ -187,7 +186,7 @@ def test_a_refusal_is_a_sentence():
 @pytest.mark.parametrize("truth", ["outer race", "inner race"])
 def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
     found = diagnosed(truth)
-    sources, ranges = view_of(heard(truth), found).all_data(RESULTS)
+    sources, ranges = view_of(heard(truth), found).all_data(MODEL)
     for one in found.evidence:
         key = one.part.replace(" ", "_")
         lines = sources[f"diagnosis_{key}_lines"]
@@ -220,7 +219,7 @@ def test_a_zoom_shows_a_line_with_what_stands_beside_it():
     assert high - low < one.frequency
     view = view_of(heard("inner race"), found)
     view.look_changed("zoom", "inner race 2")
-    assert view.all_data(RESULTS)[1]["diagnosis_frequency"] == (low, high)
+    assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
 
 
 def test_the_shaft_speed_can_be_rough_or_unknown():
@@ -293,10 +292,11 @@ def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
 
 
 def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
-    explorer = Explorer(SECTIONS)
-    explorer.draw = lambda: None  # type: ignore[method-assign]
+    halves = Halves()
+    explorer = halves.explorer
+    halves.session.draw = lambda: None  # type: ignore[method-assign]
     wishes = []
-    explorer.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
+    halves.diagnosis.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
         (wish, explorer.scene.defects[0].race)
     )
     wish = {"noise": "20", "machine": "same"}

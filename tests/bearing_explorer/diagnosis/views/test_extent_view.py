@@ -8,18 +8,18 @@ from functools import cache
 
 import pytest
 from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered, extent_of
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.extent import BEFORE, SpallExtent
-from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.still_figure import Figure
 
 from bearingcore import MeasuredExtent, Recording, presets
 from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
 from tests.helpers.measuring import at, measuring
 
 SCENE = presets["6205"].replace(shaft_speed=SPEED)
-RESULTS = Results(SCENE)
+MODEL = Model(SCENE)
 
 
 @cache
@@ -35,7 +35,7 @@ def view_of(entry: float = 1.0) -> SpallExtent:
     made.measurement.diagnoses.keep(about, answered(about))
     question = made.question()
     made.measurement.extents.keep(question, extent_of(question))
-    made.say(RESULTS, made.sentence(RESULTS))
+    made.say(MODEL, made.sentence(MODEL))
     return made
 
 
@@ -44,8 +44,8 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
     found = view.answer()
     assert found.measured
     assert view.status.line == {**view.status.line, "mood": "good", "words": found.answer}
-    assert found.answer in view.sentence(RESULTS)
-    sources, ranges = view.all_data(RESULTS)
+    assert found.answer in view.sentence(MODEL)
+    sources, ranges = view.all_data(MODEL)
     spacing = math.degrees(MOTOR.ball_spacing)
     assert ranges["extent_angle"] == pytest.approx((-BEFORE * spacing, (1 - BEFORE) * spacing))
     entry, leave = sources["extent_edges"]["angle"]
@@ -61,21 +61,21 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
 def test_where_there_is_none_the_page_says_why_and_draws_the_pass():
     view = view_of(entry=0.0)
     assert view.status.line["mood"] == "bad"
-    assert view.sentence(RESULTS) == view.answer().sentence
-    assert not view.all_data(RESULTS)[0]["extent_edges"]["angle"].size
-    assert view.all_data(RESULTS)[0]["extent_pass_0"]["angle"].size
+    assert view.sentence(MODEL) == view.answer().sentence
+    assert not view.all_data(MODEL)[0]["extent_edges"]["angle"].size
+    assert view.all_data(MODEL)[0]["extent_pass_0"]["angle"].size
 
 
 def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():
     async def go():
         view = SpallExtent(PackedSource())
         view.measure(measuring(measured()))
-        view.say(RESULTS, view.sentence(RESULTS))
+        view.say(MODEL, view.sentence(MODEL))
         assert view.measurement.extents.wanted is None
         assert view._sentence.text == BUSY
         about = Question.about(measured())
         view.measurement.diagnoses.keep(about, answered(about))
-        view.say(RESULTS, view.sentence(RESULTS))
+        view.say(MODEL, view.sentence(MODEL))
         question = view.measurement.extents.wanted
         while view.measurement.extents.of(question) is None:
             await asyncio.sleep(0.02)
@@ -89,6 +89,6 @@ def test_the_race_may_be_known_and_a_figure_alone_needs_no_session():
     view.look_changed("race", "inner")
     assert view.choices() == {"race": "inner"}
     assert view.question().race == "inner"
-    drawn = Figure(SpallExtent, RESULTS, recording=measured().recording, choices={"race": "outer"})
+    drawn = figure_of(SpallExtent, SCENE, recording=measured().recording, choices={"race": "outer"})
     assert "outer race" in drawn.sentence
     assert isinstance(drawn.view.found, MeasuredExtent)

@@ -5,18 +5,18 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.diagnosis.views.measured_kurtogram import CELLS, MeasuredKurtogram, picture
 from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Recording, presets
 from tests.helpers.measuring import measuring
 
-RESULTS = Results(presets["fan-rig"])
+MODEL = Model(presets["fan-rig"])
 RATE = 6000.0
 TIME = np.arange(int(8 * RATE)) / RATE
 FIRST, LAST = 15.0, 35.0
@@ -41,7 +41,7 @@ def view_of(kind: type[MeasuredView], measured: Measured | None) -> MeasuredView
 
 def rows_of_the_line(view: MeasuredView) -> np.ndarray:
     """Order of the highest cell of each column."""
-    table = view.table(RESULTS)
+    table = view.table(MODEL)
     columns = len(np.unique(table["turns"]))
     order, level = (table[name].reshape(columns, -1) for name in ("order", "level_db"))
     return order[np.arange(columns), level.argmax(axis=1)]
@@ -54,11 +54,11 @@ def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
     view.look_changed("last", f"{LAST}")
     assert rows_of_the_line(view) == pytest.approx(3.58, abs=0.1)
     assert view.choices() == {"map": "orders", "last": f"{LAST:g}"}
-    assert "from 15 Hz to 35 Hz" in view.sentence(RESULTS)
+    assert "from 15 Hz to 35 Hz" in view.sentence(MODEL)
     view.look_changed("map", "spectrogram")
-    assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
+    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
     view.look_changed("last", "")
-    assert view.all_data(RESULTS)[0]["spectrogram_speed"]["y"].size == 0
+    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"].size == 0
 
 
 def test_the_kurtogram_is_drawn_where_its_bands_are():
@@ -70,19 +70,19 @@ def test_the_kurtogram_is_drawn_where_its_bands_are():
         inside = (middles > band.low) & (middles < band.high)
         assert (cells[:, inside] == kurtosis).all(axis=1).any()
     view = view_of(MeasuredKurtogram, measured)
-    (low,), (high,) = view.all_data(RESULTS)[0]["kurtogram_band"].values()
-    assert f"from {1e3 * low:.0f} to {1e3 * high:.0f} Hz" in view.sentence(RESULTS)
+    (low,), (high,) = view.all_data(MODEL)[0]["kurtogram_band"].values()
+    assert f"from {1e3 * low:.0f} to {1e3 * high:.0f} Hz" in view.sentence(MODEL)
 
 
 def test_without_a_unit_there_is_neither_velocity_nor_zone():
     known, unknown = (view_of(MeasuredIndicators, run_up(in_si=si)) for si in (True, False))
     for view in (known, unknown):
         view.look_changed("machine", "medium, rigid")
-        view.say(RESULTS, view.sentence(RESULTS))
-    assert known.sentence(RESULTS).startswith("Zone A of ISO 20816-3 with")
-    assert "15 to 300 kW on a rigid support, boundaries 1.4, 2.8 and 4.5" in known.sentence(RESULTS)
+        view.say(MODEL, view.sentence(MODEL))
+    assert known.sentence(MODEL).startswith("Zone A of ISO 20816-3 with")
+    assert "15 to 300 kW on a rigid support, boundaries 1.4, 2.8 and 4.5" in known.sentence(MODEL)
     assert "mm/s" in known._facts.object
-    assert "unit of the signal is not known" in unknown.sentence(RESULTS)
+    assert "unit of the signal is not known" in unknown.sentence(MODEL)
     assert "mm/s" not in unknown._facts.object
-    assert not [name for name in unknown.table(RESULTS) if "velocity" in name]
-    assert "rms_as_in_file" in unknown.table(RESULTS)
+    assert not [name for name in unknown.table(MODEL) if "velocity" in name]
+    assert "rms_as_in_file" in unknown.table(MODEL)

@@ -9,11 +9,11 @@ from functools import cache
 
 import numpy as np
 import pytest
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
+from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -22,7 +22,7 @@ from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.reading import read_in_this_process
 
-RESULTS = Results(presets["fan-rig"])
+MODEL = Model(presets["fan-rig"])
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -33,7 +33,7 @@ def quick() -> Iterator[None]:
         yield
 
 
-EDITOR = SceneEditor("fan-rig")
+NOW = SceneNow(lambda: presets["fan-rig"])
 RATE = 5000.0
 LOUD = (1.0, 2.0, 6.0)
 """How loud the good files are, in their order."""
@@ -91,7 +91,7 @@ def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> 
     work = Work()
     if stopped:
         work.stop()
-    words = view.prepare({"baseline": baseline}, EDITOR)(work)
+    words = view.prepare({"baseline": baseline}, NOW)(work)
     (view.found,) = work.taken()
     return words
 
@@ -99,7 +99,7 @@ def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> 
 def view_of(made: Measurement) -> TrendOfFiles:
     view = TrendOfFiles(PackedSource())
     view.measure(made)
-    view.say(RESULTS, view.sentence(RESULTS))
+    view.say(MODEL, view.sentence(MODEL))
     return view
 
 
@@ -115,15 +115,15 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     assert [table.name for table in made.series.tables] == ["day1.csv", "day2.csv", "day3.csv"]
     assert made.measured is not None
     assert made.measured.recording.name == "day3.csv"
-    sentence = view.sentence(RESULTS)
+    sentence = view.sentence(MODEL)
     assert "3 recordings along y" in sentence
     assert "6 times that of the baseline, day1.csv" in sentence
     assert "Left out: broken.csv" in sentence
-    sources, ranges = view.data(RESULTS)
+    sources, ranges = view.data(MODEL)
     rms = sources["trend"]["rms"]
     np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
     assert ranges["trend_rms"][1] > rms[-1]
-    assert len(view.table(RESULTS)["rms_m_per_s2"]) == 3
+    assert len(view.table(MODEL)["rms_m_per_s2"]) == 3
 
 
 def test_another_baseline_needs_no_file_again(
@@ -135,7 +135,7 @@ def test_another_baseline_needs_no_file_again(
     np.testing.assert_allclose(view.found.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4)
     monkeypatch.undo()
     with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
-        view.prepare({"baseline": "9"}, EDITOR)(Work())
+        view.prepare({"baseline": "9"}, NOW)(Work())
     view.found = before
 
 

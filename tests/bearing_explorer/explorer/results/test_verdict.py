@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import verdict
+from bearing_explorer.explorer.results.verdict import status_of, verdict
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
-from bearing_explorer.explorer.widgets.limits import rows_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.status import status_of
+from bearing_explorer.kit.widgets.limits import rows_of
 
 from bearingcore import Load, Scene, limits, presets
 

@@ -1,4 +1,4 @@
-"""What the page takes of the measured signal's half: its tab and its session."""
+"""All that the page takes of the measured signal's half: its tab and its session."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ class DiagnosisOfSignal:
         self.measurement.simulate(noise, machine, pit)
 
     def report(self, about: About) -> Callable[[], dict[str, Any] | None] | str:
-        """What makes the report on the signal, in any thread; or why there is none."""
+        """A function that makes the report on the signal, in any thread; or why there is none."""
         assert self._page is not None, "a half is joined to its session first"
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:

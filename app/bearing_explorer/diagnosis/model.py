@@ -31,7 +31,7 @@ class _Nothing:
 
 @dataclass(frozen=True)
 class Model:
-    """What views of a signal draw at one moment: the scene, and whether a slider moves it."""
+    """All that views of a signal draw at one moment: the scene, and whether a slider moves it."""
 
     scene: Scene
     moving: bool = False
@@ -70,7 +70,7 @@ class Inputs:
 
     @property
     def fine_key(self) -> tuple[object, ...]:
-        """What a fine picture depends on."""
+        """All that a fine picture depends on."""
         return (self.scene,)
 
     def at_rest(self, rested: bool = True) -> Inputs:

@@ -1,4 +1,4 @@
-"""What the page takes of the scene's half: its tabs, its session, its lessons, its help."""
+"""All that the page takes of the scene's half: its tabs, its session, its lessons, its help."""
 
 from __future__ import annotations
 

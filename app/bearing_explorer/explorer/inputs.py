@@ -55,7 +55,7 @@ class Inputs:
 
     @property
     def fine_key(self) -> tuple[object, ...]:
-        """What a fine picture depends on: turning the bearing leaves one fine."""
+        """All that a fine picture depends on: turning the bearing leaves one fine."""
         return self.scene, self.settings, self.compared, self.grey
 
     def at_rest(self, rested: bool = True) -> Inputs:

@@ -1,1 +1,1 @@
-"""What both halves of the page stand on: neither is known here."""
+"""The ground that both halves of the page stand on: neither is known here."""

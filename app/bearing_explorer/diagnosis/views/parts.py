@@ -12,7 +12,7 @@ from bearingcore import Scene
 
 @dataclass(frozen=True)
 class SignalParts(SessionParts):
-    """What views of a signal need besides.
+    """Parts of the session that views of a signal need besides.
 
     Parameters
     ----------

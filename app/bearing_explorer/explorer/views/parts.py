@@ -14,7 +14,7 @@ from bearing_explorer.kit.views.base import SessionParts
 
 @dataclass(frozen=True)
 class SceneParts(SessionParts):
-    """What views of the scene need besides.
+    """Parts of the session that views of the scene need besides.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How long the address of a page may be."""
+"""The greatest length of the address of a page."""
 
 TOO_LONG = "too-long"
 """Version of an address that the server put in place of one that was far too long."""

@@ -1,7 +1,7 @@
-"""What a connection may send before it is answered: bounds of size, of time and of number.
+"""Bounds on the size, time and number of requests before they are answered.
 
-Tornado reads a whole request before it asks anybody: of bodies, which no page here takes, up to a
-hundred megabytes, and headers for as long as somebody sends them.
+Tornado reads a whole request before it asks the page: of bodies, which no page here takes, up to a
+hundred megabytes, and headers for as long as they come.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ SLOWEST_HEADERS = 8.0
 MOST_UNFINISHED = 60
 """Connections at once whose headers are under way; the oldest makes room for another."""
 MOST_ANSWERED, LONGEST_ANSWER, LARGEST_REST = 8, 2.0, 4_000_000
-"""Connections at once that are told that their address is too long, for how long [s], and of how
-much they may still send [bytes]: a socket that is closed with bytes unread loses what it was sent.
+"""Connections at once that get the sentence about a long address, the time that takes at most [s],
+and how much they may still send [bytes]: a socket closed with bytes unread loses what it was sent.
 """
 
 HTTP_OPTIONS = {

@@ -25,7 +25,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
     connected: ClassVar[set[LiveSocket]] = set()
     schemes: ClassVar[dict[str, tuple[str, ...]]] = {}
-    """How pages of the hosts that are allowed by name may have come."""
+    """Schemes by which pages of the hosts that are allowed by name may have come."""
     largest: ClassVar[int] = 4 * 2**20
     """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
     last_message_at = 0.0

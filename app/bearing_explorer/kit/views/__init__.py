@@ -1,1 +1,1 @@
-"""What views of both halves are made of."""
+"""The parts that views of both halves are made of."""

@@ -1,4 +1,4 @@
-"""What a view draws, as the rooms above know it: of a scene, or of a measured signal."""
+"""The content of a picture, as modules above know it: of a scene, or of a measured signal."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Named(Protocol):
 
 
 class Content(Protocol):
-    """What views draw at one moment; a value, read in any thread."""
+    """All that views draw at one moment; a value, read in any thread."""
 
     @property
     def scene(self) -> Scene:
@@ -27,11 +27,11 @@ class Content(Protocol):
 
     @property
     def compared(self) -> Sequence[Named]:
-        """What is drawn too, each under a name."""
+        """References that are drawn too, each under a name."""
 
     @property
     def grey(self) -> Named:
-        """What is drawn in grey."""
+        """The reference that is drawn in grey."""
 
     @property
     def limits(self) -> tuple[Limit, ...]:
@@ -71,10 +71,10 @@ class Inputs(Protocol):
 
     @property
     def fine_key(self) -> tuple[object, ...]:
-        """What a fine picture depends on: inputs with the same key need no other."""
+        """All that a fine picture depends on: inputs with the same key need no other."""
 
     def at_rest(self, rested: bool = True) -> Inputs:
         """The same, as they are once the slider rests."""
 
     def content(self, give_up: Callable[[], bool] | None = None) -> Content:
-        """What is drawn of them; `give_up` may end long searches."""
+        """The content that is drawn of them; `give_up` may end long searches."""

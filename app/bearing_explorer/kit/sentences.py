@@ -32,7 +32,7 @@ def words_of(error: ValueError) -> str:
     if error.field == "shaft_speed" and error.value == 0.0:
         return "the shaft speed is 0 Hz, so nothing turns"
     if error.field in _GROOVES and error.value is None:
-        return "the groove radii are not known; enter them on the Bearing tab"
+        return "the groove radii are not known; enter them on the Machine tab, under Bearing"
     field = field_of(error)
     si = error.unit or (field.unit if field else "")
 

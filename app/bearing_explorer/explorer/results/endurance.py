@@ -26,7 +26,8 @@ from bearingcore.statics.validity import looked_at
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
-    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. Enter yours on the Bearing tab."
+    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. "
+    "Enter yours on the Machine tab, under Bearing."
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
@@ -35,7 +36,7 @@ ASSUMED_VISCOSITY = 0.02
 
 @dataclass(frozen=True)
 class LifeInputs:
-    """Steel, oil and surfaces as entered on the Life tab.
+    """Steel, oil and surfaces as entered under Life.
 
     dynamic_load_rating
         C_r [N] of the catalogue; None: computed by ISO 281.

@@ -103,7 +103,7 @@ class Results:
     grey
         kind of the reference that is drawn in grey.
     life_inputs
-        steel, oil and surfaces as entered on the Life tab.
+        steel, oil and surfaces as entered under Life.
     give_up
         called in long searches: whether the results are no longer wanted.
     like

@@ -133,7 +133,7 @@ class LifeOfBearing(View):
     def sentence(self, results: Results) -> str:
         found = results.endurance
         if len(groups_of(results)) == 1:
-            return "Enter the groove radii (Bearing tab) to compute life, pressure and film."
+            return "Enter the groove radii (Machine tab, Bearing) for life, pressure and film."
         if found.healthy is None:
             return found.no_life
         healthy = "Without the defect: " if results.scene.defects else ""

@@ -56,7 +56,7 @@ def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
 def _where(limit: Limit) -> str:
     """The tab with the fields for a number that is missing."""
     if math.isnan(limit.value) and NO_OIL in limit.sentence:
-        return " Enter them on the Life tab."
+        return " Enter them on the Machine tab, under Life."
     return ""
 
 

@@ -75,7 +75,7 @@ def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() ->
     assert math.isnan(assumed.value)
     row = next(row for row in rows_of((assumed,)))
     assert row["state"] == "unknown"
-    assert "Life tab" in row["sentence"]
+    assert "under Life" in row["sentence"]
     assert film_limit(LifeInputs(viscosity=1e-3)).crossed
     assert not film_limit(LifeInputs(viscosity=1.0)).crossed
     rollers = facts("nu208")

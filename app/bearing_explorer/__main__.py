@@ -17,7 +17,7 @@ from typing import Any
 for _library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
-from bearing_explorer.serve.log import LEVELS, begin  # noqa: E402
+from bearing_explorer.kit.serve.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
     "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
@@ -112,18 +112,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
-    from bearing_explorer.page import TABS, page
-    from bearing_explorer.results import compiling
-    from bearing_explorer.serve.serving import Limits, freeze_startup_objects, make_server
-    from bearing_explorer.state.lessons import faults_in, lessons_in, own_folder
+    from bearing_explorer.kit.compute import compiling
+    from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
+    from bearing_explorer.page import faults_of, lessons_of, page
 
-    for sentence in faults_in(chosen.lessons, TABS) if chosen.lessons else ():
+    for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
     import bearingcore
 
     gc.freeze()
     gc.enable()
-    lessons_in(chosen.lessons or own_folder(), TABS)  # kept: the first page need not read them
+    lessons_of(chosen.lessons)  # kept: the first page need not read them
     if not bearingcore.kernels.kept_on_disk():
         _say(NOT_KEPT)
     if not compiling.all_on_disk():

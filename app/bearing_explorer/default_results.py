@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import sys
 from pathlib import Path
 
-from bearing_explorer.page import SECTIONS
-from bearing_explorer.pictures import Picture, picture_of
-from bearing_explorer.results import cache
-from bearing_explorer.results.default_results import NAME, write
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.session import Explorer
+from bearing_explorer.kit.compute import cache
+from bearing_explorer.kit.compute.default_results import NAME, write
+from bearing_explorer.kit.pictures import Picture, picture_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.page import SECTIONS, Halves
 
 TABS = ("overview", "load", "stiffness", "modes", "vibration")
 """Those that are drawn before kernels are compiled."""
@@ -19,14 +17,14 @@ TABS = ("overview", "load", "stiffness", "modes", "vibration")
 
 def draw_all() -> list[Picture]:
     """Pictures of the default scene on these tabs, as a slider moves and at rest."""
-    inputs = Explorer(SECTIONS).inputs
+    inputs = Halves().session.inputs
     pictures = []
     for section in SECTIONS:
         if section.name in TABS:
             views = [view(PackedSource()) for view in section.views]
             for rested in (False, True):
-                results = dataclasses.replace(inputs, rested=rested).results()
-                pictures.append(picture_of(results, views, limits=True))
+                content = inputs.at_rest(rested).content()
+                pictures.append(picture_of(content, views, limits=True))
     return pictures
 
 

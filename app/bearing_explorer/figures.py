@@ -6,8 +6,8 @@
     drawn.show()      # in the browser; in a notebook the figure shows by itself
     drawn.table()     # the numbers, as in the view's CSV file
 
-They draw what the page draws, by the same code. `names` lists them; `views.still_figure.figure_of`
-lists their parameters, and `views.still_figure.Figure` is their result. `of_sweep` gives a sweep
+They draw what the page draws, by the same code. `names` lists them; `figure_of` of each half lists
+their parameters, and `kit.views.still_figure.Figure` is their result. `of_sweep` gives a sweep
 over two fields as HoloViews.
 """
 
@@ -17,11 +17,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from bearing_explorer.page import SECTIONS
-from bearing_explorer.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.plots.plane import BINS, Field, color_limits
-from bearing_explorer.views.base import View
-from bearing_explorer.views.still_figure import Figure, figure_of
+from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
+from bearing_explorer.kit.plots.plane import BINS, Field, color_limits
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.still_figure import Figure
+from bearing_explorer.page import SECTIONS, figure_of
 
 if TYPE_CHECKING:
     import holoviews as hv

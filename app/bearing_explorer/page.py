@@ -1,8 +1,10 @@
-"""The page: the views of each tab, and the frame around them."""
+"""The page: the two halves of the program and the frame around them.
+
+The only file that knows both halves; each serves without the other, too.
+"""
 
 from __future__ import annotations
 
-import html
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -10,100 +12,89 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from bearing_explorer.assets import asset_text, scripts
-from bearing_explorer.results import compiling
-from bearing_explorer.serve.fast import PLAIN
-from bearing_explorer.serve.live import on_loop
-from bearing_explorer.serve.template import PageTemplate
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.state import glossary
-from bearing_explorer.state.lessons import Tabs, lessons_in, own_folder, text_for_teachers
-from bearing_explorer.views.accuracy import Accuracy
-from bearing_explorer.views.alternatives import OtherModels
-from bearing_explorer.views.bearing import BearingDrawing
-from bearing_explorer.views.bearing_editor import BearingEditor
-from bearing_explorer.views.bearing_picture import bearing_picture
-from bearing_explorer.views.depth_profile import DepthProfile
-from bearing_explorer.views.diagnosis import PartDiagnosis
-from bearing_explorer.views.dof_comparison import DofDifferences
-from bearing_explorer.views.explore import ExplorePlane
-from bearing_explorer.views.extent import SpallExtent
-from bearing_explorer.views.how_sure import HowSure
-from bearing_explorer.views.life import LifeOfBearing
-from bearing_explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.views.maps import StiffnessMaps
-from bearing_explorer.views.mass_spectrum import MassInSpectrum
-from bearing_explorer.views.mass_time import MassInTime
-from bearing_explorer.views.measured_envelope import MeasuredEnvelope
-from bearing_explorer.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.views.measured_kurtogram import MeasuredKurtogram
-from bearing_explorer.views.measured_spectrogram import MeasuredSpectrogram
-from bearing_explorer.views.measured_spectrum import MeasuredSpectrum
-from bearing_explorer.views.measurement import MeasuredSignal
-from bearing_explorer.views.mechanism import WhichMechanism
-from bearing_explorer.views.model_editor import ModelEditor
-from bearing_explorer.views.modes import NaturalFrequencies
-from bearing_explorer.views.orbit import SteadyOrbit
-from bearing_explorer.views.overview.bearing import OverviewBearing
-from bearing_explorer.views.overview.change import LastChange
-from bearing_explorer.views.overview.spectrum import OverviewSpectrum
-from bearing_explorer.views.overview.stiffness import OverviewStiffness
-from bearing_explorer.views.paper import PaperFigures
-from bearing_explorer.views.sizing import DefectSize
-from bearing_explorer.views.slow_passage import SlowPassage
-from bearing_explorer.views.speed_run import SpeedRunSpectra
-from bearing_explorer.views.stability_map import OrbitStability
-from bearing_explorer.views.stiffness import Stiffness
-from bearing_explorer.views.theme import dark_properties, themes
-from bearing_explorer.views.trend import TrendOfFiles
-from bearing_explorer.views.vibration_spectrum import VibrationSpectra
-from bearing_explorer.views.vibration_time import VibrationInTime
-from bearing_explorer.widgets.form import stack
+from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.half import Half, Section
+from bearing_explorer.kit.plots.theme import dark_properties, themes
+from bearing_explorer.kit.serve.fast import PLAIN
+from bearing_explorer.kit.serve.live import on_loop
+from bearing_explorer.kit.serve.template import PageTemplate
+from bearing_explorer.kit.session import Session
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.still_figure import Figure
+from bearing_explorer.kit.widgets.form import stack
 from bearingcore import presets
 
-SECTIONS = (
-    Section(
-        "overview",
-        "Overview",
-        (OverviewBearing, LastChange, OverviewStiffness, OverviewSpectrum),
-        "Understand",
-    ),
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
-    Section("life", "Life", (LifeOfBearing,)),
-    Section("stiffness", "Stiffness", (Stiffness,)),
-    Section("maps", "Maps", (StiffnessMaps,)),
-    Section("explore", "Explore", (ExplorePlane,)),
-    Section("modes", "Frequencies", (NaturalFrequencies,), "Dynamics"),
-    Section("vibration", "Vibration", (VibrationInTime, VibrationSpectra, SlowPassage)),
-    Section("ball-mass", "Ball mass", (MassInTime, MassInSpectrum, WhichMechanism)),
-    Section("orbits", "Orbits", (SteadyOrbit, OrbitStability)),
-    Section("speed-run", "Speed run", (SpeedRunSpectra,)),
-    Section("bearing", "Bearing", (BearingEditor,), "My machine"),
-    Section("model", "Model", (ModelEditor, DofDifferences)),
-    Section(
-        "diagnosis",
-        "Diagnosis",
-        (
-            MeasuredSignal,
-            PartDiagnosis,
-            SpallExtent,
-            DefectSize,
-            TrendOfFiles,
-            MeasuredIndicators,
-            MeasuredSpectrum,
-            MeasuredEnvelope,
-            MeasuredKurtogram,
-            MeasuredSpectrogram,
-            HowSure,
-        ),
-    ),
-    Section("accuracy", "Accuracy", (Accuracy, OtherModels), "How sure"),
-    Section("paper", "Paper", (PaperFigures,)),
-)
-"""The tabs; a group goes on until the next begins.
+try:
+    from bearing_explorer.explorer import front as scene
+except ModuleNotFoundError:
+    scene = None  # type: ignore[assignment]
+try:
+    from bearing_explorer.diagnosis import front as signal
+except ModuleNotFoundError:
+    signal = None  # type: ignore[assignment]
 
-What is not on the tab that is open is neither computed nor sent.
-"""
+_LAST = ("accuracy", "explore", "over-speed", "paper")
+"""Tabs of the scene that come after those of the measured signal."""
+
+
+def _in_order() -> tuple[Section, ...]:
+    of_scene = scene.SECTIONS if scene else ()
+    return (
+        *(section for section in of_scene if section.name not in _LAST),
+        *(signal.SECTIONS if signal else ()),
+        *(section for section in of_scene if section.name in _LAST),
+    )
+
+
+SECTIONS = _in_order()
+"""The tabs. What is not on the tab that is open is neither computed nor sent."""
+
+TABS = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
+"""Names of the tabs and of their views, as lessons speak of them."""
+
+PYTHON_INSTALL = "pip install ."
+"""The page's note on how to install it."""
+
+
+class Halves:
+    """A session with its halves, each None where the program is without it.
+
+    `address`: the query of the page's address; it is not trusted.
+    """
+
+    def __init__(self, address: str = "", lessons: Any = ()) -> None:
+        bearings = BearingTable()
+        self.explorer = scene and scene.Explorer(
+            scene.SECTIONS, address=address, lessons=lessons, bearings=bearings
+        )
+        self.diagnosis = signal and signal.DiagnosisOfSignal(
+            signal.SECTIONS, self._scene_of_signal, bearings
+        )
+        halves: dict[Section, Half] = {}
+        for section in SECTIONS:
+            of_signal = signal and section in signal.SECTIONS
+            half = self.diagnosis if of_signal else self.explorer
+            assert half is not None
+            halves[section] = half
+        self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")
+        if self.explorer is not None and self.diagnosis is not None:
+            self.explorer.requests.report_on_signal = self.diagnosis.report
+            self.explorer.requests.simulate = self.diagnosis.simulate
+            self.diagnosis.change_scene_by(self.explorer.requests.change_scene)
+
+    def _scene_of_signal(self) -> Any:
+        """The scene with which a signal is compared."""
+        return self.explorer.focused_scene if self.explorer else presets["fan-rig"]
+
+
+def figure_of(view: type[View], *given: Any, **more: Any) -> Figure:
+    """The figure of a view, made by the half that it is of."""
+    of_signal = signal is not None and any(view in one.views for one in signal.SECTIONS)
+    half = signal if of_signal else scene
+    made: Figure = half.figure_of(view, *given, **more)
+    return made
 
 
 def address() -> str:
@@ -118,49 +109,57 @@ def _frame() -> Any:
     return PageTemplate(asset_text("page.html")).template
 
 
-PYTHON_INSTALL = "pip install ."
-"""The page's note on how to install it."""
-
-TABS: Tabs = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
-"""Names of the tabs and of their views, as lessons speak of them."""
-
-
 @cache
 def _for_teachers() -> str:
-    return text_for_teachers(TABS)
+    return scene.text_for_teachers(TABS)
+
+
+def lessons_of(folder: Path | None = None) -> Any:
+    """The lessons of a folder, or those that come along; read once."""
+    return scene.lessons_in(folder or scene.own_folder(), TABS) if scene else ()
+
+
+def faults_of(folder: Path) -> tuple[str, ...]:
+    """Sentences on lessons of a folder that cannot be read."""
+    return tuple(scene.faults_in(folder, TABS)) if scene else ()
 
 
 def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with other ones."""
     compiling.begin()
-    known = lessons_in(lessons or own_folder(), TABS)
-    explorer = Explorer(SECTIONS, address=address(), lessons=known)
-    explorer.lesson.teachers = _for_teachers()
+    halves = Halves(address(), lessons_of(lessons))
+    session, explorer = halves.session, halves.explorer
     template = PageTemplate(_frame())
     style = "".join(map(asset_text, ("page.css", "picture.css"))) + dark_properties()
-    template.add_variable("style", style)
-    template.add_variable("logo", asset_text("logo.svg"))
-    template.add_variable("themes", themes())
-    template.add_variable("look_script", asset_text("look.js"))
-    template.add_variable("connection_script", asset_text("connection.js"))
-    template.add_variable("order_script", asset_text("in_order.js"))
-    template.add_variable("figures_script", "" if PLAIN else asset_text("fast_figures.js"))
-    template.add_variable("glossary", glossary.as_html())
-    template.add_variable("bearing_picture", bearing_picture(presets["fan-rig"].bearing))
-    template.add_variable("python_install", PYTHON_INSTALL)
-    template.add_variable("python_lines", html.escape(asset_text("notebooks/first_lines.py")))
-    template.add_variable("page_script", scripts("element.js", "page.js"))
-    template.add_panel("lesson", explorer.lesson)
-    template.add_panel("tabs", explorer.tabs)
-    side = stack(explorer.share, explorer.controls)
-    template.add_panel("controls", side)
-    template.add_panel("main", explorer.main)
-    template.add_panel("status", explorer.status)
-    template.add_panel("limits", explorer.limits)
-    template.add_panel("packed", pn.pane.Bokeh(explorer.packed.anchor, margin=0))
+    helps = scene.help_texts() if scene else {}
+    for name, text in {
+        "style": style,
+        "logo": asset_text("logo.svg"),
+        "themes": themes(),
+        "look_script": asset_text("look.js"),
+        "connection_script": asset_text("connection.js"),
+        "order_script": asset_text("in_order.js"),
+        "figures_script": "" if PLAIN else asset_text("fast_figures.js"),
+        "python_install": PYTHON_INSTALL,
+        "page_script": scripts("element.js", "page.js"),
+        **{name: helps.get(name, "") for name in ("glossary", "bearing_picture", "python_lines")},
+    }.items():
+        template.add_variable(name, text)
+    if explorer is not None:
+        explorer.lesson.teachers = _for_teachers()
+        template.add_panel("lesson", explorer.lesson)
+        template.add_panel("controls", stack(explorer.share, explorer.controls))
+    else:
+        template.add_panel("lesson", pn.Spacer(width=0, height=0))
+        template.add_panel("controls", pn.Spacer(width=0, height=0))
+    template.add_panel("tabs", session.tabs)
+    template.add_panel("main", session.main)
+    template.add_panel("status", session.status)
+    template.add_panel("limits", session.limits)
+    template.add_panel("packed", pn.pane.Bokeh(session.packed.anchor, margin=0))
     doc = pn.state.curdoc
-    pn.state.onload(lambda: on_loop(doc, explorer.start))
-    pn.state.on_session_destroyed(lambda _: explorer.stop())
+    pn.state.onload(lambda: on_loop(doc, session.start))
+    pn.state.on_session_destroyed(lambda _: session.stop())
     if doc is not None:
         doc.title = "Bearing explorer"
     return template

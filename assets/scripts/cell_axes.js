@@ -1,5 +1,5 @@
 // The numbers of many cells on the axes of the drawing that they stand in, while it is zoomed into.
-// See app/bearing_explorer/plots/matrix_cells.py. `scale_of` is put in front of this file.
+// See app/bearing_explorer/explorer/plots/matrix_cells.py. `scale_of` is put in front of this file.
 const MOST_TICKS = {x: 8, y: 6}
 const {x_range, y_range} = plot
 const zoomed = [x_range, y_range].some(({start, end}, i) =>

@@ -1,4 +1,4 @@
-// A picture of numbers on a grid, out of the packed column of the packed source. See app/bearing_explorer/plots/heat_map.py.
+// A picture of numbers on a grid, out of the packed column of the packed source. See app/bearing_explorer/kit/plots/heat_map.py.
 const p = cb_obj.data.packed
 if (p.length > head) {
   const [columns, rows, left, width, bottom, height, faint, across, up] = p

@@ -1,5 +1,5 @@
 // Where on a heat map a point lies: put in front of the scripts that go there, read it or draw the
-// lines across it. See app/bearing_explorer/plots/heat_map.py.
+// lines across it. See app/bearing_explorer/kit/plots/heat_map.py.
 //
 // `image`: source of the pictures, the first `count` of which are maps. `stands`: source whose first
 // row says what the sides stand for where that is not what they are drawn over; or null.

@@ -30,7 +30,7 @@ export function render({ model }) {
     strip.dataset.crossed = String(crossed().length)
     // beside the status line where all is well, a line of its own where it is not
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", warned.length > 0)
-    more.hidden = !model.summary  // before the first picture
+    more.hidden = model.rows.length === 0  // before the first picture, and of a measured signal
     const [first, ...others] = model.summary.split(", ")
     more.replaceChildren(first, element("span", { class: "others" }, ["", ...others].join(", ")))
     if (!list.hidden) fill()

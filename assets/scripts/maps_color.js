@@ -1,4 +1,4 @@
-// Colour the maps: whole numbers of 16 bits to pixels. See app/bearing_explorer/views/maps.py. A map is coloured anew
+// Colour the maps: whole numbers of 16 bits to pixels. See app/bearing_explorer/explorer/views/maps.py. A map is coloured anew
 // when the page turns from light to dark.
 const numbers = cb_obj
 window.__maps_colored ??= new WeakSet()

@@ -1,4 +1,4 @@
-// What the number of a cell of the sixteen maps means; the prefixes of the house style are put in front. See app/bearing_explorer/views/maps.py.
+// What the number of a cell of the sixteen maps means; the prefixes of the house style are put in front. See app/bearing_explorer/explorer/views/maps.py.
 const floats = points.data.bits
 const p = new Uint16Array(floats.buffer, floats.byteOffset, 2*floats.length)
 const {map: i, rows, columns, row, column} = at

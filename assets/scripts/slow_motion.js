@@ -1,5 +1,5 @@
 // The simulated motion, slowly: shows an instant of the stretch that the server has sent in the figures
-// of this view, and plays its acceleration as sound. See app/bearing_explorer/views/slow_passage.py.
+// of this view, and plays its acceleration as sound. See app/bearing_explorer/explorer/views/slow_passage.py.
 
 const SLOWNESS = [1, 10, 30, 100, 300, 1000]  // times slower than the machine
 const LOWEST = 30  // slower than this what the housing does is too low to hear

@@ -1,44 +1,52 @@
-// Tabs in groups, as many rows as they need; where there is little room, a list to choose from.
-// Arrow keys move between tabs. Events: "show" asks for a tab by its name, "asked" tells that one is
-// on its way (name and title), "tab" that it is open.
+// The tabs; where there is little room, a list to choose from. A tab with several sections has their
+// names behind all tabs while it is open. Arrow keys move between tabs. Events: "show" asks for a section
+// by its name, "asked" tells that one is on its way (name and title), "tab" that it is open.
 export function render({ model }) {
-  const titles = new Map(model.names), tabs = [], groups = []
-  for (const [name, title, group = ""] of model.names) {
-    if (!groups.length || (group && group !== groups.at(-1).group)) groups.push({ group, entries: [] })
+  const titles = new Map(), groups = []
+  for (const [name, title, tab] of model.names) {
+    if (groups.at(-1)?.tab !== tab) groups.push({ tab, entries: [] })
     groups.at(-1).entries.push([name, title])
-  }
-  const show = (name) => {
-    for (const tab of tabs) {
-      const chosen = tab.dataset.name === name
-      tab.setAttribute("aria-selected", String(chosen))
-      tab.tabIndex = chosen ? 0 : -1
-    }
-    select.value = name
+    titles.set(name, tab === title ? title : `${tab}: ${title}`)
   }
   const choose = (name) => {
     show(name)
     model.send_msg({ show: name })
     announce("asked", { name, title: titles.get(name) })
   }
+  const tabs = groups.map(({ tab, entries }) => {
+    const names = entries.map(([name]) => name)
+    const own = { names, last: names[0], parts: [] }
+    own.button = button(tab, () => choose(own.last), { class: `tab-${names[0]}`, role: "tab" })
+    if (names.length > 1)
+      own.parts = entries.map(([name, title]) => button(title, () => choose(name), { class: `part-${name}`, "data-name": name }))
+    own.box = element("div", { class: "parts", role: "group", "aria-label": tab, hidden: "" }, ...own.parts)
+    return own
+  })
+  const show = (open) => {
+    for (const tab of tabs) {
+      const chosen = tab.names.includes(open)
+      if (chosen) tab.last = open
+      tab.button.setAttribute("aria-selected", String(chosen))
+      tab.button.tabIndex = chosen ? 0 : -1
+      tab.box.hidden = !chosen || !tab.parts.length
+      for (const part of tab.parts) part.setAttribute("aria-pressed", String(part.dataset.name === open))
+    }
+    select.value = open
+  }
   const list = element("div", { class: "list", role: "tablist", "aria-label": "Views" },
-    ...groups.map(({ group, entries }) => element("div", { class: "group", role: "presentation" },
-      element("span", { class: "name", "aria-hidden": "true" }, group),
-      ...entries.map(([name, title]) => {
-        tabs.push(button(title, () => choose(name), { class: `tab-${name}`, role: "tab", "data-name": name }))
-        return tabs.at(-1)
-      }))))
+    ...tabs.map((tab) => tab.button))
   const select = element("select", { "aria-label": "Views" },
-    ...groups.flatMap(({ group, entries }) => {
+    ...groups.flatMap(({ tab, entries }) => {
       const options = entries.map(([name, title]) => element("option", { value: name }, title))
-      return group ? element("optgroup", { label: group }, ...options) : options
+      return entries.length > 1 ? element("optgroup", { label: tab }, ...options) : options
     }))
   select.addEventListener("change", () => choose(select.value))
   list.addEventListener("keydown", (event) => {
-    const at = tabs.findIndex((tab) => tab.tabIndex === 0)
+    const at = tabs.findIndex((tab) => tab.button === event.target)
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key]
-    if (to === undefined) return
+    if (to === undefined || at < 0) return
     event.preventDefault()
-    const next = tabs[(to + tabs.length) % tabs.length]
+    const next = tabs[(to + tabs.length) % tabs.length].button
     next.focus()
     next.click()
   })
@@ -48,5 +56,5 @@ export function render({ model }) {
     announce("tab", model.active)
   })
   on_event("show", list, (name) => { if (titles.has(name)) choose(name) })
-  return element("div", {}, list, select)
+  return element("div", { class: "tabs" }, list, ...tabs.map((tab) => tab.box), select)
 }

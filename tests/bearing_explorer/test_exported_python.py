@@ -18,16 +18,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.measurement.form import read_form
-from bearing_explorer.measurement.session import read_file
-from bearing_explorer.measurement.signal import Measured
+from bearing_explorer.diagnosis.form import read_form
+from bearing_explorer.diagnosis.session import read_file
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import Reference
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.python_lines import FILE, scene_code
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.compared import Compared
-from bearing_explorer.views.base import View
-from bearing_explorer.views.measured_view import MeasuredView
-from bearing_explorer.views.python_lines import FILE, scene_code
 from scipy.io import wavfile
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
@@ -35,12 +35,12 @@ from tests.helpers.measuring import at, measuring, signal
 
 FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
 COMPARED = [
-    Compared(presets["fan-rig"].replace(n_balls=11), 'a "name"'),
-    Compared(presets["liew-lim"], "another"),
+    Reference(presets["fan-rig"].replace(n_balls=11), 'a "name"'),
+    Reference(presets["liew-lim"], "another"),
 ]
 TWO = (Defect(0.3, 50e-6, 4.7), Defect(0.2, 30e-6, 1.0, floor=RoughFloor(2e-6, 2e-4)))
 HEAVY = presets["7208-25deg"].replace(shaft_speed=1500.0, balls="with mass")
-SCENES: dict[str, tuple[Scene, float, list[Compared]]] = {
+SCENES: dict[str, tuple[Scene, float, list[Reference]]] = {
     "dragged": (FAN_RIG, 0.1, []),
     "compared": (FAN_RIG, 0.0, COMPARED),
     "inner race": (presets["6205"].replace(race="inner", extent=0.1), 5.0, []),

@@ -8,18 +8,18 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.assets import asset_text
-from bearing_explorer.measurement.diagnoses import Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import Question, answered, extent_of
+from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
+from bearing_explorer.diagnosis.views.extent import SpallExtent
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.control_view import ControlView
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.pictures import BROKEN, drawing_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View, parts_of
+from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.pictures import BROKEN, drawing_of
-from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.views.base import View, parts_of
-from bearing_explorer.views.control_view import ControlView
-from bearing_explorer.views.diagnosis import PartDiagnosis
-from bearing_explorer.views.extent import SpallExtent
-from bearing_explorer.views.job_view import JobView
-from bearing_explorer.views.measured_view import MeasuredView
 
 from bearingcore import Defect, RoughFloor, presets
 from tests.helpers.measuring import measuring, signal

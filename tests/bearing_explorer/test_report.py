@@ -7,23 +7,23 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from bearing_explorer.measured_report import (
+from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
+from bearing_explorer.diagnosis.report import (
     NOT_FORESEEN,
     NOT_JUDGED,
     ONE_RECORD,
     measured_report,
 )
-from bearing_explorer.measurement.diagnoses import ExtentQuestion, Question, answered, extent_of
-from bearing_explorer.measurement.session import simulated
+from bearing_explorer.diagnosis.session import simulated
+from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.explorer.report import About, mark_of, page, report
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import Reference
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.stability_map import OrbitStability
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.report import About, mark_of, page, report
-from bearing_explorer.results.results import Results
-from bearing_explorer.serve.packed_source import PackedSource
-from bearing_explorer.state.compared import Compared
-from bearing_explorer.views import part_words
-from bearing_explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.views.modes import NaturalFrequencies
-from bearing_explorer.views.stability_map import OrbitStability
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
@@ -114,7 +114,7 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
 
 def test_what_strangers_write_stays_text() -> None:
     scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
-    results = Results(scene, 0.0, compared=[Compared(presets["fan-rig"], NASTY)])
+    results = Results(scene, 0.0, compared=[Reference(presets["fan-rig"], NASTY)])
     made = report(results, [LoadDistribution], {}, about(f"http://x/?{NASTY}"))
     reader = Reader(made["html"])
     assert NASTY in reader.words

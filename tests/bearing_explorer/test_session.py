@@ -4,14 +4,16 @@ import asyncio
 from collections.abc import Callable, Sequence
 
 import pytest
-from bearing_explorer.messages import LinksChange, SceneChange, take
-from bearing_explorer.session import Explorer, Section
-from bearing_explorer.views.alternatives import OtherModels, takeable
+from bearing_explorer.explorer.messages import LinksChange, SceneChange
+from bearing_explorer.explorer.views.alternatives import OtherModels, takeable
+from bearing_explorer.kit.half import Section
+from bearing_explorer.kit.messages import take
 
 from bearingcore import presets
 from bearingcore.experiments.alternatives import alternatives
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
+from tests.helpers.sessions import SceneSession
 
 
 @pytest.fixture
@@ -19,21 +21,21 @@ def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
     """What the controls were shown."""
     news: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
+        "bearing_explorer.explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
     )
     return news
 
 
 def session(
-    *acts: Callable[[Explorer], None],
+    *acts: Callable[[SceneSession], None],
     rest: bool = False,
     sections: Sequence[Section] = SECTIONS,
     preset: str = "fan-rig",
-) -> Explorer:
+) -> SceneSession:
     """A session in which `acts` happened and all was drawn, also for the hand's `rest`."""
 
-    async def live() -> Explorer:
-        explorer = Explorer(sections, preset)
+    async def live() -> SceneSession:
+        explorer = SceneSession(sections, preset)
         explorer.draw()
         await idle(explorer)
         for act in acts:
@@ -44,29 +46,29 @@ def session(
         explorer._loop.stop()
         return explorer
 
-    async def idle(explorer: Explorer) -> None:
+    async def idle(explorer: SceneSession) -> None:
         while explorer._tasks or not explorer._loop.drawn:
             await asyncio.sleep(0.002)
 
     return run(live())
 
 
-def changing(message: object) -> Callable[[Explorer], None]:
+def changing(message: object) -> Callable[[SceneSession], None]:
     """The controls send a message, which is checked where it arrives."""
     return lambda explorer: take(explorer.requests.change_scene, SceneChange, message)
 
 
-def linking(message: object) -> Callable[[Explorer], None]:
+def linking(message: object) -> Callable[[SceneSession], None]:
     """The bar above the controls sends one."""
     return lambda explorer: take(explorer.requests.change_links, LinksChange, message)
 
 
-def showing(tab: str) -> Callable[[Explorer], None]:
+def showing(tab: str) -> Callable[[SceneSession], None]:
     """A tab is opened."""
     return lambda explorer: explorer.show_tab({"show": tab})
 
 
-def drawn(explorer: Explorer, section: str) -> list[float]:
+def drawn(explorer: SceneSession, section: str) -> list[float]:
     return explorer._views[section][0].drawn  # type: ignore[attr-defined]
 
 
@@ -145,10 +147,11 @@ def test_senseless_messages_change_nothing(news: list[dict]) -> None:
 def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch) -> None:
     answers: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.widgets.share.ShareBar.answer", lambda self, **news: answers.append(news)
+        "bearing_explorer.explorer.widgets.share.ShareBar.answer",
+        lambda self, **news: answers.append(news),
     )
 
-    def ask_twice(explorer: Explorer) -> None:
+    def ask_twice(explorer: SceneSession) -> None:
         for _ in range(2):
             explorer.requests.change_links({"report": "http://localhost:5006/"})
 
@@ -168,7 +171,7 @@ def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -
     assert {kind for changes in models.values() for kind in changes} == kinds
     for name, changes in models.items():
 
-        def take_it(explorer: Explorer, name: str = name) -> None:
+        def take_it(explorer: SceneSession, name: str = name) -> None:
             (view,) = explorer._views["accuracy"]
             view.found = found
             view._use(name)  # type: ignore[attr-defined]

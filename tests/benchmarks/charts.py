@@ -16,7 +16,7 @@ import math
 import time
 from pathlib import Path
 
-from bearing_explorer.views.work_precision import ALLOWED
+from bearing_explorer.explorer.views.work_precision import ALLOWED
 
 from bearingcore import presets
 from bearingcore.common.numbers import number, scientific, with_prefix

@@ -1,27 +1,19 @@
 """How well defects are sized: signals of known defects, drawn by seed, sized, and counted.
 
-    python -m tests.benchmarks.sizing {given,paths,pits,passages} [--count 200]
+    python -m tests.benchmarks.sizing {given,passages} [--count 200]
 
 All are of the fan rig, whose outer race is known to be damaged; the extent is not given.
 
 given: extents 3-100°, 5-30 Hz, 60-1000 N, depths 15-200 µm, balls that slip by up to 1 %, 1.4 s at
 20,480 Hz in white noise of 40, 20 and 10 dB; then a truth that differs from the given scene in one
 thing, at 20 dB, and for each fourth scene in more than was asked for.
-paths: 4-75°, 6-20 Hz, 80-400 N, behind what real paths add (`tests.helpers.path_effects`).
---effects names those that are switched on: all, none, or some; --steady sizes as if there were
-none.
-pits: balls with mass at 65,536 Hz (2-20 Hz, 80-400 N, noise at 10-30 dB), with the edges that
-geometry asks for, while the method has its usual ones. A half are pits of 0.2 to 2 mm, which balls
-bridge; a quarter long spalls; an eighth long spalls that differ from whole ball spacings by less
-than 1.5°, so that one ball enters as another leaves, as in a pit; and an eighth long spalls whose
-entry is faint, as their floor sinks slowly over the first third (any place there is right).
 passages: entry to exit (`measure_extent`) on either race, balls with mass, three edge models,
 1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right,
 and counted apart ("but for spacings").
 
-"Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %
-(given), 1.5° or 10 % (paths), 0.5° (pits). Wrong is a size that is off by more than that and by
-more than 4 deviations, or a bound that the truth is beyond.
+"Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %. Wrong
+is a size that is off by more than that and by more than 4 deviations, or a bound that the truth is
+beyond.
 """
 
 from __future__ import annotations
@@ -39,33 +31,25 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bearingcore import Defect, Scene, contact_damping, measure_extent, presets, simulate
+from bearingcore import Scene, contact_damping, measure_extent, presets, simulate
 from bearingcore.diagnosis.size.answer import AT_MOST
 from bearingcore.diagnosis.size.sizing import size_defect
-from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
-from bearingcore.scene.pit import pit
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.machine import pace
 from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
-from tests.helpers.simulated import simulated_recording
 
 RIG = presets["fan-rig"]
 SPACING = RIG.bearing.ball_spacing
-FAMILIES = {"given": 2014, "paths": 5812, "pits": 6001, "passages": 777}
+FAMILIES = {"given": 2014, "passages": 777}
 """Seeds whose signals were never used to choose anything; 77 and 4711 were."""
-EFFECTS = ("cage_wander", "resonances", "knock", "shaft_tones", "noise")
 TOGETHER = 8
 """Signals of one speed and load: what is simulated to explain them serves for all of them."""
-RAMP = 1.0 / 3.0
-"""Of a spall's extent, over which its floor sinks where the entry is faint."""
 
 
 class Answer(NamedTuple):
     """One signal, sized. Angles in degrees."""
 
     kind: str
-    least: float
-    """Extents from this to `truth` are right: they differ where the entry is faint."""
     truth: float
     extent: float
     uncertainty: float
@@ -87,14 +71,14 @@ class Answer(NamedTuple):
     @property
     def right_extent(self) -> bool:
         """Whether the extent is off by no more than the room."""
-        return self.least - self.room <= self.extent <= self.truth + self.room
+        return self.truth - self.room <= self.extent <= self.truth + self.room
 
     @property
     def wrong(self) -> bool:
         """Whether what was said is not so."""
         if self.conclusive:
             room = max(self.room, 4.0 * self.uncertainty)
-            return not self.least - room <= self.extent <= self.truth + room
+            return not self.truth - room <= self.extent <= self.truth + room
         if not self.bound:
             return False
         return self.limit < self.truth if self.bound == AT_MOST else self.limit > self.truth
@@ -111,9 +95,7 @@ def sized(
     recording: Recording,
     room: float,
     *,
-    least: float | None = None,
     given: Scene | None = None,
-    path: PathTolerances | None = None,
 ) -> Answer:
     """Size a recording of `truth`, whose extent is not looked at; `given` where that differs."""
     extent = truth.defects[0].extent
@@ -123,11 +105,9 @@ def sized(
         (given or truth).replace(extent=0.5),
         fault="outer race",
         support_known=True,
-        path=path or PathTolerances(),
     )
     return Answer(
         kind,
-        math.degrees(extent if least is None else least),
         math.degrees(extent),
         math.degrees(found.best.extent),
         math.degrees(found.extent_uncertainty),
@@ -221,58 +201,7 @@ def as_given(
     ]
 
 
-# --- behind real paths, pits, and entry to exit
-
-
-def along_paths(
-    family: int, number: int, effects: Sequence[str] = EFFECTS, steady: bool = False
-) -> list[Answer]:
-    """A signal with the effects that are named."""
-    group = np.random.default_rng([family, number // TOGETHER])
-    rng = np.random.default_rng([family, number // TOGETHER, number])
-    scene = RIG.replace(
-        extent=math.radians(rng.uniform(4.0, 75.0)),
-        fy=_load_between(group, 80.0, 400.0),
-        shaft_speed=2.0 * math.pi * group.uniform(6.0, 20.0),
-    )
-    every = PathEffects(resonances=drawn_resonances(rng))
-    recording = recorded_through(scene, every.without(*set(EFFECTS) - set(effects)), seed=number)
-    room = max(1.5, 0.1 * math.degrees(scene.defects[0].extent))
-    return [sized("path", scene, recording, room, path=STEADY if steady else None)]
-
-
-def pits(family: int, number: int) -> list[Answer]:
-    """A signal of a pit or of a long spall."""
-    rng = np.random.default_rng([family, number])
-    kind = (*["pit"] * 4, "long", "long", "whole spacings", "faint entry")[number % 8]
-    rig = RIG.replace(
-        fy=_load_between(rng, 80.0, 400.0),
-        shaft_speed=2.0 * math.pi * math.exp(rng.uniform(math.log(2.0), math.log(20.0))),
-    )
-    decibels = float(rng.uniform(10.0, 30.0))
-    (defect,) = rig.defects
-    least = None
-    if kind == "pit":
-        scene = rig.replace(
-            defect=pit(rig, 1e-3 * math.exp(rng.uniform(math.log(0.2), math.log(2.0))))
-        )
-    else:
-        extent = math.radians(rng.uniform(4.0, 90.0))
-        if kind == "whole spacings":
-            extent = int(rng.integers(1, 4)) * SPACING + math.radians(rng.uniform(-1.5, 1.5))
-        scene = rig.replace(extent=extent, edge="exact")
-        if kind == "faint entry":
-            place = np.linspace(-0.5, 0.5, 401)
-            depth = defect.depth * np.clip((place + 0.5) / RAMP, 0.0, 1.0) * (np.abs(place) < 0.5)
-            # balls go around with rising angle: the floor sinks from the first edge that they meet
-            sinking = Defect.measured(defect.center + place * extent, depth, edge="exact")
-            scene, least = rig.replace(defect=sinking), (1.0 - RAMP) * extent
-    duration = max(1.0, 30.0 / scene.bearing.bpfo(scene.shaft_speed))
-    clean = simulated_recording(scene, duration, 65_536.0, with_mass=True)
-    level = float(clean.acceleration.std()) * 10.0 ** (-decibels / 20.0)
-    noise = np.random.default_rng([family, number, 1]).standard_normal(clean.acceleration.shape)
-    recording = Recording(clean.acceleration + level * noise, 65_536.0, clean.directions)
-    return [sized(kind, scene, recording, 0.5, least=least, given=rig)]
+# --- entry to exit
 
 
 def passages(family: int, number: int) -> list[Answer]:
@@ -304,7 +233,7 @@ def passages(family: int, number: int) -> list[Answer]:
     return [
         Answer(
             f"{scene.defects[0].race} race{', but for spacings' * apart}",
-            *[math.degrees(right)] * 2,
+            math.degrees(right),
             middle,
             half / 4.0,
             math.nan,
@@ -373,17 +302,10 @@ def main() -> int:
     )
     parser.add_argument("set", choices=FAMILIES)
     parser.add_argument("--count", type=int, default=200, help="scenes")
-    parser.add_argument("--effects", default="all")
-    parser.add_argument("--steady", action="store_true")
     chosen = parser.parse_args()
-    named = {"all": EFFECTS, "none": ()}.get(chosen.effects, tuple(chosen.effects.split(",")))
-    if unknown := set(named) - set(EFFECTS):
-        parser.error(f"no effects: {', '.join(sorted(unknown))}")
     family = FAMILIES[chosen.set]
     sets: dict[str, Callable[[int], list[Answer]]] = {
         "given": partial(as_given, family),
-        "paths": partial(along_paths, family, effects=named, steady=chosen.steady),
-        "pits": partial(pits, family),
         "passages": partial(passages, family),
     }
     answers = []

@@ -7,8 +7,8 @@ import time
 from importlib.resources import files
 
 import pytest
+from bearing_explorer.kit.plots.theme import DARK_COLORS
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.views.theme import DARK_COLORS
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.explorer_page import (

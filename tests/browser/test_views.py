@@ -1,8 +1,8 @@
 """What only a browser can show of the views: units that follow ranges, words, proportions."""
 
 import pytest
-from bearing_explorer.plots import style
-from bearing_explorer.views.bearing import HALF_WIDTH
+from bearing_explorer.explorer.views.bearing import HALF_WIDTH
+from bearing_explorer.kit.plots import style
 from playwright.sync_api import Page
 
 from tests.browser.explorer_page import rest, wait

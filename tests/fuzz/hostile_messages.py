@@ -13,9 +13,9 @@ import random
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
+from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.page import SECTIONS
-from bearing_explorer.state.choice_list import CHOICE_LIST
-from bearing_explorer.state.field_values import SHOWN_FIELDS
 
 from tests.fuzz.inputs import NUMBERS, TOKENS, plain_value, text_like
 from tests.helpers.page_client import message

@@ -14,10 +14,10 @@ from typing import Any
 import h5py
 import numpy as np
 import scipy.io
-from bearing_explorer.measurement import form as forms
-from bearing_explorer.measurement.machine import Machine
-from bearing_explorer.state.address import opened, place_of, write
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.diagnosis import form as forms
+from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.explorer.state.address import opened, place_of, write
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, presets, read_catalogue, read_floor
 from bearingcore.files.table import read_table

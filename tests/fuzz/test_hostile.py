@@ -7,7 +7,7 @@ import logging
 from typing import Any
 
 import pytest
-from bearing_explorer.serve.serving import Limits
+from bearing_explorer.kit.serve.serving import Limits
 
 from tests.benchmarks.hostile import run
 from tests.fuzz.attacker import Tally, attack
@@ -21,7 +21,7 @@ def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
 ) -> None:
     tally = Tally()
     # it would be made in a thread long after the server is gone, and hold up the next test
-    monkeypatch.setattr("bearing_explorer.requests.report", lambda *_: {})
+    monkeypatch.setattr("bearing_explorer.explorer.requests.report", lambda *_: {})
 
     async def send(url: str, server: Any) -> None:
         there = PageClient(url)

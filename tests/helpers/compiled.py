@@ -22,7 +22,7 @@ def compile_once() -> None:
 
 def main() -> None:
     """What a server does at its start and when its first page is asked for."""
-    from bearing_explorer.results import compiling
+    from bearing_explorer.kit.compute import compiling
 
     if compiling.all_on_disk():
         return

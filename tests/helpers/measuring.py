@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from bearing_explorer.measurement.machine import GIVEN, Machine, of_scene
-from bearing_explorer.measurement.session import Measurement, simulated
-from bearing_explorer.measurement.signal import Measured
-from bearing_explorer.state.scene_editor import SceneEditor
+from bearing_explorer.diagnosis.machine import GIVEN, Machine, of_scene
+from bearing_explorer.diagnosis.session import Measurement, simulated
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.bearing_list import BearingTable
 
 from bearingcore import Scene, presets
 
@@ -25,12 +25,14 @@ def at(scene: Scene, shaft_speed: float | None = None) -> Machine:
     return machine if shaft_speed is None else machine.knowing(shaft_speed)
 
 
-def measuring(measured: Measured | None = None) -> Measurement:
+def measuring(
+    measured: Measured | None = None, scene: Callable[[], Scene] = lambda: presets["fan-rig"]
+) -> Measurement:
     """A measurement that assigns at once and draws nothing."""
 
     async def assign(change: Callable[[], None]) -> None:
         change()
 
-    made = Measurement(SceneEditor("fan-rig"), assign, lambda: None)
+    made = Measurement(scene, BearingTable(), assign, lambda: None)
     made.measured = measured
     return made

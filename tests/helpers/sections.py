@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from bearing_explorer.session import Section
-from bearing_explorer.views.base import View
+from bearing_explorer.kit.half import Section
+from bearing_explorer.kit.views.base import View
 
 
 class Depth(View):

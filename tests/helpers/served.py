@@ -8,10 +8,10 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from bearing_explorer.kit.compute.executors import POOL_SIZE, in_thread
+from bearing_explorer.kit.serve.serving import Limits, make_server
+from bearing_explorer.kit.serve.websocket import LiveSocket
 from bearing_explorer.page import page
-from bearing_explorer.results.executors import POOL_SIZE, in_thread
-from bearing_explorer.serve.serving import Limits, make_server
-from bearing_explorer.serve.websocket import LiveSocket
 from tornado.httpclient import AsyncHTTPClient, HTTPResponse
 
 from tests.helpers.loops import run

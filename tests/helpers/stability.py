@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from bearing_explorer.state.value_range import SWEEPABLE, Sweep
-from bearing_explorer.views.swept_view import Swept
+from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep
+from bearing_explorer.explorer.views.swept_view import Swept
 
 from bearingcore import presets
 from bearingcore.dynamics.stability_map import stability_map

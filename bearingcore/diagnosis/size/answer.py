@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
-from bearingcore.diagnosis.size.chance import PassQuality
-from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
-from bearingcore.diagnosis.size.supports import SupportTrial
+from bearingcore.diagnosis.size.pass_quality import PassQuality
 from bearingcore.diagnosis.size.synthesis import Band
-from bearingcore.diagnosis.size.variants import PathTolerances
 from bearingcore.dynamics.modes import frequency_bands
 from bearingcore.errors import Status
 from bearingcore.scene.scene import Scene
@@ -32,17 +29,16 @@ class SizingStatus(Status):
     AT_MOST = "at most"
     AT_LEAST = "at least"
     OTHER_PART = "other part"
+    SUPPORT_NOT_MEASURED = "support not measured"
     TOO_MANY_STEPS = "too many steps"
     NO_LINES = "no lines"
     ONE_TONE = "one tone"
-    BY_CHANCE = "by chance"
     UNEXPLAINED = "unexplained"
     OTHER_LEVEL = "other level"
     SEVERAL = "several extents"
     WIDE = "wide range"
     LIKE_A_PIT = "like a pit"
     TWO_KNOCKS = "two knocks"
-    WHOLE_SPACINGS = "whole ball spacings"
     UNCONFIRMED = "unconfirmed"
 
     @property
@@ -56,16 +52,16 @@ _SENTENCES = {
     SizingStatus.AT_MOST: "The defect is shorter than what the compared band resolves.",
     SizingStatus.AT_LEAST: "The defect is as long as the longest extent considered.",
     SizingStatus.OTHER_PART: "The outer race is not named as damaged, so no extent is estimated.",
+    SizingStatus.SUPPORT_NOT_MEASURED: (
+        "Whole ball spacings are counted by natural frequencies: that needs the measured masses "
+        "and stiffness of the support."
+    ),
     SizingStatus.TOO_MANY_STEPS: "The search would take more steps of integration than allowed.",
     SizingStatus.NO_LINES: (
         "No lines stand out at the ball-pass frequency of an outer-race defect."
     ),
     SizingStatus.ONE_TONE: (
         "The mean ball pass is a tone; a defect's entry and exit show in many harmonics."
-    ),
-    SizingStatus.BY_CHANCE: (
-        "No extent explains the signal better than it would explain one of the same spectrum by "
-        "chance."
     ),
     SizingStatus.UNEXPLAINED: "The best extent leaves much of the mean ball pass unexplained.",
     SizingStatus.OTHER_LEVEL: "The signal has another level than such a defect gives.",
@@ -75,12 +71,7 @@ _SENTENCES = {
     SizingStatus.TWO_KNOCKS: (
         "A short pit explains the signal best, but its envelope has two knocks a ball pass."
     ),
-    SizingStatus.WHOLE_SPACINGS: (
-        "With one sensor and a support that is not known, whole ball spacings cannot be counted."
-    ),
-    SizingStatus.UNCONFIRMED: (
-        "The support is not known, and entry and exit in the envelope do not confirm the extent."
-    ),
+    SizingStatus.UNCONFIRMED: "Entry and exit in the envelope do not bear the extent out.",
 }
 
 AT_MOST, AT_LEAST = SizingStatus.AT_MOST, SizingStatus.AT_LEAST
@@ -113,8 +104,6 @@ class Candidate:
         its simulated ball passes.
     lag
         ball-pass phase [rad] of the simulation at which the measured signal begins.
-    path
-        path between housing and sensor, of those that were tried.
     """
 
     turns: int
@@ -128,7 +117,6 @@ class Candidate:
     scene: Scene = field(repr=False)
     passes: BallPasses = field(repr=False)
     lag: float = field(repr=False)
-    path: PathModel = DIRECT
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
@@ -168,20 +156,14 @@ class Sizing:
         which part the signal names; None where it was given by hand.
     quality
         what the mean ball pass consists of.
-    chance
-        how often a pass of such a spectrum is explained as well with its phases drawn anew.
     apart
         spread [rad] of extents that explain it nearly as well, in half a ball spacing.
-    path
-        what was allowed for between housing and sensor.
     passes
         the measured mean ball pass and spectrum.
     band
         frequencies that were compared.
     recording
         the signal.
-    supports
-        what each support that was tried makes of the signal, where it is not known; else none.
     """
 
     candidates: tuple[Candidate, ...]
@@ -194,11 +176,8 @@ class Sizing:
     scores: NDArray[np.float64] = field(repr=False)
     """(candidates,) before the temperature."""
     quality: PassQuality
-    chance: float = math.nan
     apart: float = 0.0
     diagnosis: Diagnosis | None = None
-    supports: tuple[SupportTrial, ...] = ()
-    path: PathTolerances = field(default_factory=PathTolerances)
 
     @property
     def conclusive(self) -> bool:

@@ -18,15 +18,12 @@ from numpy.typing import NDArray
 
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.processors import processors
-from bearingcore.diagnosis.size.chance import ByChance
 from bearingcore.diagnosis.size.matching import (
     SPECTRUM_FLOOR,
     SPECTRUM_WEIGHT,
     WAVEFORM_WEIGHT,
-    Prepared,
     Target,
 )
-from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.scene.defect import EDGES
@@ -115,8 +112,6 @@ class Guess:
         ball-pass phase [rad] of the simulation at which the measured pass begins.
     level
         natural logarithm of simulated over measured power.
-    path
-        path between housing and sensor.
     extent_spread
         standard deviation [rad] of the extent where the scene's numbers may vary; NaN until it was
         refined.
@@ -132,7 +127,6 @@ class Guess:
     lag: float
     level: float
     passes: BallPasses
-    path: PathModel
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
     begin: Begin | None
@@ -148,8 +142,6 @@ class Search:
     target: Target
     columns: tuple[int, ...]
     tolerances: Tolerances
-    paths: tuple[PathModel, ...] = (DIRECT,)
-    """Possible paths between housing and sensor."""
 
     @property
     def count(self) -> int:
@@ -162,50 +154,34 @@ class Search:
         edge: str,
         offsets: NDArray[np.float64],
         like: Guess | None = None,
-        path: PathModel | None = None,
     ) -> Guess:
-        """Simulate a defect and compare it with the signal, behind a path or the best of all.
+        """Simulate a defect and compare it with the signal.
 
-        Like a guess nearby, where one is given: behind its path, and its motion goes on.
+        The motion of a guess nearby goes on, where one is given.
         """
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
         offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
         exponents = offsets * self.tolerances.spread
         begin = None if like is None else like.begin
         passes, begin = self.simulator.passes(extent, edge, exponents, CLOSED, begin)
-        path = path if like is None else like.path
-        exits = exit_phases(self.scene, np.array([extent]))
-        best: Guess | None = None
-        for model in self.paths if path is None else (path,):
-            match = self.target.match(
-                passes.harmonics[None],
-                passes.power[None],
-                model,
-                exits,
-                None if like is None or like.edge != edge else like.lag,
-            )
-            score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
-            score -= OTHER_EDGE * (edge != self.edges[0])
-            if best is not None and score <= best.score:
-                continue
-            best = Guess(
-                extent,
-                edge,
-                offsets,
-                score,
-                match.waveform_misfit[0],
-                match.spectrum_misfit[0],
-                match.waveform_cost[0],
-                float(match.lag[0]),
-                float(match.level[0]),
-                passes,
-                model,
-                match.waveform_residual[0],
-                match.spectrum_residual[0],
-                begin,
-            )
-        assert best is not None
-        return best
+        match = self.target.match(passes.harmonics[None], passes.power[None])
+        score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
+        score -= OTHER_EDGE * (edge != self.edges[0])
+        return Guess(
+            extent,
+            edge,
+            offsets,
+            score,
+            match.waveform_misfit[0],
+            match.spectrum_misfit[0],
+            match.waveform_cost[0],
+            float(match.lag[0]),
+            float(match.level[0]),
+            passes,
+            match.waveform_residual[0],
+            match.spectrum_residual[0],
+            begin,
+        )
 
     @property
     def edges(self) -> tuple[str, str]:
@@ -288,12 +264,6 @@ class Search:
 def edges_tried(given: str) -> tuple[str, str]:
     """An edge model, and the one most unlike it."""
     return given, "published" if given == "exact" else EDGES[-1]
-
-
-def exit_phases(scene: Scene, extents: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Phases (m,) [rad] of a simulated ball pass at which balls leave defects of some extents."""
-    (defect,) = scene.defects
-    return np.asarray(2.0 * math.pi * (defect.center + 0.5 * extents) / scene.bearing.ball_spacing)
 
 
 @dataclass(frozen=True)
@@ -407,27 +377,21 @@ def steps_needed(search: Search) -> int:
     return (math.ceil(library) + refined) * steps_of(search.scene, frequency, search.count)
 
 
-CHANCE_STEP = 2
-"""Every so many of all extents are held against chance behind paths, and all of them without."""
-
-
 @dataclass
 class _Compared:
     """Simulated signals, and how well they explain the measured one."""
 
     search: Search
     scores: list[NDArray[np.float64]] = field(default_factory=list)
-    sources: list[tuple[float, str, NDArray[np.float64], PathModel]] = field(default_factory=list)
+    sources: list[tuple[float, str, NDArray[np.float64]]] = field(default_factory=list)
 
     def add(self, library: _Library, score: NDArray[np.float64]) -> None:
-        """Signals with scores behind each path (p, m)."""
+        """Signals with their scores (m,)."""
         given, _ = self.search.edges
         other = np.array([edge != given for edge in library.edges])
-        cost = 0.5 * (library.offsets**2).sum(axis=1) + OTHER_EDGE * other
-        self.scores.append(score.max(axis=0) - cost)
-        paths = [self.search.paths[number] for number in score.argmax(axis=0).tolist()]
+        self.scores.append(score - 0.5 * (library.offsets**2).sum(axis=1) - OTHER_EDGE * other)
         self.sources += list(
-            zip(library.extents.tolist(), library.edges, library.offsets, paths, strict=True)
+            zip(library.extents.tolist(), library.edges, library.offsets, strict=True)
         )
 
     @property
@@ -436,30 +400,23 @@ class _Compared:
         return np.concatenate(self.scores)
 
 
-def guesses(
-    search: Search, cells: Callable[[float], int], progress: Stop
-) -> tuple[list[Guess], float]:
+def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> list[Guess]:
     """Refined guesses, the best first; and one at least in each cell of extents.
-
-    With them: how often chance would explain a pass of such a spectrum as well, see `ByChance`.
 
     `cells` numbers the cells that extents fall into once the best guess is known; it takes
     differences of extents [rad]. `progress` is called with the share done, and may raise to end.
     Threads share the work, most of which holds no interpreter lock; nothing depends on which is
     done first, as everything is taken in its own order.
     """
-    by_chance = ByChance(search.target)
     threads = ThreadPoolExecutor(processors(), "size")
     try:
-        compared = _library_compared(search, by_chance, progress, threads)
-        return _refined(search, compared, cells, progress, threads), by_chance.share
+        compared = _library_compared(search, progress, threads)
+        return _refined(search, compared, cells, progress, threads)
     finally:
         threads.shutdown(cancel_futures=True)
 
 
-def _library_compared(
-    search: Search, by_chance: ByChance, progress: Stop, threads: Executor
-) -> _Compared:
+def _library_compared(search: Search, progress: Stop, threads: Executor) -> _Compared:
     """All extents as the scene is given, and the promising half of them with it varied too."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
@@ -467,24 +424,14 @@ def _library_compared(
     frequency = nominal * round(target.measured.frequency / nominal, 3)
     sought = _Sought(scene, frequency, search.count, search.columns, search.tolerances)
 
-    def explained(library: _Library, against_chance: bool) -> NDArray[np.float64]:
-        """Score (p, m) of a library for each path."""
-        exits = exit_phases(scene, library.extents)
-        tried = []
-        for path in search.paths:
-            prepared = Prepared(target, library.harmonics, path, exits)
-            if against_chance:
-                by_chance.look(prepared if path.direct else prepared.some(CHANCE_STEP))
-            tried.append(prepared.match(library.power).score)
-        return np.array(tried)
+    def explained(library: _Library) -> tuple[_Library, NDArray[np.float64]]:
+        return library, target.match(library.harmonics, library.power).score
 
     def as_given(part: int) -> tuple[_Library, NDArray[np.float64]]:
-        library = _as_given(sought, part)
-        return library, explained(library, True)
+        return explained(_as_given(sought, part))
 
     def varied(some: NDArray[np.int_]) -> tuple[_Library, NDArray[np.float64]]:
-        library = _together([_varied(sought, index) for index in some.tolist()])
-        return library, explained(library, False)
+        return explained(_together([_varied(sought, index) for index in some.tolist()]))
 
     compared = _Compared(search)
     for part, found in enumerate(threads.map(as_given, range(PARTS))):
@@ -528,8 +475,7 @@ def _refined(
                     return
 
     def begun(index: int) -> Guess:
-        extent, edge, offsets, path = sources[index]
-        return search.refined(search.guess(extent, edge, offsets, path=path))
+        return search.refined(search.guess(*sources[index]))
 
     found: list[Guess] = []
     for done, guess in enumerate(threads.map(begun, starts())):

@@ -34,9 +34,6 @@ MOST_IN_ONE, FEWEST_HARMONICS = 0.5, 2.5
 """Part of the mean ball pass that one harmonic may carry, and by how many it is carried at least:
 a tone that happens to be on a harmonic is not a defect."""
 
-LEAST_CHANCE = 0.05
-"""Part of passes with phases drawn anew that may be explained as well as the measured one."""
-
 LEAST_PROMINENCE = 6.0
 """Of the ball-pass lines, in standard deviations: noise alone reaches 5."""
 
@@ -76,12 +73,6 @@ def _refusal(sized: Sizing) -> Judgement | None:
         words = (
             f"one harmonic carries {100.0 * quality.strongest:.0f} % of the mean ball pass, as a "
             "tone would; a defect's entry and exit show in many."
-        )
-    elif sized.chance > LEAST_CHANCE:
-        status = SizingStatus.BY_CHANCE
-        words = (
-            "no extent explains it better than it would explain a signal of the same spectrum "
-            "by chance. Load, speed, support or bearing may not be those of this machine."
         )
     elif without_noise > (MUCH_UNEXPLAINED if best.extent > PIT else PIT_UNEXPLAINED):
         status = SizingStatus.UNEXPLAINED
@@ -159,50 +150,30 @@ def _like_a_pit(sized: Sizing) -> float:
     return reach if whole >= 1 and abs(best.extent - whole * spacing) < reach else 0.0
 
 
-def confirmed(sized: Sizing, knocks: MeasuredExtent, support_known: bool) -> Judgement:
+def confirmed(sized: Sizing, knocks: MeasuredExtent) -> Judgement:
     """The judgement of an answer or a bound, once knocks in the envelope are held against it.
 
-    Parameters
-    ----------
-    sized
-        an answer or a bound.
-    knocks
-        the extent from entry to exit, of the same recording.
-    support_known
-        whether masses and stiffness are those of the machine. Where they are not, natural
-        frequencies, which count ball spacings and rule out long spalls, are a guess.
+    `knocks` is the extent from entry to exit, of the same recording.
     """
-    size, twice = _size(sized), knocks.status in _KNOCKS_TWICE
-    if sized.status == AT_MOST and twice:
+    size = _size(sized)
+    if sized.status == AT_MOST and knocks.status in _KNOCKS_TWICE:
         return Judgement(
             SizingStatus.TWO_KNOCKS,
             f"{_CANNOT}best match {size}, but the envelope has two knocks a ball pass, as a ball's "
             "entry and exit give.",
         )
-    alone = len(sized.recording.directions) == 1
-    if not support_known:
-        if alone and sized.best.turns > 0:
-            return Judgement(
-                SizingStatus.WHOLE_SPACINGS,
-                f"{_CANNOT}best match {size}, but with one sensor and a support that is not known "
-                "whole ball spacings cannot be counted.",
-            )
-        if sized.status == AT_MOST or not _agree(sized, knocks, alone):
-            return Judgement(
-                SizingStatus.UNCONFIRMED,
-                f"{_CANNOT}best match {size}, but the support is not known, and entry and exit in "
-                "the envelope do not confirm it.",
-            )
+    if not _agree(sized, knocks):
+        return Judgement(
+            SizingStatus.UNCONFIRMED,
+            f"{_CANNOT}best match {size}, but entry and exit in the envelope do not bear it out.",
+        )
     return Judgement(sized.status, sized.sentence)
 
 
-def _agree(sized: Sizing, knocks: MeasuredExtent, needed: bool) -> bool:
-    """Whether an extent from entry to exit holds the best one, but for whole ball spacings.
-
-    Where there is none it agrees unless it is `needed`.
-    """
+def _agree(sized: Sizing, knocks: MeasuredExtent) -> bool:
+    """Whether an extent from entry to exit, if any, holds the best one but for whole spacings."""
     if not knocks.measured:
-        return not needed
+        return True
     room, spacing = 2.0 * sized.extent_uncertainty, knocks.ball_spacing
     over = (sized.best.extent - knocks.low + room) % spacing
     return over <= knocks.high - knocks.low + 2.0 * room

@@ -8,8 +8,8 @@ each candidate, and a word where there is no clear result.
 
 First comes the diagnosis, which needs no model of the machine: an extent is looked for only
 where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
-noise, and explained better than chance would (see `chance`). Last, knocks in the envelope are
-held against the answer (see `judge`).
+noise (see `pass_quality`). Last, knocks in the envelope are held against the answer (see `judge`).
+A machine whose support is not measured gets no size: natural frequencies count the ball spacings.
 
 Quantity                                   | Symbol | Name           | Unit
 ------------------------------------------ | ------ | -------------- | ----
@@ -32,7 +32,6 @@ from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.diagnosis.size.answer import Candidate, Sizing, SizingStatus
-from bearingcore.diagnosis.size.chance import pass_quality
 from bearingcore.diagnosis.size.fitting import (
     GREATEST_EXTENT,
     LEAST_EXTENT,
@@ -43,12 +42,11 @@ from bearingcore.diagnosis.size.fitting import (
 )
 from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.matching import Target
-from bearingcore.diagnosis.size.supports import SupportTrial, dependence, other_supports
+from bearingcore.diagnosis.size.pass_quality import pass_quality
 from bearingcore.diagnosis.size.synthesis import comparison_band
-from bearingcore.diagnosis.size.variants import PathTolerances, Tolerances
+from bearingcore.diagnosis.size.variants import Tolerances
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, Scene
-from bearingcore.scene.support import Support
 from bearingcore.signals.averaging import average_passes
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import check_samples
@@ -82,7 +80,6 @@ def size_defect(
     *,
     fault: str | None = None,
     tolerances: Tolerances | None = None,
-    path: PathTolerances | None = None,
     support_known: bool = False,
     slip: float = 0.02,
     most_steps: int = MOST_STEPS,
@@ -108,12 +105,9 @@ def size_defect(
         is.
     tolerances
         how well the scene is known; None for the usual.
-    path
-        effects between the bearing's motion and its measurement; None for all that is known.
     support_known
-        True where the scene's support is that of the machine. Else others are tried, five times
-        the work, the answer holds what they differ by, and knocks in the envelope have to confirm
-        it.
+        True where masses and stiffness of the support are measured ones, or the signal is a
+        simulated one of the scene. Else there is no size, and the status says why.
     slip
         by how much balls may pass faster or slower than the shaft speed says, as a fraction.
     most_steps
@@ -133,7 +127,6 @@ def size_defect(
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
-    path = path if path is not None else PathTolerances()
     if fault is not None:
         checks.choice("fault", fault, (OUTER,))
     band = comparison_band(scene, recording.sample_rate)
@@ -145,9 +138,9 @@ def size_defect(
         band.lowest,
         band.highest,
         min(FOLLOWED * band.highest, 0.4 * recording.sample_rate),
-        follow=path.wandering_cage,
-        coloured=path.coloured_noise,
-        shaft=scene.shaft_speed / (2.0 * math.pi) if path.shaft_tones else None,
+        follow=True,
+        coloured=True,
+        shaft=scene.shaft_speed / (2.0 * math.pi),
     )
     target = Target(passes, band)
     nothing = Sizing(
@@ -160,7 +153,6 @@ def size_defect(
         recording,
         np.zeros(0),
         pass_quality(target),
-        path=path,
     )
     if fault is None:
         found_fault = diagnose(
@@ -171,6 +163,9 @@ def size_defect(
         )
         if found_fault.fault != OUTER:
             return nothing
+    if not support_known:
+        status = SizingStatus.SUPPORT_NOT_MEASURED
+        return dataclasses.replace(nothing, status=status, sentence=status.sentence)
     spacing = scene.bearing.ball_spacing
 
     def cell(difference: float) -> int:
@@ -178,53 +173,32 @@ def size_defect(
 
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     progress = progress if progress is not None else _go_on
-    tried = [("as given", scene.support)] if support_known else other_supports(scene.support)
-    steps = len(tried) * steps_needed(Search(scene, target, columns, tolerances, path.models))
+    search = Search(scene, target, columns, tolerances)
+    steps = steps_needed(search)
     if steps > most_steps:
         cost = (
             f"{SizingStatus.TOO_MANY_STEPS}: about {thousands(steps)}, allowed are most_steps = "
             f"{thousands(most_steps)}"
         )
         return dataclasses.replace(nothing, status=SizingStatus.TOO_MANY_STEPS, sentence=cost)
-    answers: list[Sizing] = []
-    for number, (_, support) in enumerate(tried):
-        search = Search(
-            dataclasses.replace(scene, support=support), target, columns, tolerances, path.models
-        )
-        part = _share_of(progress, number, len(tried))
-        found, chance = guesses(search, cell, part)
-        answers.append(_answer(nothing, search, found, chance, cell))
-    sized = answers[0]
-    if not support_known:
-        sized = _over_supports(answers, tried, cell)
-    sized = _with_judgement(sized, scene, support_known)
-    if sized.supports:
-        sized = dataclasses.replace(sized, sentence=sized.sentence + dependence(sized.supports))
-    return sized
+    found = guesses(search, cell, progress)
+    return _with_judgement(_answer(nothing, search, found, cell), scene)
 
 
-def _with_judgement(sized: Sizing, scene: Scene, support_known: bool) -> Sizing:
+def _with_judgement(sized: Sizing, scene: Scene) -> Sizing:
     status, sentence = judged(sized)
     sized = dataclasses.replace(sized, status=status, sentence=sentence)
-    if not (sized.bound or (sized.conclusive and not support_known)):
+    if not (sized.bound or sized.conclusive):
         return sized
     knocks = measure_extent(sized.recording, scene.bearing, scene.shaft_speed, race="outer")
-    status, sentence = confirmed(sized, knocks, support_known)
+    status, sentence = confirmed(sized, knocks)
     return dataclasses.replace(sized, status=status, sentence=sentence)
-
-
-def _share_of(
-    progress: Callable[[float], None], number: int, count: int
-) -> Callable[[float], None]:
-    """Progress of one of several parts of the work."""
-    return lambda share: progress((number + share) / count)
 
 
 def _answer(
     nothing: Sizing,
     search: Search,
     found: list[Guess],
-    chance: float,
     cell: Callable[[float], int],
 ) -> Sizing:
     """The candidates among the guesses, not yet judged."""
@@ -247,54 +221,6 @@ def _answer(
         extent_uncertainty=spread,
         apart=apart,
         scores=scores,
-        chance=chance,
-    )
-
-
-def _over_supports(
-    answers: list[Sizing], tried: list[tuple[str, Support]], cell: Callable[[float], int]
-) -> Sizing:
-    """The answer of the support that explains the signal best, and what the others say to it.
-
-    Supports count by how well they explain the signal: a candidate's probability is that over all
-    of them, and its uncertainty holds what they differ by.
-    """
-    heights = np.array([float(one.scores.max()) for one in answers])
-    weights = np.exp((heights - heights.max()) / TEMPERATURE)
-    # of a support whose candidates share the probability all of them count
-    weights *= [1.0 / one.best.probability for one in answers]
-    weights /= weights.sum()
-    leading = answers[int(heights.argmax())]
-    middle = leading.best.extent
-    inside: dict[int, float] = {}
-    variance = total = 0.0
-    for weight, one in zip(weights.tolist(), answers, strict=True):
-        for candidate in one.candidates:
-            place = cell(candidate.extent - middle)
-            inside[place] = inside.get(place, 0.0) + weight * candidate.probability
-            if place == 0:
-                share = weight * candidate.probability
-                total += share
-                variance += share * (one.extent_uncertainty**2 + (candidate.extent - middle) ** 2)
-    candidates = tuple(
-        dataclasses.replace(c, probability=inside[cell(c.extent - middle)])
-        for c in leading.candidates
-    )
-    trials = tuple(
-        SupportTrial(
-            words,
-            support,
-            one.best.extent,
-            one.extent_uncertainty,
-            one.best.probability,
-            float(one.best.waveform_misfit.mean()),
-            weight,
-        )
-        for (words, support), one, weight in zip(tried, answers, weights.tolist(), strict=True)
-    )
-    spread = math.sqrt(variance / total)
-    return dataclasses.replace(
-        leading, candidates=candidates, extent_uncertainty=spread, supports=trials
     )
 
 
@@ -341,7 +267,6 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
         scene=search.varied(guess.extent, guess.edge, guess.offsets),
         passes=guess.passes,
         lag=guess.lag,
-        path=guess.path,
     )
 
 

@@ -11,13 +11,8 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
 from bearingcore.dynamics.modes import contact_damping
 from bearingcore.scene.scene import Scene
-
-PATHS = (PathModel(0.6, 1.5e-3, 0.3, 9.0),)
-"""Paths that are tried after none. They cost so much as a path explains other extents as well: an
-extent that needs none to be explained fairly is the likelier one."""
 
 
 @dataclass(frozen=True)
@@ -42,50 +37,6 @@ class Tolerances:
     def spread(self) -> NDArray[np.float64]:
         """The standard deviations, in the order of the fields."""
         return np.array(dataclasses.astuple(self))
-
-
-@dataclass(frozen=True)
-class PathTolerances:
-    """Effects between the motion of the bearing and its measurement, each switchable.
-
-    Attributes
-    ----------
-    wandering_cage
-        the cage's speed wanders: it is followed by the ball passes themselves.
-    resonances
-        between housing and sensor something rings: a path is fitted with each extent.
-    coloured_noise
-        noise is louder at some frequencies: harmonics count by the noise that they carry.
-    shaft_tones
-        clear tones of the shaft are taken out.
-    strikes
-        balls strike the far edge and make more ring than the rings: what happens there counts less.
-    """
-
-    wandering_cage: bool = True
-    resonances: bool = True
-    coloured_noise: bool = True
-    shaft_tones: bool = True
-    strikes: bool = True
-
-    @property
-    def models(self) -> tuple[PathModel, ...]:
-        """Paths that are tried in turn: the sensor on the housing first."""
-        found = [DIRECT]
-        for path in PATHS:
-            one = PathModel(
-                path.strength if self.resonances else 0.0,
-                path.ringing if self.resonances else 0.0,
-                path.strike if self.strikes else 0.0,
-                path.cost,
-            )
-            if not one.direct:
-                found.append(one)
-        return tuple(found)
-
-
-STEADY = PathTolerances(False, False, False, False, False)
-"""A sensor on the housing itself, of a machine whose cage turns steadily."""
 
 
 def variant(scene: Scene, extent: float, edge: str, exponents: NDArray[np.float64]) -> Scene:

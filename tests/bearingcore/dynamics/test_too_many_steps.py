@@ -171,12 +171,12 @@ def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_wou
 ) -> None:
     signal = Recording(noisy(signal_of(RIG), 20.0), RATE)
     monkeypatch.setattr("bearingcore.diagnosis.size.sizing.guesses", begun)
-    sized = size_defect(signal, RIG, fault="outer race", most_steps=100_000)
+    sized = size_defect(signal, RIG, fault="outer race", support_known=True, most_steps=100_000)
     assert sized.sentence.startswith("too many steps: about ")
     assert sized.sentence.endswith(f"allowed are most_steps = {thousands(1e5)}")
     assert not sized.candidates
     assert not sized.conclusive
     with pytest.raises(AssertionError, match="it was begun"):
-        size_defect(signal, RIG, fault="outer race")
+        size_defect(signal, RIG, fault="outer race", support_known=True)
     with pytest.raises(ValueError, match="most_steps"):
-        size_defect(signal, RIG, fault="outer race", most_steps=0)
+        size_defect(signal, RIG, fault="outer race", support_known=True, most_steps=0)

@@ -4,7 +4,7 @@ Their views take a while, as those do whose script is loaded as a module.
 """
 
 import panel as pn
-from bearing_explorer.assets import asset_text
+from bearing_explorer.kit.assets import asset_text
 
 TEMPLATE = """
 {% extends base %}

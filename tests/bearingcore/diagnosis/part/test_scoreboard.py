@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from bearing_explorer.views.how_sure import extents, reliability
+from bearing_explorer.diagnosis.views.how_sure import extents, reliability
 
 from bearingcore.diagnosis.part.probability import CALIBRATION
 from tests.benchmarks.scoreboard import CANNOT, FILE, fitted, left_out, stated, tables

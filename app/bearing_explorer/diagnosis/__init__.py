@@ -1,0 +1,1 @@
+"""The measured signal: its form, session, views and report."""

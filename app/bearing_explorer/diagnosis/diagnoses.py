@@ -1,0 +1,253 @@
+"""Diagnoses of the damaged part, and extents of spalls, in the background.
+
+Holds no Panel. An answer takes from tenths of a second to seconds; pictures do not wait for it.
+A view calls `of` for an answer that is there, and `want` for one that is not; when it has come,
+everything is drawn again. Only the newest question is worked on.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import logging
+import math
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Generic, Self, TypeVar
+
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.compute.executors import JOBS
+from bearing_explorer.kit.compute.jobs import Change
+from bearing_explorer.kit.sentences import sentence_of
+from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
+from bearingcore.diagnosis.part.listed import ListedBearing, explaining_bearings
+
+Found = TypeVar("Found")
+
+log = logging.getLogger(__name__)
+
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
+WHICH_BEARING = "Which bearing is it? Without it no damaged part can be named."
+
+FAILED = "The signal could not be analysed."
+
+BUSY = "The signal is being analysed."
+
+MOST_KNOWN = 12
+"""Answers about one recording that are kept."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A recording to diagnose, its bearing, and the knowledge of its shaft speed.
+
+    Two are the same where recording, speed and the bearing's balls, diameters and contact angle
+    are: nothing else counts.
+
+    Attributes
+    ----------
+    measured
+        the signal with what is known of its machine.
+    speed
+        [rad/s] as `diagnose` wants it: a pair where it is rough, None where it is not known.
+    geometry
+        numbers of the bearing; empty where it is not known.
+    """
+
+    measured: Measured = field(compare=False)
+    speed: float | tuple[float, float] | None
+    geometry: tuple[float, ...]
+    _recording: int
+
+    @classmethod
+    def about(cls, measured: Measured, **more: Any) -> Self:
+        """The question about a recording and its machine."""
+        bearing = measured.bearing
+        numbers: tuple[float, ...] = ()
+        if bearing is not None:
+            numbers = (
+                float(bearing.n_balls),
+                bearing.ball_diameter,
+                bearing.pitch_diameter,
+                bearing.contact_angle,
+                *(number for row in bearing.rows for number in row.own.values()),
+            )
+        speed = measured.machine.range
+        return cls(measured, speed, numbers, id(measured.recording), **more)
+
+    @property
+    def bearing(self) -> Bearing:
+        """That was measured; ValueError where it is not known."""
+        if self.measured.bearing is None:
+            raise ValueError(WHICH_BEARING)
+        return self.measured.bearing
+
+    def is_like(self, other: Question) -> bool:
+        """Whether recording, bearing and knowledge of the speed are the same."""
+        mine, theirs = ((q._recording, q.speed, q.geometry) for q in (self, other))
+        return mine == theirs
+
+
+@dataclass(frozen=True)
+class ExtentQuestion(Question):
+    """A diagnosed recording whose spall is to be measured; here all of the bearing counts.
+
+    `race`: "outer" or "inner" where it is known to be damaged, "" for what the diagnosis names;
+    `load`: radial load on the bearing [N], where it is known.
+    """
+
+    whole: Bearing | None = None
+    race: str = ""
+    load: float | None = None
+    diagnosis: Diagnosis | None = field(default=None, compare=False)
+
+
+def answered(question: Question) -> Diagnosis | str:
+    """The diagnosis, or a sentence where there can be none. For any thread."""
+    recording = question.measured.recording
+    return _or_why_not(lambda: diagnose(recording, question.bearing, question.speed, slip=SLIP))
+
+
+def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
+    """The extent, or a sentence where there can be none. For any thread."""
+
+    def measure() -> MeasuredExtent:
+        found = measure_extent(
+            question.measured.recording,
+            question.bearing,
+            question.speed,
+            race=question.race or None,
+            load=question.load,
+            diagnosis=question.diagnosis,
+        )
+        unsized = question.measured.machine.by_frequencies
+        return dataclasses.replace(found, length=math.nan) if unsized else found
+
+    return _or_why_not(measure)
+
+
+@dataclass(frozen=True)
+class ListQuestion(Question):
+    """A recording that its bearing does not explain, and listed bearings that may."""
+
+    bearings: Mapping[str, Bearing] = field(default_factory=dict, compare=False)
+    progress: Progress = field(default_factory=lambda: Progress(), compare=False)
+
+
+class Progress:
+    """Progress of a search, and whether it is to end. `goes_on` is called by its thread.
+
+    Parameters
+    ----------
+    changed
+        called in that thread after each step.
+    """
+
+    def __init__(self, changed: Callable[[], object] = lambda: None) -> None:
+        self.done = self.of = 0
+        self.cancelled = False
+        self._changed = changed
+
+    def goes_on(self, done: int, of: int) -> bool:
+        """Note how far it is; False once it is to end."""
+        if not self.cancelled:
+            self.done, self.of = done, of
+            self._changed()
+        return not self.cancelled
+
+
+def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
+    """Listed bearings that explain the signal, or a sentence. For any thread."""
+    return _or_why_not(
+        lambda: explaining_bearings(
+            question.measured.recording, question.bearings, question.speed, slip=SLIP,
+            goes_on=question.progress.goes_on,
+        )
+    )  # fmt: skip
+
+
+def _or_why_not(compute: Callable[[], Found]) -> Found | str:
+    try:
+        return compute()
+    except ValueError as error:
+        return sentence_of(error)
+    except Exception:
+        log.exception("the analysis of a signal failed")
+        return FAILED
+
+
+class Answers(Generic[Found]):
+    """The answers of one session. `want` and `stop` belong on its event loop.
+
+    Parameters
+    ----------
+    assign
+        runs a change of the page's models and sends it, as `live.one_message` does.
+    draw
+        requests a drawing.
+    compute
+        answers a question, in a thread.
+    """
+
+    def __init__(
+        self,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+        compute: Callable[[Any], Found | str],
+    ) -> None:
+        self._assign = assign
+        self._draw = draw
+        self._compute = compute
+        self._known: dict[Question, Found | str] = {}
+        self.wanted: Question | None = None
+        self._task: asyncio.Task[None] | None = None
+
+    def of(self, question: Question) -> Found | str | None:
+        """The answer, a sentence where there can be none, or None: not yet. For any thread."""
+        return self._known.get(question)
+
+    def latest(self, about: Question) -> Found | str | None:
+        """The newest answer about a recording, its bearing and speed, whatever else was asked."""
+        known = reversed(self._known.items())
+        alike = (answer for question, answer in known if about.is_like(question))
+        return next(alike, None)
+
+    def keep(self, question: Question, answer: Found | str) -> None:
+        """Keep an answer; those about other recordings leave, and the oldest."""
+        recording = question.measured.recording
+        kept = {q: a for q, a in self._known.items() if q.measured.recording is recording}
+        while len(kept) >= MOST_KNOWN:
+            kept.pop(next(iter(kept)))
+        self._known = kept | {question: answer}
+
+    def want(self, question: Question) -> None:
+        """Have it answered, in place of what was wanted before; without a loop nothing is."""
+        self.wanted = question
+        if question in self._known or not (self._task is None or self._task.done()):
+            return
+        try:
+            loop = asyncio.get_running_loop()
+        except RuntimeError:  # a view is drawn outside of a session
+            return
+        self._task = loop.create_task(self._work())
+
+    def stop(self) -> None:
+        """The session is over."""
+        self.wanted = None
+        self._known = {}
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None  # its last error knows where it was, which is in here
+
+    async def _work(self) -> None:
+        loop = asyncio.get_running_loop()
+        while (question := self.wanted) is not None and question not in self._known:
+            answer = await loop.run_in_executor(JOBS, self._compute, question)
+            if self.wanted is None:
+                return
+            if self.wanted.measured.recording is question.measured.recording:
+                self.keep(question, answer)
+            if self.wanted == question:
+                await self._assign(self._draw)

@@ -1,0 +1,290 @@
+"""The machine of a measurement: which bearing, how fast the shaft turned, and who said so.
+
+What is not said is not known. The scene's bearing and speed are taken only where a person chose
+them, by `of_scene`: nothing else here looks at a scene.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.typed_number import number_of
+from bearingcore import Bearing, CatalogueBearing, Scene
+from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
+from bearingcore.common import checks
+from bearingcore.common.numbers import number, span
+from bearingcore.files.contents import FileContents
+from bearingcore.files.facts import Finding
+
+NOT_KNOWN = ""
+FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
+"""Sources of a shaft speed; with GIVEN a person typed it, with ROUGH too, good to `TOLERANCE`."""
+BY_DESIGNATION, BY_FREQUENCIES = "designation", "frequencies"
+"""Ways to say which bearing it is, besides SCENE and the name of a listed one."""
+TOLERANCE = 0.1
+"""By how much a rough shaft speed may be off, as a fraction."""
+SAME_ORDERS = 0.01
+"""Relative difference up to which a bearing's frequencies are those of a file."""
+PITCH_DIAMETER = 39e-3
+"""[m] of bearings known by their frequencies, for their picture: no answer depends on it."""
+SPEEDS = (1e-3, 1e4)
+"""[Hz] between which a shaft speed may be typed."""
+
+FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed")
+"""Of the form that says it."""
+
+KNOWN = (GIVEN, ROUGH)
+SPEED_SOURCES = {
+    FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
+    SCENE: "the scene's, as chosen", SIMULATED: "of the simulation",
+}  # fmt: skip
+"""Where a shaft speed is from, in words."""
+BEARING_SOURCES = {
+    FILE: "from the file", GIVEN: "given", SCENE: "the scene's, as chosen",
+    SIMULATED: "of the simulation",
+}  # fmt: skip
+"""Where a bearing is from, in words."""
+
+find_published = BearingTable().find
+"""The published bearing of a name, or the one of a designation."""
+
+
+class Turning(NamedTuple):
+    """A bearing at a shaft speed [rad/s], both known."""
+
+    bearing: Bearing
+    shaft_speed: float
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The knowledge of the machine on which a signal was measured.
+
+    Attributes
+    ----------
+    shaft_speed
+        [rad/s]; None where it is not known.
+    bearing
+        None where nothing says which it is.
+    speed_source
+        one of SPEED_SOURCES; NOT_KNOWN without a speed.
+    bearing_source
+        FILE, GIVEN, SCENE or SIMULATED; NOT_KNOWN without a bearing.
+    bearing_name
+        as the page has it; empty of the scene's.
+    guessed
+        names of "bearing" and "speed" which a file only suggests.
+    by_frequencies
+        whether the bearing is known by the frequencies of its parts alone: it has no size then.
+    """
+
+    shaft_speed: float | None = None
+    bearing: Bearing | None = None
+    speed_source: str = GIVEN
+    bearing_source: str = GIVEN
+    bearing_name: str = ""
+    guessed: frozenset[str] = frozenset()
+    by_frequencies: bool = False
+
+    def __post_init__(self) -> None:
+        if self.shaft_speed is None:
+            object.__setattr__(self, "speed_source", NOT_KNOWN)
+        if self.bearing is None:
+            object.__setattr__(self, "bearing_source", NOT_KNOWN)
+
+    def knowing(self, speed: float | str) -> Machine:
+        """With the shaft speed as it is, ROUGH, "unknown", or another one [rad/s]."""
+        if speed in ("unknown", NOT_KNOWN):
+            return dataclasses.replace(self, shaft_speed=None)
+        if isinstance(speed, str):
+            return dataclasses.replace(self, speed_source=checks.choice("speed", speed, KNOWN))
+        return dataclasses.replace(self, shaft_speed=speed)
+
+    @property
+    def range(self) -> float | tuple[float, float] | None:
+        """The shaft speed [rad/s] as `bearingcore.diagnose` wants it."""
+        if self.shaft_speed is None or self.speed_source != ROUGH:
+            return self.shaft_speed
+        return (1.0 - TOLERANCE) * self.shaft_speed, (1.0 + TOLERANCE) * self.shaft_speed
+
+    @property
+    def exact_speed(self) -> float | None:
+        """The shaft speed [rad/s] where it is known, and not only roughly."""
+        return None if self.speed_source == ROUGH else self.shaft_speed
+
+
+def of_scene(scene: Scene, source: str = SCENE) -> Machine:
+    """The bearing and the shaft speed of a scene: all that a measurement takes from there."""
+    return Machine(scene.shaft_speed, scene.bearing, source, source)
+
+
+class FormError(ValueError):
+    """Sentences by the fields of a form that they belong to."""
+
+    def __init__(self, sentences: Mapping[str, str]) -> None:
+        super().__init__(" ".join(sentences.values()))
+        self.sentences = dict(sentences)
+
+
+def guess(contents: FileContents) -> dict[str, str]:
+    """The first values of the form: what the file says; the rest is not known."""
+    speed = contents.shaft_speed
+    return {
+        "speed": FILE if speed is not None and speed.taken else NOT_KNOWN,
+        "shaft_speed": "" if speed is None else written(speed),
+        "designation": "",
+        **_bearing(contents),
+    }
+
+
+def _bearing(contents: FileContents) -> dict[str, str]:
+    """The first values of the bearing and of its frequencies.
+
+    What the file says of frequencies is taken before what its collection is known for.
+    """
+    texts = dict.fromkeys(FREQUENCIES, "")
+    said, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
+    if {"bpfo", "bpfi"} <= set(said):
+        texts |= {name: f"{value:.6g} Hz" for name, value in said.items()}
+        if listed is None or speed is None or not _agree(listed.value, said, speed.value):
+            return {"bearing": BY_FREQUENCIES, **texts}
+    if contents.orders is not None:
+        texts |= {
+            name: f"{order:.6g} x"
+            for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
+        }
+        return {"bearing": BY_FREQUENCIES, **texts}
+    return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
+
+
+def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
+    """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
+    bearing = find_published(name).bearing
+    own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
+    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
+
+
+def written(speed: Finding[float]) -> str:
+    """A speed in rpm where the file gives it so, else in Hz."""
+    hertz = speed.value / (2.0 * math.pi)
+    return f"{60.0 * hertz:.6g} rpm" if speed.unit == "rpm" else f"{hertz:.6g} Hz"
+
+
+def read_machine(
+    texts: Mapping[str, str],
+    first: Mapping[str, str],
+    contents: FileContents,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
+) -> Machine:
+    """The machine that a form describes; `FormError` with sentences where it describes none.
+
+    Parameters
+    ----------
+    texts
+        of `FIELDS`.
+    first
+        the same as the file filled them in.
+    contents
+        of the file.
+    scene
+        bearing and speed of the scene, see `of_scene`: used only where the form says so.
+    find
+        gives the bearing of a name or a designation.
+    """
+    guessed, refused = set(), {}
+    speed, source = None, texts["speed"]
+    found = contents.shaft_speed
+    try:
+        if source == FILE and found is not None:
+            speed = found.value
+            if not found.stated:
+                guessed.add("speed")
+        elif source in (GIVEN, ROUGH):
+            if texts["shaft_speed"]:  # until then it is not known
+                speed = 2.0 * math.pi * read_speed(texts["shaft_speed"])
+        elif source == SCENE:
+            speed = scene.shaft_speed
+        elif source != NOT_KNOWN:
+            refused["speed"] = "There is no such answer on the shaft speed."
+    except ValueError as error:
+        refused["shaft_speed"] = str(error)
+    bearing, name, by = None, texts["bearing"], GIVEN
+    try:
+        if name == SCENE:
+            bearing, by, name = scene.bearing, SCENE, ""
+        elif name == BY_FREQUENCIES:
+            turns = None if speed is None else speed / (2.0 * math.pi)
+            bearing = _of_frequencies(texts, turns)
+            name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
+        elif name == BY_DESIGNATION:
+            name = texts["designation"]
+            bearing = _of_designation(name, find)
+        elif name != NOT_KNOWN:
+            bearing = find(name).bearing
+    except ValueError as error:
+        if not {"speed", "shaft_speed"} & set(refused):  # which says it already
+            field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
+            refused[field] = sentence_of(error)
+    if refused:
+        raise FormError(refused)
+    if by == GIVEN and all(texts[one] == first[one] for one in ("bearing", *FREQUENCIES)):
+        by = FILE
+        if not contents.frequencies:  # known from the collection the file seems to be of
+            guessed.add("bearing")
+    return Machine(
+        speed, bearing, source, by, name, frozenset(guessed), texts["bearing"] == BY_FREQUENCIES
+    )
+
+
+def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:
+    """The bearing of a designation that was typed; None before it is."""
+    return find(text).bearing if text else None
+
+
+def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
+    """The bearing with frequencies that were typed, at so many `turns` of the shaft a second.
+
+    None before there are two of them. ValueError for frequencies that are those of no bearing.
+    """
+    given = [key for key in FREQUENCIES if texts[key]]
+    if not {"bpfo", "bpfi"} & set(given) or len(given) < 2:
+        return None
+    orders = {key: _order(key, texts[key], turns) for key in given}
+    return bearing_of_frequencies(orders, PITCH_DIAMETER)
+
+
+def _order(name: str, text: str, turns: float | None) -> float:
+    """A frequency in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
+    bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
+    least, most = 1e-3, 1e5
+    if bare != text.lower():
+        return number_of(bare, name.upper(), "", least, most)
+    if turns is None:
+        raise ValueError(
+            "Frequencies in Hz need the shaft speed: give it, or type them in turns of the shaft, "
+            "such as 3.58 x."
+        )
+    return number_of(bare, name.upper(), "Hz", least, most) / turns
+
+
+def read_speed(text: str) -> float:
+    """[Hz], of a number with or without its unit."""
+    words, (least, most) = "The shaft speed", SPEEDS
+    bare = text.lower()
+    per_minute = bare.endswith(("rpm", "/min", "u/min", "1/min"))
+    bare = re.sub(r"\s*(rpm|[u1]?/min|hz)$", "", bare)
+    value = number_of(bare, words, "rpm" if per_minute else "Hz", 0.0, math.inf)
+    value = value / 60.0 if per_minute else value
+    if not least <= value <= most:
+        raise ValueError(
+            f"{words} is {number(value, 6)} Hz; possible: {span(least, most, 'Hz', 6)}."
+        )
+    return value

@@ -1,0 +1,105 @@
+"""The scene as the model of a measured machine: what views of a signal draw besides the signal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import bearingcore as core
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import cached
+from bearingcore.scene.scene import WITH_MASS
+
+if TYPE_CHECKING:
+    from bearing_explorer.kit.views.base import View
+    from bearingcore import Limit, Motion, Scene
+
+DURATION, SHORT, RATE = 1.4, 0.7, 65_536.0
+"""[s] of a simulated motion, of one while a slider moves, and its sample rate [Hz]."""
+MOST_STEPS, MOST_STEPS_WITH_MASS = 400_000, 1_600_000
+"""Steps of a simulated motion: where it takes more, it is shorter."""
+SHORTEST = 0.1
+"""[s] Shorter motions show nothing."""
+
+
+@dataclass(frozen=True)
+class _Nothing:
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """All that views of a signal draw at one moment: the scene, and whether a slider moves it."""
+
+    scene: Scene
+    moving: bool = False
+
+    compared = ()
+    grey = _Nothing()
+    limits: tuple[Limit, ...] = ()
+
+    def prefetch(self, needed: frozenset[str]) -> None:
+        """Nothing is begun beforehand."""
+
+    def status(self, seconds: float, needed: frozenset[str]) -> dict[str, Any]:
+        """The status line: a signal has no equilibrium to converge."""
+        details = [f"{1e3 * seconds:.1f} ms of computing"]
+        resting = not self.moving
+        return {"mood": "good", "words": "Ready", "details": details, "resting": resting}
+
+    def is_finer_at_rest(self, needed: frozenset[str]) -> bool:
+        """Only what is simulated is, and that says so by itself."""
+        return False
+
+    def arguments(self, view: View) -> Mapping[str, str]:
+        """Arguments of the figure besides those of the view."""
+        return {}
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Inputs of a picture of the signal: the scene, and the number of the newest change."""
+
+    scene: Scene
+    mark: int
+    rested: bool = False
+
+    slow = frozenset[str]()
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        """All that a fine picture depends on."""
+        return (self.scene,)
+
+    def at_rest(self, rested: bool = True) -> Inputs:
+        """The same, as they are once the slider rests."""
+        return replace(self, rested=rested)
+
+    def content(self, give_up: Callable[[], bool] | None = None) -> Model:
+        """The model of these inputs."""
+        return Model(self.scene, moving=not self.rested)
+
+
+@cached
+def motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
+    """A simulated motion [s], [Hz]; ValueError where there is none, or it does not end."""
+    compiling.need(compiling.MOTION, scene)
+    most = MOST_STEPS_WITH_MASS if scene.balls == WITH_MASS else MOST_STEPS
+    rate = core.simulate(scene, 2.0 / sample_rate, sample_rate).step_rate
+    if math.isfinite(rate) and rate > 0.0:
+        duration = min(duration, max(most / rate, SHORTEST))
+    return core.simulate(scene, duration, sample_rate, most_steps=MOST_STEPS_WITH_MASS)
+
+
+def motion_of(model: Model) -> Motion:
+    """The motion of a model, half as long while a slider moves."""
+    return motion(model.scene, SHORT if model.moving else DURATION, RATE)
+
+
+@cached
+def bands(scene: Scene) -> dict[str, tuple[float, float]]:
+    """Least and greatest natural frequency [Hz] of each mode."""
+    compiling.need(compiling.STATICS)
+    return core.frequency_bands(scene)

@@ -1,0 +1,183 @@
+"""One A4 page on a measured signal: the answer, the pictures behind it, all assumptions.
+
+Finished by the browser as a report of a scene is, see `report`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from bokeh.embed import json_item
+
+from bearing_explorer.diagnosis.diagnoses import Question
+from bearing_explorer.diagnosis.machine import FILE as OF_FILE
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
+from bearing_explorer.diagnosis.views.extent import SpallExtent
+from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
+from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
+from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.widgets.part_panel import part_html
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.report_page import About, document, heading, mark_of
+from bearing_explorer.kit.views.still_figure import Figure
+from bearing_explorer.kit.widgets.facts import html_table, html_text
+from bearingcore import Diagnosis
+from bearingcore.common.numbers import with_prefix
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+
+FILE = "bearing-measurement.html"
+WIDTH, HEIGHT = 470, 250
+"""Of a figure as it is drawn [px]; two are side by side."""
+MOST_FIGURES = 4
+FIGURES = {
+    TrendOfFiles: "Trend",
+    SpallExtent: "Mean ball pass",
+    PartDiagnosis: "Envelope spectrum",
+    MeasuredKurtogram: "Kurtogram",
+    MeasuredSignal: "The record",
+    MeasuredSpectrum: "Spectrum",
+}
+"""Views whose first figure is shown, with its heading; those that come first are preferred."""
+
+NOT_JUDGED = "Lubrication, balance, alignment and other bearings of the machine are not judged."
+NOT_FORESEEN = (
+    "The vibration shows neither the depth of the damage nor the remaining life of the bearing."
+)
+ONE_RECORD = "Several records over time show whether it grows."
+NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
+
+
+def measured_report(
+    model: Model, measurement: Measurement, found: Mapping[str, Any], about: About
+) -> dict[str, Any]:
+    """The page for the browser to finish. For any thread: it touches no models of the page.
+
+    Parameters
+    ----------
+    measurement
+        a copy, see `Measurement.snapshot`.
+    found
+        results of jobs, by view.
+
+    Raises
+    ------
+    ValueError
+        with a sentence, where nothing is diagnosed yet, or the diagnosis is out of date.
+    """
+    question, answer = measurement.question(), measurement.diagnosis()
+    if why := measurement.out_of_date:
+        raise ValueError(why)
+    if question is None or answer is None:
+        raise ValueError("nothing is diagnosed yet")
+    extent = measurement.extent() if answer.fault in RACES_NAMED else None
+    drawn: list[str] = []
+    items: list[Any] = []
+    figures: list[str] = []
+    for kind, title in FIGURES.items():
+        figure = Figure(
+            kind,
+            model,
+            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
+            found=found.get(kind.name),
+            computed=False,
+        )
+        data, _ = figure.view.data(model)
+        first, *_ = figure.view.figures
+        if kind is SpallExtent and (extent is None or not extent.passes):
+            continue
+        if not any(column.size for columns in data.values() for column in columns.values()):
+            continue
+        first.height = HEIGHT
+        drawn.append(first.id)
+        items.append(json_item(figure.layout))
+        figures.append(
+            f"<figure><h2>{html_text(title)}</h2><div class='drawing'>{mark_of(first.id)}</div>"
+            f"<figcaption>{html_text(figure.sentence)}</figcaption></figure>"
+        )
+        if len(drawn) == MOST_FIGURES:
+            break
+    state = panel_state(question, answer)
+    state |= {"pass_on": "", "facts": ()}
+    if extent is not None:
+        known = ", interval of 95 %" if extent.measured else ""
+        state["extent"] = f"{part_words.extent(extent)}{known}"
+    machine = question.measured.machine
+    of = machine.bearing_name
+    if not of:
+        of = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
+    title = about.title.strip() or f"{of}: {question.measured.recording.name}"
+    body = [
+        *heading(about, title),
+        part_html(state),
+        f"<p class='do'>{html_text(part_words.pass_on(answer, question))}</p>",
+        f"<div class='figures'>{''.join(figures)}</div>",
+        "<h2>Assumptions</h2>",
+        html_table(["", "Value", "From"], _escaped(assumptions(question, answer, measurement))),
+        "<h2>Not answered by this signal</h2>",
+        f"<p>{html_text(' '.join(limits(question, answer, len(measurement.series.tables))))}</p>",
+    ]
+    style = asset_text("part.css") + asset_text("measured_report.css")
+    return {
+        "name": FILE,
+        "html": document(about, title, body, style),
+        "items": items,
+        "figures": drawn,
+        "width": WIDTH,
+    }
+
+
+def _escaped(rows: Iterable[Iterable[str]]) -> Iterable[list[str]]:
+    return ([html_text(cell) for cell in row] for row in rows)
+
+
+def assumptions(
+    question: Question, answer: Diagnosis, measurement: Measurement
+) -> list[tuple[str, str, str]]:
+    """Assumptions of the answer: name, value and its source."""
+    measured, bearing = question.measured, question.bearing
+    machine = measured.machine
+    of_file = {
+        "speed": machine.speed_source == OF_FILE, "bearing": machine.bearing_source == OF_FILE
+    }  # fmt: skip
+    recording, given = measured.recording, dict(part_words.facts(answer, question))
+    source = measurement.source_of
+    load = measurement.state.load
+    typed = [
+        f"{name.upper()} {text}"
+        for name, text in measurement.state.values.items()
+        if name in ("bpfo", "bpfi", "ftf", "bsf") and text
+    ]
+    clearance = with_prefix(bearing.radial_clearance, "m")
+    return [
+        ("File", recording.name, "" if measured.origin else "Simulated"),
+        ("Signal", f"{with_prefix(recording.duration, 's')} along "
+         f"{' and '.join(measured.directions)}", source("y") or source("x")),
+        ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4), source("sample_rate")),
+        ("Unit", measurement.state.values.get("unit", "m/s²") or "not known", source("unit")),
+        ("Shaft", given["Shaft"], source("speed") if of_file["speed"] else ""),
+        ("Slip", given["Slip"], ""),
+        ("Bearing", given["Bearing"], source("bearing") if of_file["bearing"] else ""),
+        ("Its frequencies", ", ".join(typed) or "from its dimensions",
+         source("bpfo") or ("The file" if typed else "")),
+        ("Load", "not given: typical ones, for the extent" if load is None
+         else with_prefix(load, "N"), "" if load is None else "The file"),
+        ("Radial clearance", f"{clearance}, for the extent", "The bearing"),
+        ("Demodulation band", given.get("Demodulation band", "none"), ""),
+    ]  # fmt: skip
+
+
+def limits(question: Question, answer: Diagnosis, files: int) -> list[str]:
+    """Open questions, in sentences."""
+    return [
+        NOT_JUDGED,
+        *([NOT_FORESEEN] if answer.names_a_part else []),
+        *([ONE_RECORD] if files < 2 else []),
+        *([] if question.measured.in_si else [NO_SIZE]),
+        *(words.strip() for words in [part_words.counted(question)] if words),
+    ]

@@ -1,0 +1,99 @@
+"""Files of one machine in their order, and the recordings in them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from bearing_explorer.diagnosis.form import guess, read_form
+from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.signal import Measured, Origin
+from bearingcore import CatalogueBearing, Recording, Table
+
+MOST_FILES = 200
+"""Of a series."""
+
+MOST_NUMBERS = 4_000_000
+"""Of all tables of a series that a session keeps."""
+
+ROOM_FOR = 8
+"""Files at least for which there is room in a series."""
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Files of a session, a table each.
+
+    Attributes
+    ----------
+    tables
+        what they hold, shortened where all would be too long.
+    left_out
+        sentences on files that could not be read.
+    together
+        whether they were chosen together, as a series.
+    """
+
+    tables: tuple[Table, ...] = ()
+    left_out: tuple[str, ...] = ()
+    together: bool = False
+
+    def with_table(self, table: Table, count: int = 1) -> Series:
+        """With a further file, of `count` that come; it replaces an earlier one of its name."""
+        rows, columns = table.columns.shape
+        most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
+        if rows > most:
+            table = dataclasses.replace(table, columns=table.columns[:most].copy())
+        tables = [*(one for one in self.tables if one.name != table.name), table]
+        while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
+            tables.pop(0)
+        return dataclasses.replace(self, tables=tuple(tables))
+
+    def without(self, sentence: str) -> Series:
+        """With a sentence on a file that could not be read."""
+        return dataclasses.replace(self, left_out=(*self.left_out, sentence))
+
+
+@dataclass(frozen=True)
+class SeriesRecordings:
+    """The recordings of a series, each with the origin of its numbers, and files left out."""
+
+    recordings: tuple[Recording, ...]
+    origins: tuple[Origin | None, ...]
+    left_out: tuple[str, ...]
+
+
+def recordings_of(
+    series: Series,
+    shown: Measured,
+    changed: Mapping[str, str],
+    direction: str,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> SeriesRecordings:
+    """The recordings of a series along a direction; without files the one that is shown.
+
+    Each file is read as it proposes itself, but for the fields that a person `changed` for the one
+    that is `shown`; in another unit, or one that is not known, it cannot be compared and is left
+    out.
+    """
+    if not series.tables:
+        return SeriesRecordings((shown.recording,), (shown.origin,), ())
+    recordings, origins, left_out = [], [], list(series.left_out)
+    for table in series.tables:
+        form = {**guess(table), **changed}
+        try:
+            found = read_form(table, form, scene, find)
+        except FormError as error:
+            left_out.append(f"{table.name}: {error}")
+            continue
+        if found.in_si != shown.in_si:
+            left_out.append(f"{table.name}: its unit is not that of {shown.recording.name}.")
+        elif direction not in found.recording.directions:
+            left_out.append(f"{table.name}: nothing is measured along {direction}.")
+        else:
+            speed = found.machine.exact_speed
+            recordings.append(dataclasses.replace(found.recording, shaft_speed=speed))
+            origins.append(found.origin)
+    return SeriesRecordings(tuple(recordings), tuple(origins), tuple(left_out))

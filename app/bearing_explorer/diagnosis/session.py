@@ -1,0 +1,893 @@
+"""The measured signal of a session: an uploaded file, or a simulated measurement.
+
+Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and is
+opens a form with questions; its faults are sentences, and the signal before it stays.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import copy
+import logging
+import math
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from bearing_explorer.diagnosis.background import noise_level, true_part
+from bearing_explorer.diagnosis.diagnoses import (
+    Answers,
+    ListQuestion,
+    Progress,
+    Question,
+    answered,
+    extent_of,
+    listed_of,
+)
+from bearing_explorer.diagnosis.form import (
+    LIKELY,
+    LONGEST_TEXT,
+    SIGNAL_FIELDS,
+    SIZES,
+    FormResult,
+    bearings_of,
+    columns_of,
+    guess,
+    load_of,
+    machine_of,
+    proposed_unit,
+    questions,
+    read_form,
+    reasons,
+    said,
+    size_questions,
+    speeds_of,
+    usable,
+)
+from bearing_explorer.diagnosis.machine import FIELDS as MACHINE_FIELDS
+from bearing_explorer.diagnosis.machine import (
+    GIVEN,
+    NOT_KNOWN,
+    ROUGH,
+    SCENE,
+    SIMULATED,
+    SPEED_SOURCES,
+    FormError,
+    Machine,
+    find_published,
+    of_scene,
+)
+from bearing_explorer.diagnosis.model import motion as motion_of
+from bearing_explorer.diagnosis.series import (
+    MOST_FILES,
+    Series,
+    SeriesRecordings,
+    recordings_of,
+)
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.upload import NAME_IN_LINE, Upload, without_middle
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.executors import FILES, in_thread
+from bearing_explorer.kit.compute.jobs import Change
+from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearingcore import (
+    CatalogueBearing,
+    Diagnosis,
+    MeasuredExtent,
+    Recording,
+    Scene,
+    Sizing,
+    Table,
+    read_table,
+)
+from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.diagnosis.part.listed import ListedBearing
+from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.errors import FieldError
+from bearingcore.scene.pit import pit
+from bearingcore.scene.scene import WITH_MASS
+
+log = logging.getLogger(__name__)
+
+MOST_NUMBERS = 4_000_000
+"""Numbers of a table that a session keeps; later rows are left out."""
+
+RATE = 25_600.0
+"""[Hz] of simulated measurements."""
+
+PASSES = 200.0
+"""Ball passes in one, where that is neither very short nor very long: enough to separate lines that
+are one shaft frequency apart."""
+
+SHORTEST, LONGEST = 1.0, 5.0  # [s]
+SETTLING = 0.3  # [s] before a simulated measurement begins
+
+FIRST_WORDS = (
+    "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
+    "current scene. Then the damaged part, the length of its spall, trend, indicators and spectra "
+    "appear here."
+)
+
+_WITHOUT_SIZE = (
+    "The diagnosis of the damaged part does not depend on it. The size of the defect and the "
+    "comparison with the model wait for the answer."
+)
+
+REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
+CHANGED = "Your answers have changed since."
+NOT_YET = "The signal is being analysed with the newest answers."
+"""Why an answer is out of date, or not there yet."""
+
+
+@dataclass(frozen=True)
+class MeasurementState:
+    """The state of the panels of a measurement."""
+
+    words: str = FIRST_WORDS
+    bad: bool = False
+    busy: bool = False
+    columns: list[list[str]] = field(default_factory=list)
+    values: dict[str, str] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    #: why the fields are filled in as they are
+    reasons: dict[str, str] = field(default_factory=dict)
+    #: fields that a person has to answer: before the signal is taken, or before it has a size
+    open: list[str] = field(default_factory=list)
+    #: the unit that is likely where the file does not say it, "" where none is; None if it does
+    proposed: str | None = None
+    #: other numbers and words of the file
+    said: str = ""
+    #: [N] in the file, None where it has none
+    load: float | None = None
+    scaled: bool = False
+    #: bearings to choose from, as [value, words, heading], and answers on the speed
+    bearings: list[list[str]] = field(default_factory=list)
+    speeds: list[list[str]] = field(default_factory=list)
+    #: whether changed answers are still being read
+    settling: bool = False
+    #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
+    line: str = ""
+    #: the whole name of its file, where the line has less of it
+    whole_name: str = ""
+    #: what is odd about the signal; empty where nothing is
+    remarks: str = ""
+    #: number of the file or simulation that is shown
+    arrival: int = 0
+
+
+@dataclass(frozen=True)
+class Sized:
+    """The size that was found for a defect, with its signal and its scene."""
+
+    measured: Measured
+    scene: Scene
+    sizing: Sizing
+
+
+class Measurement:
+    """The measurement of one session. Call its methods on the event loop of the session.
+
+    Parameters
+    ----------
+    scene
+        gives the scene that may be measured, as it is now.
+    bearings
+        to choose from.
+    assign
+        runs a change of the page's models and sends it, as `live.one_message` does.
+    draw
+        requests a drawing.
+    """
+
+    def __init__(
+        self,
+        scene: Callable[[], Scene],
+        bearings: BearingTable,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+    ) -> None:
+        self.measured: Measured | None = None
+        self.sized: Sized | None = None
+        self.state = MeasurementState()
+        #: called with the new state, and with the first byte of the next piece of a file; the
+        #: number `of` comes back with the piece, by which files are kept apart
+        self.show: Callable[[MeasurementState], None] = lambda _: None
+        #: the same, for the panel of the diagnosis
+        self.show_machine: Callable[[MeasurementState], None] = lambda _: None
+        self.want: Callable[[int, int], None] = lambda begin, of: None
+        #: called when the next of several files may come
+        self.more: Callable[[], None] = lambda: None
+        #: the files that were read
+        self.series = Series()
+        #: takes a message as the controls send it
+        self.change_scene: Callable[[dict[str, Any]], None] = lambda _: None
+        self._scene_now, self._bearings = scene, bearings
+        self._assign = assign
+        self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses: Answers[Diagnosis] = Answers(assign, draw, answered)
+        #: how long the spall is, when that is known
+        self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
+        #: listed bearings, where the one that is given does not explain the signal
+        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
+        self._scene = of_scene(scene())
+        self._arrival: _Arrival | None = None
+        self._table: Table | None = None
+        self._first: dict[str, str] = {}  # the form as it was filled in
+        self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
+        self._cut = ""
+        self._upload: Upload | None = None
+        self._latest = 0  # number of what was asked for last: what it overtook is dropped
+        self._uploads = 0
+        self._simulations = 0
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._ended = False
+
+    def stop(self) -> None:
+        """The session is over."""
+        self._ended = True
+        self._upload = self._table = self._arrival = None
+        self.series = Series()
+        self.diagnoses.stop()
+        self.extents.stop()
+        self.listed.stop()
+        for task in self._tasks:
+            task.cancel()
+
+    # The machine
+
+    def take_scene(self) -> None:
+        """Follow the scene: its bearing and speed count where a person chose them."""
+        now = of_scene(self._scene_now())
+        if now != self._scene:
+            self._scene = now
+            self._follow()
+
+    def _follow(self) -> None:
+        """Have the machine of the signal be as the form and the scene say it now."""
+        table, measured, values = self._table, self.measured, self.state.values
+        if table is None or measured is None or self.state.settling:
+            return
+        if SCENE not in (values["bearing"], values["speed"]):
+            return
+        try:
+            machine = machine_of(table, values, self._scene, self._bearings.find)
+        except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
+            self._tell(words=str(error), bad=True, refused=error.sentences)
+            return
+        if machine != measured.machine or self.state.refused:
+            self.measured = replace(measured, machine=machine)
+            words = self._summary(_about_size(size_questions(table, values)))
+            self._tell(words=words, bad=False, refused={}, **self._in_short(values))
+
+    def question(self) -> Question | None:
+        """The newest question of which part is damaged.
+
+        None where nothing is measured, or nothing says on which bearing.
+        """
+        measured = self.measured
+        if measured is None or measured.bearing is None:
+            return None
+        return Question.about(measured)
+
+    def diagnosis(self) -> Diagnosis | None:
+        """The answer to it, where there is one already."""
+        question = self.question()
+        found = None if question is None else self.diagnoses.of(question)
+        return found if isinstance(found, Diagnosis) else None
+
+    def extent(self) -> MeasuredExtent | None:
+        """The newest answer to how long the spall is, where there is one already."""
+        question = self.question()
+        found = None if question is None else self.extents.latest(question)
+        return found if isinstance(found, MeasuredExtent) else None
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is known, or was found with the bearing; None where neither is.
+
+        It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
+        the shaft, and would be taken for them.
+        """
+        measured = self.measured
+        if measured is None:
+            return None
+        if measured.machine.exact_speed is not None:
+            return measured.machine.exact_speed
+        found = self.diagnosis()
+        return None if found is None else found.shaft_speed
+
+    @property
+    def out_of_date(self) -> str:
+        """Why the answer that may be on screen is not that of now; empty where it is."""
+        question = self.question()
+        if self.measured is not None and self.state.refused:
+            return REFUSED
+        if self.state.settling:
+            return CHANGED
+        return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
+
+    def listed_question(self, about: Question) -> ListQuestion:
+        """The question which of the listed bearings explain a recording."""
+        named = {one.name: one.bearing for one, _ in self._bearings.all()}
+        try:
+            loop = asyncio.get_running_loop()
+            progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
+        except RuntimeError:  # a view is drawn outside of a session
+            progress = Progress()
+        return ListQuestion.about(about.measured, bearings=named, progress=progress)
+
+    def snapshot(self) -> Measurement:
+        """A copy for another thread: what is measured and found by now."""
+        made = copy.copy(self)
+        made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
+        made.listed = copy.copy(self.listed)
+        return made
+
+    def source_of(self, name: str) -> str:
+        """Where the value of a field comes from; empty where there is no such field."""
+        value = self.state.values.get(name, "")
+        if value != self._first.get(name, ""):
+            return "Given"
+        return "" if name in self.state.open else self.state.reasons.get(name, "")
+
+    # Files
+
+    def begin_upload(
+        self, name: str, size: int, number: int = 1, count: int = 1, chosen: int = 1
+    ) -> None:
+        """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
+
+        The last of several that can be read is the one that is shown.
+        """
+        if self._ended:
+            return
+        if number == 1:
+            self._latest += 1
+            # a file that comes alone is a series with those before it
+            several = 1 < count <= MOST_FILES
+            series = Series(together=True) if several else replace(self.series, together=False)
+            self._arrival = _Arrival(count if several else 1, chosen, series)
+        arrival = self._arrival
+        if arrival is None or number not in (1, arrival.number + 1):
+            return  # of files that were given up
+        self._uploads += 1
+        arrival.number = number
+        try:
+            self._upload = Upload(name, size)
+        except ValueError as error:
+            self._upload = None
+            self._take_next(arrival, name, str(error))
+        else:
+            words = f"Uploading {arrival.words}{self._upload.name} …"
+            self._tell(words=words, bad=False, busy=True)
+            self.want(0, self._uploads)
+
+    def cancel(self) -> None:
+        """Give up the files that are being uploaded or read; the signal before them stays."""
+        self._latest += 1
+        self._uploads += 1
+        self._upload = self._arrival = None
+        self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
+
+    def take_piece(self, content: bytes, of: int) -> None:
+        """A piece of the file of the upload with the number `of`."""
+        upload, arrival = self._upload, self._arrival
+        if upload is None or arrival is None or of != self._uploads:
+            return
+        try:
+            upload.take(content)
+        except ValueError as error:
+            self._upload = None
+            self._take_next(arrival, upload.name, str(error))
+            return
+        if not upload.whole:
+            self.want(upload.length, self._uploads)
+            return
+        self._upload = None
+        words = f"Reading {arrival.words}{upload.name} …"
+        self._tell(words=words, bad=False, busy=True)
+        scene, find = self._scene, self._bearings.find
+
+        def read_or_why() -> _Read | str:
+            try:
+                return read_file(upload.name, upload.content, scene, find)
+            except ValueError as error:
+                return str(error)
+            except Exception:
+                log.exception("a file could not be read")
+                return f"{upload.name} could not be read."
+
+        take = lambda found: self._take_next(arrival, upload.name, found)  # noqa: E731
+        self._in_background(read_or_why, take, upload.name)
+
+    def _take_next(self, arrival: _Arrival, name: str, found: _Read | str) -> None:
+        """Take a file that came, or a sentence on why it cannot be read."""
+        arrival.take(name, found)
+        if arrival.number < arrival.count:
+            self.more()
+            return
+        self._arrival = None
+        if arrival.newest is None:
+            none = f"None of {arrival.count} files can be read. "
+            self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}")
+            return
+        self.series = arrival.series
+        self._take_read(arrival.newest)
+
+    def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
+        """The recordings of the series; for any thread."""
+        given = self.state.values
+        changed = {name: given[name] for name in given if given[name] != self._first.get(name)}
+        return recordings_of(
+            self.series, shown, changed, direction, self._scene, self._bearings.find
+        )
+
+    def _take_read(self, found: _Read) -> None:
+        """Take a file that was read in place of the one before.
+
+        The figures of the one before leave with it, so that none is shown under another's name.
+        """
+        table = found.table
+        self._table, self._cut, self._first = table, found.cut, found.form
+        self._taken = found.form
+        self.measured = self.sized = None
+        if found.asked is not None:
+            self.measured = _measured(found.asked)
+            words, bad = self._summary(_about_size(found.sizes)), False
+        else:
+            words = f"{table.name} is read. {_WAITS} " + " ".join(
+                {**found.asks, **found.refused, **found.sizes}.values()
+            )
+            bad = bool(found.refused) and not found.asks
+        self._tell(
+            words=words,
+            bad=bad,
+            busy=False,
+            columns=columns_of(table),
+            values=found.form,
+            refused={name: text for name, text in found.refused.items() if name not in found.asks},
+            reasons={**reasons(table), **found.asks, **found.sizes},
+            open=[*found.asks, *found.sizes],
+            proposed=proposed_unit(table),
+            said=said(table),
+            load=load_of(table),
+            scaled=not table.full_scale_known,
+            bearings=bearings_of(table, own=self._own_bearings),
+            speeds=speeds_of(table),
+            settling=False,
+            arrival=self.state.arrival + 1,
+            **self._in_short(found.form),
+        )
+        self._follow()
+        self._draw()
+
+    def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
+        """An answer has changed, or a person is `sure` of the guesses.
+
+        Open questions are settled by an answer or by agreement.
+        """
+        table, measured = self._table, self.measured
+        if self._ended or self._arrival is not None:
+            return
+        if table is None:
+            if measured is not None and measured.origin is None:
+                self._take_simulated_form(measured, form.get("speed", SIMULATED))
+            return
+        texts = {name: form.get(name, "")[:LONGEST_TEXT].strip() for name in self.state.values}
+        first = self._first
+        asks = [name for name in self.state.open if name not in SIZES]
+        left = [name for name in asks if not sure and texts.get(name) == first.get(name)]
+        if "y" in left and texts.get("x"):
+            left.remove("y")
+        self._latest += 1
+        self._tell(values=texts, settling=True)
+        scene = self._scene
+        self._in_background(
+            lambda: _tried(table, texts, scene, self._bearings.find),
+            lambda found: self._take_tried(texts, found, left),
+            table.name,
+        )
+
+    def _take_tried(
+        self, texts: dict[str, str], found: FormResult | FormError, left: list[str]
+    ) -> None:
+        before = self.measured
+        if isinstance(found, FormError):
+            stays = " The figures still show the signal as it was before." if before else ""
+            self._tell(
+                words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences,
+                settling=False,
+            )  # fmt: skip
+            return
+        table = self._table
+        if table is None:
+            return
+        asks, sizes = questions(table), size_questions(table, texts)
+        news = {
+            "values": texts,
+            "refused": {},
+            "reasons": {**reasons(table), **asks, **sizes},
+            "open": [*left, *sizes],
+            "settling": False,
+        }
+        if left:
+            words = " ".join(asks.get(name, "") for name in left)
+            self._tell(words=f"{_WAITS} {words}", bad=False, **news)
+            return
+        same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        self._taken = texts
+        if before is not None and same:  # what was computed of the signal stays
+            self.measured = replace(before, machine=found.machine)
+        else:
+            self.measured = _measured(found)
+        self._tell(
+            words=self._summary(_about_size(sizes)), bad=False, busy=False, **news,
+            **self._in_short(texts),
+        )  # fmt: skip
+        self._follow()  # the scene may have changed while the form was read
+        self._draw()
+
+    def _take_simulated_form(self, measured: Measured, speed: str) -> None:
+        """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
+        if speed not in (SIMULATED, ROUGH, NOT_KNOWN) or measured.bearing is None:
+            return
+        true = measured.true_speed
+        machine = replace(
+            measured.machine, speed_source=speed, shaft_speed=None if speed == NOT_KNOWN else true
+        )
+        if machine == measured.machine:
+            return
+        self.measured = replace(measured, machine=machine)
+        self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
+        self._draw()
+
+    @property
+    def _own_bearings(self) -> list[str]:
+        """Names of the bearings of a person's table."""
+        return list(self._bearings.own)
+
+    def take_bearing(self, name: str) -> None:
+        """Take a listed bearing as the one that was measured."""
+        measured = self.measured
+        if self._table is None:
+            if measured is not None:
+                bearing = self._bearings.find(name).bearing
+                machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
+                                  bearing_name=name)  # fmt: skip
+                self.measured = replace(measured, machine=machine)
+                self._tell(words=self._summary(), **self._in_short({}))
+                self._draw()
+            return
+        named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
+        self._tell(bearings=bearings_of(self._table, [*named, name], self._own_bearings))
+        self.take_form({**self.state.values, "bearing": name})
+
+    def cancel_search(self) -> None:
+        """End the search for listed bearings."""
+        if isinstance(self.listed.wanted, ListQuestion):
+            self.listed.wanted.progress.cancelled = True
+
+    def take_load(self) -> None:
+        """Put the load of the file, downwards, into the scene."""
+        load = None if self._table is None else load_of(self._table)
+        if load is not None:
+            self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
+
+    def _summary(self, *more: str) -> str:
+        notes = self.measured.recording.notes if self.measured is not None else ()
+        words = (summary(self.measured), self._cut, *notes, *more)
+        return " ".join(filter(None, words))
+
+    def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
+        """The signal in a line, and what is odd about it."""
+        measured, table = self.measured, self._table
+        if measured is None:
+            return {"line": "", "whole_name": "", "remarks": ""}
+        recording, machine = measured.recording, measured.machine
+        long = len(recording.name) if table is None else NAME_IN_LINE
+        name = without_middle(recording.name, long)
+        sure = set(SIGNAL_FIELDS) if table is None else _sure(table, form, self._first)
+        unit = form.get("unit", "m/s²") or "unit"
+        speed = "speed"
+        if machine.shaft_speed is not None:
+            speed = f"{number(30.0 / math.pi * machine.shaft_speed, 4)} rpm"
+        facts = {
+            "": name,
+            "duration": with_prefix(recording.duration, "s", 3),
+            "sample_rate": with_prefix(recording.sample_rate, "Hz", 4),
+            "speed": speed,
+            "unit": unit,
+            "bearing": machine.bearing_name
+            or ("bearing" if machine.bearing is None else "the scene's bearing"),
+        }
+        asked = {name for name in ("unit", "sample_rate") if name not in sure} | machine.guessed
+        asked |= {"speed"} if machine.shaft_speed is None else set()
+        asked |= {"bearing"} if machine.bearing is None else set()
+        words = [text + "?" * (name in asked) for name, text in facts.items()]
+        return {
+            "line": " · ".join(words),
+            "whole_name": recording.name if name != recording.name else "",
+            "remarks": " ".join((self._cut, *recording.notes)),
+        }
+
+    # Simulated ones
+
+    def simulate(self, noise: str, machine: str, pit_name: str = "scene") -> None:
+        """Simulate a measurement; the choices are keys of NOISES, MACHINES and PITS."""
+        if self._ended or noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
+            return
+        self._upload = self._arrival = None
+        self._latest += 1
+        self._simulations += 1
+        seed, scene = self._simulations, self._scene_now()
+        self._tell(words="Simulating a measurement.", bad=False, busy=True)
+
+        def make() -> Measured:
+            return simulated(
+                with_pit(scene, PITS[pit_name]), NOISES[noise], machine == "different", seed
+            )
+
+        self._in_background(make, self._take_simulated, "The scene")
+
+    def _take_simulated(self, found: Measured) -> None:
+        self._table, self._cut, self.measured, self.sized = None, "", found, None
+        self.state = MeasurementState(
+            arrival=self.state.arrival + 1,
+            values={"speed": SIMULATED},
+            speeds=[[SIMULATED, SPEED_SOURCES[SIMULATED]], [ROUGH, "known to 10 %"],
+                    [NOT_KNOWN, "not known: find it"]],
+        )  # fmt: skip
+        self._tell(words=self._summary(), **self._in_short({}))
+        self._draw()
+
+    # Saying and doing
+
+    def _refuse(self, sentence: str) -> None:
+        """Say what is wrong with a file; the signal before it stays."""
+        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False)
+
+    def _what_stays(self) -> str:
+        measured = self.measured
+        return "" if measured is None else f" {measured.recording.name} stays."
+
+    def _tell(self, **news: Any) -> None:
+        self.state = replace(self.state, **news)
+        self.show(self.state)
+        self.show_machine(self.state)
+
+    def _in_background(
+        self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
+    ) -> None:
+        """Compute in a thread and take the result, unless a newer request has come."""
+        number = self._latest
+
+        async def run() -> None:
+            try:
+                found = await in_thread(compute, pool=FILES)
+            except ValueError as error:
+                sentence = str(error)
+                change = lambda: self._refuse(sentence)  # noqa: E731
+            except Exception:
+                log.exception("a measurement could not be read")
+                change = lambda: self._refuse(f"{name} could not be read.")  # noqa: E731
+            else:
+                change = lambda: take(found)  # noqa: E731
+            if number == self._latest and not self._ended:
+                await self._assign(change)
+
+        self._keep(run())
+
+    def _keep(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+
+_WAITS = "Nothing is drawn yet:"
+
+
+@dataclass
+class _Arrival:
+    """Files that come one after the other, and what was read of them.
+
+    `why`: the sentence on the first that cannot be read.
+    """
+
+    count: int
+    chosen: int
+    series: Series
+    number: int = 1
+    newest: _Read | None = None
+    why: str = ""
+
+    @property
+    def words(self) -> str:
+        """Which of how many it is; empty of one alone."""
+        if self.count == 1:
+            return ""
+        of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
+        return f"{self.number} of {self.count} files{of}: "
+
+    def take(self, name: str, found: _Read | str) -> None:
+        """Take what was read, or why nothing was."""
+        if isinstance(found, str):
+            sentence = found if name in found else f"{name}: {found}"
+            self.series, self.why = self.series.without(sentence), self.why or sentence
+        else:
+            self.series, self.newest = self.series.with_table(found.table, self.count), found
+
+
+@dataclass(frozen=True)
+class _Read:
+    """A file's table, the values of its form, and the recording or why there is none yet.
+
+    `asks` are the questions before there is a recording, `sizes` those before it has a size.
+    """
+
+    table: Table
+    form: dict[str, str]
+    cut: str
+    asked: FormResult | None
+    refused: dict[str, str]
+    asks: dict[str, str]
+    sizes: dict[str, str]
+
+
+def read_file(
+    name: str,
+    content: bytes,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
+) -> _Read:
+    """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
+    try:
+        table = read_table(name, content)
+    except FieldError as error:
+        about = error.field == "file" and error.value == name
+        why = f"needed is {error.allowed_text}" if about else str(error)
+        raise ValueError(f"{name} cannot be used: {why}.") from None
+    except ValueError as error:
+        raise ValueError(f"{name} cannot be used: {error}.") from None
+    except MemoryError:
+        raise ValueError(f"{name} is too large for this server.") from None
+    table, cut = _shortened(table)
+    form, asks = guess(table), questions(table)
+    sizes = size_questions(table, form)
+    found, refused = _tried(table, form, scene, find), {}
+    if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
+        # the signal is one, whatever the file says of its bearing
+        refused = found.sentences
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
+    if isinstance(found, FormError):
+        if not usable(table):
+            raise ValueError(f"{name} cannot be used. {found}")
+        return _Read(table, form, cut, None, {**refused, **found.sentences}, asks, sizes)
+    return _Read(table, form, cut, None if asks else found, refused, asks, sizes)
+
+
+def _about_size(sizes: Mapping[str, str]) -> str:
+    """The questions about a signal's size, and what waits for the answers."""
+    return " ".join([*sizes.values(), _WITHOUT_SIZE]) if sizes else ""
+
+
+def _measured(asked: FormResult) -> Measured:
+    return Measured(asked.recording, asked.machine, origin=asked.origin, in_si=asked.in_si)
+
+
+def _sure(table: Table, form: Mapping[str, str], first: Mapping[str, str]) -> set[str]:
+    """Fields that the file says itself, or that a person has answered."""
+    contents = table.contents
+    said = {"unit": contents.unit, "sample_rate": contents.sample_rate}
+    sure = {name for name, found in said.items() if found is not None and found.stated}
+    return sure | {name for name in form if form[name] != first.get(name)}
+
+
+def _tried(
+    table: Table,
+    form: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> FormResult | FormError:
+    try:
+        return read_form(table, form, scene, find)
+    except FormError as refused:
+        return refused
+
+
+def _shortened(table: Table) -> tuple[Table, str]:
+    """The table with no more numbers than a session may keep, and a sentence if that is less."""
+    rows, columns = table.columns.shape
+    most = MOST_NUMBERS // columns
+    if rows <= most:
+        return table, ""
+    kept = replace(table, columns=table.columns[:most].copy())
+    return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."
+
+
+def summary(measured: Measured | None) -> str:
+    """The signal in a sentence."""
+    if measured is None:
+        return FIRST_WORDS
+    recording, machine = measured.recording, measured.machine
+    along = " and ".join(recording.directions)
+    words = (
+        f"{recording.name}: {with_prefix(recording.duration, 's')} along {along} at "
+        f"{thousands(recording.sample_rate)} Hz"
+    )
+    if machine.bearing is None or machine.shaft_speed is None:
+        return f"{words}."
+    passes = recording.duration * machine.bearing.bpfo(machine.shaft_speed)
+    pass_ = "ball passes" if round(passes) == 1 else "balls pass"
+    return f"{words}, {thousands(passes)} {pass_} a point of the outer race."
+
+
+def with_pit(scene: Scene, length: float | None) -> Scene:
+    """The scene with a small pit so long [m] in place of its defects, and balls with mass.
+
+    On the race of its first defect, or the outer one, under the load. None leaves it as it is;
+    ValueError with a sentence where there can be no such pit.
+    """
+    if length is None:
+        return scene
+    race = scene.defects[0].race if scene.defects else "outer"
+    try:
+        return scene.replace(defect=pit(scene, length, race), balls=WITH_MASS)
+    except ValueError as error:
+        raise ValueError(sentence_of(error)) from None
+
+
+def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
+    """A measurement of a scene as a sensor with noise would make it, its extent known.
+
+    Parameters
+    ----------
+    noise_db
+        signal over noise [dB], each direction against its own.
+    different
+        whether the machine's stiffnesses, load, damping and depth are off what the scene says, as
+        far as the sizing expects them to be.
+
+    Raises
+    ------
+    ValueError
+        with a sentence, where the scene does not move.
+    """
+    rng = np.random.default_rng(seed)
+    truth = scene
+    single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
+    if different and single:
+        (defect,) = scene.defects
+        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * Tolerances().spread
+        truth = variant(scene, defect.extent, defect.edge, exponents)
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
+    duration += SETTLING
+    try:
+        motion = motion_of(truth, duration, RATE)
+    except ValueError as error:
+        raise ValueError(sentence_of(error)) from None
+    columns = [index for index, dof in enumerate(motion.dofs) if dof in ("x", "y")]
+    # not a whole number of anything: the page must find where the ball passes begin
+    first = round((SETTLING - rng.uniform(0.0, 0.1)) * RATE)
+    signal = motion.outer_acceleration[first:, columns]
+    if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
+        raise ValueError("Not possible: the simulated housing does not move along x or y.")
+    level = noise_level(truth, signal, columns, noise_db, duration, RATE)
+    noisy = signal + level * rng.standard_normal(signal.shape)
+    name = "Simulated" + (", balls with mass" if scene.balls == WITH_MASS else "")
+    name += f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else ""
+    directions = tuple(motion.dofs[index] for index in columns)
+    try:
+        recording = Recording(noisy, motion.sample_rate, directions, name)
+    except ValueError:
+        raise ValueError("Not possible: the simulated housing does not move.") from None
+    extent = scene.defects[0].extent if single else None
+    return Measured(
+        recording, of_scene(scene, SIMULATED), extent,
+        true_part=true_part(scene), noiseless=math.isinf(noise_db),
+        true_speed=scene.shaft_speed,
+    )  # fmt: skip

@@ -1,0 +1,240 @@
+"""A measured signal and the same of a scene: spectra and envelopes, computed when first used.
+
+As with `compute.results`, everything that is drawn of a measurement passes through here.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bearingcore as core
+from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.diagnosis.model import Model, motion_of
+from bearing_explorer.kit.compute.cache import cached
+from bearingcore.common.lazy import cached_property
+from bearingcore.diagnosis.part.listened_signal import NARROWEST
+from bearingcore.signals.filter_bank import Band, squared_envelopes
+
+if TYPE_CHECKING:
+    from bearingcore import Bearing, Indicators, Kurtogram, Motion, Recording, Scene, Spectrum
+
+SETTLING = 0.2
+"""[s] of a simulated motion that are left out, when the start is forgotten."""
+
+ENVELOPE_ORDERS = 40.0
+"""Turns of the shaft a second up to which an envelope over time is kept."""
+
+ENVELOPE_TOP = 1000.0
+"""[Hz] up to which an envelope over time is kept, and its spectrum drawn, of an unknown machine."""
+
+ENVELOPE_LINES = 1600
+"""Frequencies of an envelope spectrum that are drawn, at most."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The origin of a recording: columns of a file, and the value of a 1 in it [unit].
+
+    `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages.
+    """
+
+    file: str
+    columns: tuple[int, ...]
+    unit: str
+    full_scale: float
+    sensitivity: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A recording, and the machine on which it was measured, as far as that was said.
+
+    Attributes
+    ----------
+    recording
+        the signal; it carries no shaft speed.
+    machine
+        bearing and shaft speed, where they are known.
+    true_extent
+        [rad] of the defect where the signal is a simulated one, else None.
+    origin
+        the file, where it comes from one.
+    true_part
+        the part that is damaged, or "none", where the signal is a simulated one; else "".
+    true_speed
+        [rad/s] of the shaft, where the signal is a simulated one.
+    noiseless
+        whether it is simulated without any noise.
+    in_si
+        True for a recording in m/s². Else its unit or its sensor is not known, and its numbers are
+        those of the file: everything that needs their size waits for the answer.
+    """
+
+    recording: Recording
+    machine: Machine
+    true_extent: float | None = None
+    origin: Origin | None = None
+    true_part: str = ""
+    true_speed: float | None = None
+    noiseless: bool = False
+    in_si: bool = True
+    _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
+    _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
+        default_factory=dict, repr=False
+    )
+    _kurtograms: dict[tuple[int, float | None], Kurtogram] = field(default_factory=dict, repr=False)
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s]; None where it is not known."""
+        return self.machine.shaft_speed
+
+    @property
+    def bearing(self) -> Bearing | None:
+        """That was measured; None where nothing says which it is."""
+        return self.machine.bearing
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """That were measured."""
+        return self.recording.directions
+
+    def finest(self, wanted: float) -> float:
+        """The resolution [Hz] nearest to `wanted` that the recording has: two segments at least."""
+        coarsest = self.recording.sample_rate / 64.0
+        return max(min(wanted, coarsest), 2.0 / self.recording.duration)
+
+    def spectrum(self, direction: str, resolution: float) -> Spectrum:
+        """Spectrum along a direction."""
+        if resolution not in self._spectra:
+            recording = self.recording
+            signal = recording.acceleration - self._middle
+            found = core.spectrum(signal, recording.sample_rate, resolution)
+            _put(self._spectra, resolution, found)
+        frequency, density = self._spectra[resolution]
+        return core.Spectrum(frequency, density[:, self.directions.index(direction)])
+
+    def kurtogram(self, direction: str) -> Kurtogram:
+        """Kurtogram of the signal along a direction."""
+        key = self.directions.index(direction), self.shaft_speed
+        if key not in self._kurtograms:
+            recording = self.recording
+            turning = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
+            signal = self.column(direction)
+            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, turning)
+        return self._kurtograms[key]
+
+    def envelope_resolution(self, top: float) -> float:
+        """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
+        return max(1.0 / self.recording.duration, top / ENVELOPE_LINES)
+
+    def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
+        """Envelope spectrum of a band [Hz] along a direction, to be drawn up to `top` [Hz]."""
+        column = self.directions.index(direction)
+        key = (column, *band, top)
+        if key not in self._envelopes:
+            recording = self.recording
+            resolution = self.envelope_resolution(top)
+            signal = recording.acceleration[:, column] - self._middle[column]
+            found = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
+            _put(self._envelopes, key, found)
+        return self._envelopes[key]
+
+    def column(self, direction: str) -> NDArray[np.float64]:
+        """The signal (n,) along a direction."""
+        return self.recording.acceleration[:, self.directions.index(direction)]
+
+    @cached_property
+    def indicators(self) -> Indicators:
+        """Condition indicators of the recording."""
+        return core.indicators(self.recording, self.shaft_speed)
+
+    def envelope_signal(
+        self, direction: str, band: tuple[float, float]
+    ) -> tuple[NDArray[np.float64], float]:
+        """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
+        speed = self.shaft_speed
+        top = ENVELOPE_ORDERS * speed / (2.0 * math.pi) if speed else ENVELOPE_TOP
+        rate = self.recording.sample_rate
+        (found,) = squared_envelopes(self.column(direction), rate, [Band(*band)], top)
+        return found.values, found.rate
+
+    @cached_property
+    def _middle(self) -> NDArray[np.float64]:
+        return np.asarray(self.recording.acceleration.mean(axis=0))
+
+    def scene(self, scene: Scene) -> Scene:
+        """A scene with the bearing and the speed of the measurement, where these are known.
+
+        Without its defect where that bearing cannot have it; ValueError where it cannot be in the
+        scene at all.
+        """
+        known = {"shaft_speed": self.shaft_speed, "bearing": self.bearing}
+        changes = {name: value for name, value in known.items() if value is not None}
+        try:
+            return scene.replace(**changes)
+        except ValueError:
+            return scene.replace(**changes, defect=())
+
+
+def _put(known: dict, key: object, value: object, most: int = 6) -> None:
+    """Keep a result; the oldest leaves."""
+    while len(known) >= most:
+        known.pop(next(iter(known)))
+    known[key] = value
+
+
+class Simulated:
+    """The simulation of a measurement: the scene at its shaft speed.
+
+    The start of the motion is left out, so that spectra hold the steady state alone.
+    """
+
+    def __init__(self, model: Model, measured: Measured) -> None:
+        #: that is simulated
+        self.model = Model(measured.scene(model.scene), model.moving)
+
+    def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
+        """Spectrum along a direction; None where the housing cannot move along it."""
+        return simulated_spectrum(self.model, direction, resolution)
+
+    def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
+        """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
+        return simulated_envelope(self.model, direction, *band, top)
+
+
+def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
+    if direction not in motion.dofs:
+        return None
+    first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
+    signal = motion.outer_acceleration[first:, motion.dofs.index(direction)]
+    if not np.isfinite(signal).all():
+        raise ValueError("the simulated motion does not stay finite")
+    return signal
+
+
+@cached
+def simulated_spectrum(model: Model, direction: str, resolution: float) -> Spectrum | None:
+    motion = motion_of(model)
+    signal = _steady(motion, direction)
+    if signal is None:
+        return None
+    finest = 1.0 / (len(signal) / motion.sample_rate)
+    return core.spectrum(signal, motion.sample_rate, max(resolution, 1.01 * finest))
+
+
+@cached
+def simulated_envelope(
+    model: Model, direction: str, low: float, high: float, top: float
+) -> Spectrum | None:
+    motion = motion_of(model)
+    signal = _steady(motion, direction)
+    if signal is None or high >= 0.5 * motion.sample_rate or not signal.any():
+        return None
+    resolution = max(motion.sample_rate / len(signal), top / ENVELOPE_LINES)
+    return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)

@@ -1,0 +1,317 @@
+"""The damaged part: the bearing with the part marked, and the envelope spectrum behind it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.diagnosis.diagnoses import (
+    BUSY,
+    ListQuestion,
+    Question,
+    answered,
+)
+from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
+from bearing_explorer.diagnosis.widgets.machine_form import MachineForm
+from bearing_explorer.diagnosis.widgets.part_panel import ListedBearings, PartPanel, evidence_html
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.look_view import LookView
+from bearing_explorer.kit.widgets.form import FieldSpec
+from bearingcore import Diagnosis, Recording
+from bearingcore.common.numbers import probability
+from bearingcore.diagnosis.part.combs import HARMONICS
+from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
+from bearingcore.diagnosis.part.status import DiagnosisStatus
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+    from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
+
+FIELDS: list[FieldSpec] = [
+    {
+        "name": "zoom",
+        "label": "Zoom to",
+        "options": [
+            ["", "all lines"],
+            *(
+                [f"{part} {k}", f"{part}, {k}×" if k > 1 else part]
+                for part in PARTS
+                for k in range(1, HARMONICS + 1)
+            ),
+        ],
+    },
+]
+"""Choices above the figure."""
+
+
+RACES_NAMED = (OUTER, INNER)
+
+UNEXPLAINED = (DiagnosisStatus.OTHER_SOURCE, DiagnosisStatus.NOT_ALONE, DiagnosisStatus.ALIKE)
+"""Outcomes where another bearing may explain the lines."""
+
+MOST_LISTED = 4
+"""Listed bearings that are named."""
+
+ASKING = (
+    "Nothing says which bearing was measured, and without it no part can be named: choose it above "
+    "from the list, by its designation, by its frequencies, or as that of the scene."
+)
+MEASURING = "its length is being measured"
+NOTHING_NAMED = "No part is named before the bearing is."
+OFFER = "The listed bearings can be tried with this signal, to see which of them would explain it."
+LOOKING = "Looking for listed bearings that explain these lines: {done} of {of} …"
+CANCELLED = "The search was cancelled after {done} of {of} listed bearings. "
+UNEXPLAINED_BY_IT = "This bearing does not explain the signal. "
+FOUND_IN_LIST = (
+    "Listed bearings that explain the signal, the strongest lines first; others may have the same "
+    "lines, so read the number on the bearing:"
+)
+NONE_IN_LIST = "No listed bearing explains the signal."
+
+
+class PartDiagnosis(LookView, MeasuredView):
+    """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
+
+    name = "diagnosis"
+    title = "2  Which part is damaged?"
+    about = (
+        "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
+        "the envelope shows how often. Strong: lines of the part that stands out. Faint: of the "
+        "other parts. The strong ones were found within the slip, the faint ones follow from the "
+        "geometry."
+    )
+    without_size = True
+    computes = True
+    look_fields = FIELDS
+    finds_speed = True
+    first_look: ClassVar[dict[str, Any]] = {"zoom": ""}
+
+    def build(self, packed: PackedSource) -> Any:
+        self.machine = MachineForm(self._answer_form)
+        self.part = PartPanel()
+        self._shown_of: Recording | None = None  # of which the panel has an answer
+        self.lines = PartLines(packed)
+        self.evidence = pn.pane.HTML(
+            "", stylesheets=[asset_text("evidence.css")], sizing_mode="stretch_width", margin=0
+        )
+        self._seen = stack(
+            self.panel_of_look, self.lines.plot, self.evidence, visible=False,
+            stylesheets=[AS_HIGH_AS_SHOWN],
+        )  # fmt: skip
+        self.candidates = ListedBearings(self._take_listed, self._end_search, self._search)
+        self.hidden = stack(self.machine, self.part, self.candidates, self._seen, visible=False)
+        return self.hidden
+
+    # What it is about
+
+    def measure(self, measurement: Measurement) -> None:
+        super().measure(measurement)
+        measurement.show_machine = self._machine_changed
+        self.machine.show(measurement.state)
+
+    def _machine_changed(self, state: MeasurementState) -> None:
+        """Show the answers, and mark what is on screen if it is not that of these."""
+        self.machine.show(state)
+        if self.measurement is not None and (why := self.measurement.out_of_date):
+            self.part.outdate(why)
+
+    def _answer_form(self, values: Mapping[str, str]) -> None:
+        if self.measurement is not None:
+            self.measurement.take_form({**self.measurement.state.values, **values})
+
+    def answer(self) -> Diagnosis | str | None:
+        """The diagnosis, a sentence why there is none, or None: not yet."""
+        question = None if self.measurement is None else self.measurement.question()
+        if question is None or self.measurement is None:
+            return None
+        return self.measurement.diagnoses.of(question)
+
+    def choose(self, choices: Mapping[str, Any], model: Model) -> None:
+        known = {name: value for name, value in choices.items() if name != "speed"}
+        super().choose(known, model)
+        measurement, measured = self.measurement, self.measured
+        if measurement is None or measured is None:
+            return
+        if "speed" in choices:  # as lines of Python said it once
+            machine = measured.machine.knowing(choices["speed"])
+            measurement.measured = dataclasses.replace(measured, machine=machine)
+        question = measurement.question()
+        if question is not None:
+            measurement.diagnoses.keep(question, answered(question))
+
+    # The picture
+
+    @property
+    def drawn(self) -> bool:
+        return self._seen.visible
+
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
+        found = self.answer()
+        if not isinstance(found, Diagnosis) or found.spectrum is None:
+            return {}, {}
+        return self.lines.data(found, Zoom.of(self.look["zoom"]))
+
+    def say(self, model: Model | None, sentence: str) -> None:
+        self._show()
+        super().say(model, sentence)
+
+    def _show(self) -> None:
+        """Bring the panels up to date, and have the question answered if it is not."""
+        measurement, measured = self.measurement, self.measured
+        if measurement is None or measured is None:
+            self._seen.visible = False
+            return
+        question, answer = measurement.question(), self.answer()
+        found = answer if isinstance(answer, Diagnosis) else None
+        self._seen.visible = found is not None and found.spectrum is not None
+        stale = measurement.out_of_date
+        if question is None:
+            self._ask(measured)
+        elif answer is None and self._shown_of is measured.recording:
+            self.part.outdate(stale)
+        else:
+            self._shown_of = None if answer is None else measured.recording
+            self.part.show(panel_state(question, answer) | self._extent_state(found))
+            if answer is not None and stale:
+                self.part.outdate(stale)
+        if question is not None:
+            measurement.diagnoses.want(question)
+            self._look_in_list(question, found)
+        if found is not None:
+            self.lines.show_orders(found.shaft_speed is not None)
+            self.evidence.object = evidence_html(part_words.evidence_rows(found))
+
+    def _ask(self, measured: Measured) -> None:
+        """The question which bearing it is, in place of the answer."""
+        assert self.measurement is not None
+        about = Question.about(measured)
+        self._shown_of = None
+        self.part.show(question_state(measured))
+        listed = self.measurement.listed.wanted
+        if isinstance(listed, ListQuestion) and listed.is_like(about):
+            self._list_found(about, listed)
+        else:
+            self.candidates.show(OFFER, offer=True)
+
+    def _extent_state(self, found: Diagnosis | None) -> dict[str, Any]:
+        """The length of the spall, once it is known; it is measured for a race alone."""
+        if found is None or self.measurement is None or found.fault not in RACES_NAMED:
+            return {}
+        extent = self.measurement.extent()
+        return {"extent": part_words.extent(extent) if extent is not None else MEASURING}
+
+    def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
+        """Listed bearings with which a part would be named, where with this one none is."""
+        if self.measurement is None or found is None or found.status not in UNEXPLAINED:
+            self.candidates.show("")
+            return
+        listed = self.measurement.listed
+        answer, wanted = listed.latest(about), listed.wanted
+        if not isinstance(wanted, ListQuestion) or not wanted.is_like(about):
+            wanted = self.measurement.listed_question(about)
+            if answer is None:
+                listed.want(wanted)
+        self._list_found(about, wanted)
+
+    def _list_found(self, about: Question, wanted: ListQuestion) -> None:
+        """Show the findings of the search in the list by now."""
+        assert self.measurement is not None
+        answer, progress = self.measurement.listed.latest(about), wanted.progress
+        counted = {"done": progress.done, "of": progress.of or len(wanted.bearings)}
+        if answer is None:
+            self.candidates.show(LOOKING.format(**counted), searching=not progress.cancelled)
+        elif isinstance(answer, str):
+            self.candidates.show(answer)
+        else:
+            rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
+            before = CANCELLED.format(**counted) if progress.cancelled else ""
+            after = "" if progress.cancelled and not rows else NONE_IN_LIST
+            first = UNEXPLAINED_BY_IT if about.geometry else ""
+            words = first + FOUND_IN_LIST if rows else after
+            self.candidates.show(before + words, rows)
+
+    def _search(self) -> None:
+        """Look through the list for bearings that would explain the signal."""
+        if self.measurement is not None and self.measured is not None:
+            about = Question.about(self.measured)
+            wanted = self.measurement.listed_question(about)
+            self.measurement.listed.want(wanted)
+            self._list_found(about, wanted)
+
+    def _end_search(self) -> None:
+        if self.measurement is not None:
+            self.measurement.cancel_search()
+
+    def _take_listed(self, name: str) -> None:
+        if self.measurement is not None:
+            self.measurement.take_bearing(name)
+
+    def sentence(self, model: Model) -> str:
+        question = None if self.measurement is None else self.measurement.question()
+        if question is None:
+            return self.why_nothing if self.measured is None else NOTHING_NAMED
+        answer = self.answer()
+        if answer is None:
+            return BUSY
+        if isinstance(answer, str):
+            return answer
+        return part_words.sentence(answer, question)
+
+    def table(self, model: Model) -> dict[str, np.ndarray]:
+        found = self.answer()
+        return found.table().in_units().named() if isinstance(found, Diagnosis) else {}
+
+
+NO_BEARING = {"n_balls": 0, "pitch": 1.0, "ball": 0.24, "outer": 0.62, "inner": 0.38}
+"""Sizes of the picture of a bearing that is not known, for its rings alone."""
+
+
+def question_state(measured: Measured) -> dict[str, Any]:
+    """The content of the panel while the bearing is not known."""
+    plain = f"{ASKING} {part_words.speed_alone(measured.machine)}"
+    return {
+        "mood": "question", "headline": "Which bearing is it?", "plain": plain,
+        "bearing": NO_BEARING,
+    }  # fmt: skip
+
+
+def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str, Any]:
+    """The content of the panel for an answer."""
+    bearing = question.bearing
+    drawn = {
+        "n_balls": bearing.n_balls,
+        "pitch": bearing.pitch_diameter,
+        "ball": bearing.ball_diameter,
+        "outer": bearing.outer_raceway_radius,
+        "inner": bearing.inner_raceway_radius,
+    }
+    if answer is None:
+        return {"mood": "busy", "headline": "Analysing …", "plain": BUSY, "bearing": drawn}
+    if isinstance(answer, str):
+        return {
+            "mood": "unknown", "headline": "No clear result", "plain": answer, "bearing": drawn,
+        }  # fmt: skip
+    named = answer.names_a_part
+    likely = f"Probability {probability(answer.probability)}"
+    return {
+        "mood": part_words.mood(answer),
+        "part": answer.fault if named else "",
+        "color": style.css_color(COLORS[answer.fault]) if named else "",
+        "headline": part_words.headline(answer),
+        "probability": likely if answer.conclusive else "",
+        "plain": part_words.plain(answer, question) + part_words.assumed(question),
+        "pass_on": part_words.pass_on(answer, question),
+        "facts": part_words.facts(answer, question),
+        "bearing": drawn,
+    }

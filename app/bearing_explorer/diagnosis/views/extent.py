@@ -1,0 +1,233 @@
+"""The extent of a spall from entry to exit, and the mean ball pass that shows both."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from bokeh.plotting import figure
+
+from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, extent_of
+from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
+from bearing_explorer.diagnosis.views.measurement import with_head
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import Layer, curve, draw, names_over, uprights
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.look_view import LookView
+from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.status import StatusLine
+from bearingcore import Diagnosis, MeasuredExtent
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
+
+HEIGHT = 236
+BANDS = 3
+"""Mean passes that are drawn: of the best bands."""
+BEFORE = 0.14
+"""Of a ball pass that is drawn before the entry."""
+
+FIELDS: list[FieldSpec] = [
+    {
+        "name": "race",
+        "label": "Damaged is",
+        "options": [
+            ["", "the part of step 2"],
+            ["outer", "the outer race, as is known"],
+            ["inner", "the inner race, as is known"],
+        ],
+    }
+]
+
+EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+
+
+def layers() -> list[Layer]:
+    """From the lowest to the highest: edges, and mean passes of which the best is strong."""
+    names = names_over(
+        "extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"
+    )
+    faint = [
+        curve(f"extent_pass_{number}", "angle", "envelope", MEASURED, 1.0, alpha=0.35)
+        for number in reversed(range(1, BANDS))
+    ]
+    best = curve("extent_pass_0", "angle", "envelope", MEASURED, 1.6)
+    return [uprights("extent_edges", "angle", style.DEFECT, 1.4, 1.0), names, *faint, best]
+
+
+class SpallExtent(LookView, MeasuredView):
+    """The answer of `bearingcore.measure_extent`, found once the damaged race is named."""
+
+    name = "extent"
+    title = "3  How long"
+    about = (
+        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
+        "ball that enters a spall and one that leaves it each give a peak; their distance and the "
+        "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
+        "frequency band that shows both best. Faint: other bands."
+    )
+    without_size = True
+    finds_speed = True
+    in_report = True
+    computes = True
+    look_fields = FIELDS
+    first_look: ClassVar[dict[str, Any]] = {"race": ""}
+
+    def build(self, packed: PackedSource) -> Any:
+        self._given: MeasuredExtent | None = None
+        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
+        self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
+        self._size = StickyRange(0.0, 1.0)
+        self.plot = self._plot(packed)
+        self._seen = stack(self.status, self.plot, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
+        self.hidden = stack(self.panel_of_look, self._seen, visible=False)
+        return self.hidden
+
+    def _plot(self, packed: PackedSource) -> figure:
+        plot = style.make_figure(
+            style.AxisQuantity("Angle of the race", "", "°"),
+            style.AxisQuantity("Envelope, of its mean", "", ""),
+            packed.range("extent_angle", 0.0, 40.0),
+            packed.range("extent_size", 0.0, 1.0),
+            height=HEIGHT,
+            title="Mean ball pass",
+        )
+        draw(plot, packed, layers())
+        return plot
+
+    # What it is about
+
+    def question(self) -> ExtentQuestion | None:
+        """The question; None before the damaged part of the bearing has been looked for."""
+        measurement = self.measurement
+        about = None if measurement is None else measurement.question()
+        if measurement is None or about is None or measurement.diagnoses.of(about) is None:
+            return None
+        return self._question(about, measurement.state.load, measurement.diagnosis())
+
+    def _question(
+        self, about: Question, load: float | None = None, found: Diagnosis | None = None
+    ) -> ExtentQuestion:
+        return ExtentQuestion.about(
+            about.measured, whole=about.bearing, race=self.look["race"], load=load, diagnosis=found
+        )
+
+    def answer(self) -> MeasuredExtent | str | None:
+        """The extent, a sentence why there is none, or None: not yet."""
+        if self._given is not None:
+            return self._given
+        question = self.question()
+        if question is None or self.measurement is None:
+            return None
+        return self.measurement.extents.of(question)
+
+    @property
+    def found(self) -> MeasuredExtent | None:
+        """The extent that is known, for reports."""
+        answer = self.answer()
+        return answer if isinstance(answer, MeasuredExtent) else None
+
+    @found.setter
+    def found(self, given: MeasuredExtent) -> None:
+        self._given = given
+
+    def choose(self, choices: Mapping[str, Any], model: Model) -> None:
+        super().choose(choices, model)
+        if self.measurement is None or self.measured is None:
+            return
+        about = self.measurement.question()
+        if about is not None:
+            answer = extent_of(self._question(about))
+            self._given = answer if isinstance(answer, MeasuredExtent) else None
+
+    # The picture
+
+    @property
+    def drawn(self) -> bool:
+        return self._seen.visible
+
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
+        found = self.answer()
+        if not isinstance(found, MeasuredExtent) or not found.passes:
+            return {}, {}
+        spacing = math.degrees(found.ball_spacing)
+        best = found.passes[0].envelope
+        # angle 0 is the entry, or the highest peak
+        start = found.entry if math.isfinite(found.entry) else int(best.argmax()) / len(best)
+        first = round((start - BEFORE) * len(best)) % len(best)
+        angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
+        drawn = [np.roll(one.envelope, -first) for one in found.passes[:BANDS]]
+        sources: Sources = {
+            f"extent_pass_{number}": {"angle": angle, "envelope": envelope}
+            for number, envelope in enumerate(drawn)
+        }
+        if math.isfinite(found.entry):
+            sources["extent_edges"] = _edges(found, spacing)
+        return sources, {
+            "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
+            "extent_size": with_head(self._size, drawn, 0.3),
+        }
+
+    def say(self, model: Model | None, sentence: str) -> None:
+        self._show()
+        super().say(model, sentence)
+
+    def _show(self) -> None:
+        question, answer = self.question(), self.answer()
+        if question is not None and answer is None and self.measurement is not None:
+            self.measurement.extents.want(question)
+        self._seen.visible = isinstance(answer, MeasuredExtent)
+        if isinstance(answer, MeasuredExtent):
+            self.status.line = status(answer)
+            self.plot.visible = bool(answer.passes)
+
+    def sentence(self, model: Model) -> str:
+        answer = self.answer()
+        if answer is None:
+            if self.measured is None:
+                return self.why_nothing
+            return BUSY if self.measured.bearing is not None else WITHOUT_BEARING
+        if isinstance(answer, str):
+            return answer
+        truth = None if self.measured is None else self.measured.true_extent
+        known = "" if truth is None else (
+            f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
+        )  # fmt: skip
+        return answer.sentence + known
+
+    def table(self, model: Model) -> dict[str, np.ndarray]:
+        answer = self.answer()
+        return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
+
+
+def status(found: MeasuredExtent) -> dict[str, Any]:
+    """The answer in a few words and a colour, with its grounds."""
+    details = []
+    if math.isfinite(found.separation):
+        apart, offset = math.degrees(found.separation), math.degrees(found.offset)
+        details.append(f"{apart:.1f}° between the peaks and {offset:.1f}° at the edges")
+    if found.n_passes:
+        frequency = style.number(found.frequency, 4)
+        details.append(f"{found.n_passes} ball passes at {frequency} Hz")
+    return {
+        "mood": "good" if found.measured else "bad",
+        "words": found.answer,
+        "details": details,
+    }
+
+
+def _edges(found: MeasuredExtent, spacing: float) -> dict[str, np.ndarray]:
+    """Angles [deg] of entry and exit, 0 being the entry, and places of their names."""
+    apart = spacing * ((found.exit - found.entry + BEFORE) % 1.0 - BEFORE)
+    angle = np.array([0.0, apart])
+    return {
+        "angle": angle,
+        "exit": np.array([0.0, 1.0]),
+        "row": np.array([0.93, 0.82]),
+        "shift": np.where(angle > (0.8 - BEFORE) * spacing, -66.0, 4.0),
+    }

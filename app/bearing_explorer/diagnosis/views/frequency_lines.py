@@ -1,0 +1,181 @@
+"""The frequencies of a bearing drawn into a spectrum: lines with names that do not overlap.
+
+Each family of lines has a row for its names at the top of the frame, and names only so many of its
+lines as have room.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.kit.plots.layers import Layer, names_over, uprights
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.machine import Turning
+    from bearingcore import Scene
+
+NAME_WIDTH = 0.13
+"""Of a family's first name, with its frequency, as a share of the frame's width."""
+ORDER_WIDTH = 0.042
+"""Of the names of its harmonics."""
+ROW_PIXELS = 17.0
+NAME_COLUMNS = ("frequency", "order", "first", "row", "of", "spread")
+"""Of the sources of names; `spread` [Hz] is how far off an estimate may be."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """Lines at multiples of one frequency; `most` of them are drawn."""
+
+    name: str
+    title: str
+    about: str
+    color: str
+    ink: str
+    most: float = math.inf
+    dash: str = "solid"
+
+
+FAMILIES = (
+    Family("bpfo", "BPFO", "balls pass a point of the outer race", "#E69F00", "#8A5A00"),
+    Family(
+        "half",
+        "½ BPFO",
+        "odd multiples of half of that: every second ball pass is alike",
+        "#E69F00",
+        "#8A5A00",
+        dash="dashed",
+    ),
+    Family("bpfi", "BPFI", "balls pass a point of the inner race", "#AA3377", "#94407A"),
+    Family(
+        "bsf", "BSF", "a ball spins; a spot on it strikes twice a turn", "#009E73", "#00704F", 6
+    ),
+    Family("ftf", "FTF", "the cage turns", "#56B4E9", "#1F6F9F", 3),
+)
+"""In the order of their rows."""
+
+_WORDS = """
+if (row.order == %(first)s) {
+  const name = '%(title)s' + (row.of ? ` row ${row.of}` : ''), first = rounded(row.first, 4)
+  const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
+  let room = Infinity  // letters up to the next name
+  try { room = %(room)s*plot.inner_width/(5.8*larger) } catch {}
+  const longer = [`${name} ${first}${give} Hz`, `${name} ${first} Hz`]
+  return longer.find(one => one.length < room) ?? name
+}
+const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
+return `${whole || ''}${half}×`
+"""
+
+
+def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
+    """First frequency [Hz] of each family, of a row, at the scene's shaft speed."""
+    bearing, speed = scene.bearing.of_row(row), scene.shaft_speed
+    outer = bearing.bpfo(speed)
+    return {
+        "bpfo": outer,
+        "half": outer,
+        "bpfi": bearing.bpfi(speed),
+        "bsf": bearing.bsf(speed),
+        "ftf": bearing.ftf(speed),
+    }
+
+
+def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
+    """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
+    bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
+    kin = {"half": "bpfo"}
+    return {
+        f"{name}_spread": value * bearing.frequency_spread(kin.get(name, name))
+        for name, value in first.items()
+    }
+
+
+def of_rows(scene: Scene | Turning) -> list[dict[str, float]]:
+    """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
+    rows = range(len(scene.bearing.unlike_rows))
+    return [fundamentals(scene, row) | spreads(scene, row) for row in rows]
+
+
+def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
+    """Multiples of `first` [Hz] that a family has up to `top` [Hz]."""
+    if not first > 0.0:
+        return np.zeros(0)
+    begin = 0.5 if family.name == "half" else 1.0
+    count = int(min(family.most, top / first + 1.0 - begin + 1e-9))
+    return begin + np.arange(max(count, 0), dtype=float)
+
+
+def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[np.float64]:
+    """Those of a family's multiples whose names stand clear of each other."""
+    if not multiples.size:
+        return multiples
+    step = next(
+        step * 10**power
+        for power in range(9)
+        for step in (1, 2, 5)
+        if step * 10**power * first >= ORDER_WIDTH * top
+    )
+    from_end = multiples * first <= (1.0 - 0.6 * ORDER_WIDTH) * top
+    clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
+    # halves count from the first one: ½, 1½, 2½; whole orders are named where they are round
+    round_ones = (multiples if multiples[0] == 1.0 else multiples + 0.5) % step == 0.0
+    kept = (round_ones & clear & from_end) | (np.arange(multiples.size) == 0)
+    return multiples[kept]
+
+
+def layers(prefix: str) -> list[Layer]:
+    """The lines of all families and their names, of sources with that prefix."""
+    drawn: list[Layer] = []
+    for family in FAMILIES:
+        source = f"{prefix}_{family.name}"
+        first = 0.5 if family.name == "half" else 1
+        words = _WORDS % {"first": first, "title": family.title, "room": NAME_WIDTH}
+        line = {"line_dash": family.dash, "level": "underlay"}
+        drawn += [
+            uprights(source, "frequency", family.color, 1.1, 0.6, **line),
+            names_over(f"{source}_names", words, "frequency", "row", family.ink, NAME_COLUMNS,
+                       x_offset=3),
+        ]  # fmt: skip
+    return drawn
+
+
+def head_room(shown: Sequence[str], sets: int, height: float) -> float:
+    """Share of the frame's height [px] that the names take, with so many sets of lines."""
+    return ROW_PIXELS / height * (sets * len(shown) + 0.6)
+
+
+def columns(
+    prefix: str, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float, height: float
+) -> dict[str, dict[str, NDArray[np.float64]]]:
+    """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
+
+    `sets` are what `of_rows` gives: of several each has names of its own. `height` is that of the
+    frame [px].
+    """
+    sources: dict[str, dict[str, NDArray[np.float64]]] = {}
+    row = 0
+    for family in FAMILIES:
+        lines, names = [np.zeros(0)], [np.zeros((len(NAME_COLUMNS), 0))]
+        for number, first in enumerate(sets if family.name in shown else ()):
+            fundamental = first[family.name]
+            multiples = orders(family, fundamental, top)
+            row += 1
+            labels = named(multiples, fundamental, top)
+            lines.append(multiples * fundamental)
+            at = np.full(labels.size, 1.0 - ROW_PIXELS / height * (row - 0.2))
+            of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
+            spread = np.full(labels.size, first.get(f"{family.name}_spread", 0.0))
+            where = labels * fundamental
+            names.append(np.stack([where, labels, where, at, of, spread]))
+        sources[f"{prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
+        sources[f"{prefix}_{family.name}_names"] = dict(
+            zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)
+        )
+    return sources

@@ -1,0 +1,133 @@
+"""Condition indicators of a measured signal, and its vibration severity, as facts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView, named_columns, shown_unit
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.look_view import LookView
+from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
+from bearing_explorer.kit.widgets.form import FieldSpec
+from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+    from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.widgets.form import stack
+
+MEDIUM = "15 to 300 kW"
+LARGE = "over 300 kW"
+_WORDS = {
+    "medium": MEDIUM,
+    "large": LARGE,
+    "rigid": "rigid",
+    "flexible": "flexible",
+}
+MACHINE: FieldSpec = {
+    "name": "machine",
+    "label": "Machine and its support",
+    "options": [
+        ["", "choose for a zone"],
+        *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
+    ],
+}
+MEANING = {
+    "A": "as of new machines",
+    "B": "fit for long operation",
+    "C": "not for long operation",
+    "D": "may damage the machine",
+}
+"""Meaning of the zones of ISO 20816-3."""
+
+
+class MeasuredIndicators(LookView, MeasuredView):
+    """Root mean square, peak, crest factor, kurtosis, velocity and its zone."""
+
+    name = "measured-indicators"
+    title = "Condition indicators"
+    about = (
+        "Numbers of the whole signal. Crest factor and kurtosis rise with single knocks, which "
+        "early damage makes, and may fall again as it grows; the velocity shows unbalance, "
+        "misalignment and looseness. Its zones are those of ISO 20816-3, for machines above 15 kW "
+        "and sensors on the bearing's housing."
+    )
+    without_size = True
+    look_fields = (MACHINE,)
+    first_look: ClassVar[dict[str, Any]] = {"machine": ""}
+
+    def build(self, packed: PackedSource) -> Any:
+        self._facts = facts_pane(sizing_mode="stretch_width")
+        self.hidden = stack(self.panel_of_look, self._facts, visible=False)
+        return self.hidden
+
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
+        if self.measured is not None:
+            self._facts.object = facts_html(facts(self.measured))
+
+    def words_of(self, model: Model, measured: Measured) -> str:
+        return severity(measured, self.look["machine"])
+
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
+        return named_columns(measured.indicators.table(), measured.in_si)
+
+
+def facts(measured: Measured) -> list[Fact]:
+    """The numbers of a signal, for all its directions."""
+    found = measured.indicators
+    unit, size = shown_unit(measured)
+
+    def each(values: np.ndarray, words: str = "", digits: int = 3) -> str:
+        several = len(found.directions) > 1
+        return ", ".join(
+            f"{style.number(float(value), digits)}{f' {words}' if words else ''}"
+            f"{f' along {along}' if several else ''}"
+            for value, along in zip(values, found.directions, strict=True)
+        )
+
+    listed = [
+        Fact("Root mean square", each(found.rms / size, unit)),
+        Fact("Peak", each(found.peak / size, unit)),
+        Fact("Crest factor", each(found.crest_factor), "Peak over root mean square; 1.41: a sine."),
+        Fact("Kurtosis", each(found.kurtosis), "1.5: a sine; 3: noise; more: knocks."),
+    ]
+    why = no_velocity(measured)
+    words = f"not known: {why}" if why else each(1e3 * found.velocity_rms, "mm/s")
+    low, high = found.band
+    return [*listed, Fact(f"Velocity, {low:.0f} to {high:.0f} Hz, root mean square", words)]
+
+
+def no_velocity(measured: Measured) -> str:
+    """Why there is no velocity, or an empty text."""
+    if not measured.in_si:
+        return "the unit of the signal is not known"
+    return measured.indicators.velocity_reason
+
+
+def severity(measured: Measured, machine: str) -> str:
+    """The zone of the greatest velocity, or why there is none."""
+    why = no_velocity(measured)
+    speed = measured.shaft_speed
+    if not why and speed is None:
+        why = "the shaft speed is not known, and the band of the velocity depends on it"
+    shaft = 0.0 if speed is None else speed / (2.0 * math.pi)
+    if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
+        why = "the standard is for 120 to 30 000 rpm"
+    if not why and not machine:
+        why = "choose power and support of the machine"
+    if why:
+        return f"No zone of ISO 20816-3: {why}."
+    most = float(measured.indicators.velocity_rms.max())
+    zone = severity_zone(most, machine)
+    power, support = (_WORDS[part] for part in machine.split(", "))
+    ends = style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])
+    return (
+        f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}. For "
+        f"machines of {power} on a {support} support, boundaries {ends} mm/s of ISO 10816-3:2009, "
+        "which it replaced; check them there before you act on them."
+    )

@@ -1,0 +1,109 @@
+"""The kurtogram of a measured signal as a picture, with the demodulation band."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from bokeh.models import FixedTicker
+from numpy.typing import NDArray
+
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.heat_map import Side, bright_image, ends
+from bearing_explorer.kit.plots.layers import draw, strips
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.widgets.form import stack
+from bearingcore.signals.filter_bank import PARTS
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+    from bearing_explorer.diagnosis.signal import Measured
+    from bearingcore import Kurtogram
+
+CELLS = 48
+"""Across the picture: the least common multiple of the parts into which the range is split."""
+_SIDES = (Side("", "Frequency", "f", "kHz"), Side("", "Bands in the range", "", ""))
+_SAY = "return isNaN(cell[0]) ? 'too narrow for this signal' : `kurtosis ${rounded(cell[0], 3)}`"
+_BAND = strips(
+    "kurtogram_band", style.LIGHT, 0.0, line_color=style.LIGHT, line_width=2.0, line_dash="dashed"
+)
+
+
+class MeasuredKurtogram(MeasuredView):
+    """Spectral kurtosis over frequency and width of the band."""
+
+    name = "measured-kurtogram"
+    title = "Kurtogram"
+    about = (
+        "Impulsiveness of the signal in bands of many widths. Dashed: the demodulation band. "
+        "Each row splits the range into as many equal bands as the number at its left; bright "
+        "bands hold knocks. The kurtosis is 0 for noise and -1 for a steady tone. The diagnosis "
+        "takes the band whose envelope shows the bearing's lines best, which need not be the most "
+        "impulsive one."
+    )
+    without_size = True
+
+    def build(self, packed: PackedSource) -> Any:
+        plot = style.make_figure(
+            _SIDES[0].quantity,
+            _SIDES[1].quantity,
+            packed.range("kurtogram_frequency", 0.0, 1.0),
+            packed.range("kurtogram_level", -0.5, len(PARTS) - 0.5),
+            height=260,
+            name="kurtogram_drawing",
+        )
+        plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(PARTS))), minor_ticks=[])
+        plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(PARTS)}
+        shown = packed.range("kurtogram_kurtosis", 0.0, 1.0)
+        self._image = bright_image(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
+        draw(plot, packed, [_BAND])
+        self.hidden = stack(plot, visible=False)
+        return self.hidden
+
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
+        direction = self.direction_of(measured)
+        found = measured.kurtogram(direction)
+        nyquist = 0.5 * measured.recording.sample_rate
+        cells = picture(found, nyquist)
+        low, high = self.demodulation(measured, direction).band
+        middles = np.asarray((np.arange(CELLS) + 0.5) * (1e-3 * nyquist / CELLS))
+        levels = np.arange(len(cells), dtype=float)
+        columns = self._image.columns((_SIDES[0], middles), (_SIDES[1], levels), [cells])
+        top = max(float(found.kurtosis.max()), 1.0)
+        return {
+            "kurtogram_cells": columns,
+            "kurtogram_band": {"low": np.array([1e-3 * low]), "high": np.array([1e-3 * high])},
+        }, {
+            "kurtogram_frequency": (0.0, 1e-3 * nyquist),
+            "kurtogram_level": ends(levels),
+            "kurtogram_kurtosis": (0.0, top),
+        }
+
+    def words_of(self, model: Model, measured: Measured) -> str:
+        direction = self.direction_of(measured)
+        found = measured.kurtogram(direction)
+        most = int(found.kurtosis.argmax())
+        band, chosen = found.bands[most], self.demodulation(measured, direction)
+        return (
+            f"Along {direction} the kurtosis is highest, {style.number(found.kurtosis[most], 3)}, "
+            f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
+            f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}."
+        )
+
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
+        return measured.kurtogram(self.direction_of(measured)).table().in_units().named()
+
+
+def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:
+    """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is.
+
+    Of the levels that the signal is long enough for, two at least.
+    """
+    count = max(PARTS.index(int(found.parts.max())) + 1, 2)
+    cells = np.full((count, CELLS), np.nan)
+    for band, parts, kurtosis in zip(found.bands, found.parts, found.kurtosis, strict=True):
+        last = round(band.high / nyquist * CELLS)
+        cells[PARTS.index(parts), last - CELLS // parts : last] = kurtosis
+    return cells

@@ -1,0 +1,268 @@
+"""Views of a measured signal."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
+from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
+from bearingcore.files.units import ACCELERATIONS
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.signal import Measured
+    from bearingcore import Scene
+    from bearingcore.common.table import ResultTable
+    from bearingcore.diagnosis.part.evidence import EnvelopeLines
+
+HIGHEST_SHARE = 0.49
+"""Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
+
+MEASURED = style.INK
+"""Colour of measured curves in figures with simulated ones."""
+
+
+def shown_unit(measured: Measured) -> tuple[str, float]:
+    """The unit in which amplitudes are shown, that of the file, and what it is [m/s²].
+
+    g where the file holds voltages or velocities; "units of the file" where its unit is not known.
+    """
+    if not measured.in_si:
+        return "units of the file", 1.0
+    unit = "m/s²" if measured.origin is None else measured.origin.unit
+    unit = unit if unit in ACCELERATIONS else "g"
+    return unit, ACCELERATIONS[unit]
+
+
+@dataclass(frozen=True)
+class Demodulation:
+    """The band [Hz] of an envelope, and the reason for it in words."""
+
+    band: tuple[float, float]
+    reason: str
+
+
+NOTHING = "There is no signal yet: choose a file or simulate one above."
+WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
+WITHOUT_SPEED = "This needs the shaft speed: give it in step 2."
+WITHOUT_SIZE = "Choose the unit above to see this."
+WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
+
+
+class MeasuredView(View[Model]):
+    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
+
+    A subclass provides `data_of`, `words_of` and `columns_of` of a signal, or `data`, `sentence`
+    and `table` themselves. Until there is a signal only the first view, which has the form for it,
+    is on the page.
+    """
+
+    in_report = False
+    needs = frozenset()
+    hidden: Any = None
+    #: whether it can be drawn of a signal of unknown unit
+    without_size: ClassVar[bool] = False
+    #: whether what it computes looks for a speed that is not known
+    finds_speed: ClassVar[bool] = False
+    #: whether its card comes with a signal
+    waits: ClassVar[bool] = True
+    measurement: Measurement | None = None
+
+    def __init__(self, packed: PackedSource) -> None:
+        super().__init__(packed)
+        self.panel.visible = not self.waits
+        if self.waits:
+            self.withhold(self.panel)
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.measure(self.parts.measurement)
+
+    def measure(self, measurement: Measurement) -> None:
+        """From now on draw what is measured there."""
+        self.measurement = measurement
+
+    @property
+    def measured(self) -> Measured | None:
+        """The signal that is drawn, if there is one that can be."""
+        measured = None if self.measurement is None else self.measurement.measured
+        if measured is not None and not (measured.in_si or self.without_size):
+            return None
+        return measured
+
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
+        measured = self.measured
+        return ({}, {}) if measured is None else self.data_of(model, measured)
+
+    def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
+        """`View.data` of the signal."""
+        return {}, {}
+
+    def sentence(self, model: Model) -> str:
+        measured = self.measured
+        return self.why_nothing if measured is None else self.words_of(model, measured)
+
+    def words_of(self, model: Model, measured: Measured) -> str:
+        """`View.sentence` of the signal."""
+        raise NotImplementedError
+
+    def table(self, model: Model) -> dict[str, np.ndarray]:
+        measured = self.measured
+        return {} if measured is None else self.columns_of(model, measured)
+
+    def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
+        """`View.table` of the signal."""
+        raise NotImplementedError
+
+    @property
+    def why_nothing(self) -> str:
+        """The sentence while nothing is drawn."""
+        there = None if self.measurement is None else self.measurement.measured
+        if there is None:
+            return ""
+        knows_unit = there.origin is not None and there.origin.unit
+        return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is known, or was found in the signal."""
+        return None if self.measurement is None else self.measurement.shaft_speed
+
+    @property
+    def turning(self) -> Turning | None:
+        """The bearing that was measured at its speed; None where either is not known."""
+        measured, speed = self.measured, self.shaft_speed
+        if measured is None or measured.bearing is None or speed is None:
+            return None
+        return Turning(measured.bearing, speed)
+
+    def diagnosed(self) -> EnvelopeLines | None:
+        """The envelope on which the diagnosis rests, once there is one."""
+        found = None if self.measurement is None else self.measurement.diagnosis()
+        return None if found is None else found.spectrum
+
+    def direction_of(self, measured: Measured, chosen: str = "") -> str:
+        """The direction to show: the one chosen, or that of the diagnosis, or y."""
+        diagnosed = self.diagnosed()
+        wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
+        return next(one for one in wanted if one in measured.directions)
+
+    def demodulation(self, measured: Measured, direction: str) -> Demodulation:
+        """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""
+        highest = HIGHEST_SHARE * measured.recording.sample_rate
+        diagnosed = self.diagnosed()
+        if diagnosed is not None:
+            low, high = diagnosed.band
+            along = f", along {diagnosed.direction}" if diagnosed.direction != direction else ""
+            reason = f"the band of the diagnosis{along}"
+        else:
+            turning = self.turning
+            passing = 0.0 if turning is None else turning.bearing.bpfo(turning.shaft_speed)
+            lowest = min(5.0 * passing, 0.25 * highest)
+            low, high = measured.kurtogram(direction).best(lowest)
+            reason = "where the kurtogram is highest"
+        return Demodulation((low, min(high, highest)), reason)
+
+    def python(self) -> str:
+        """Lines of Python that read the file and make what is drawn."""
+        measured, model = self.measured, self._results
+        if measured is None or model is None:
+            return f"# {self.why_nothing or NOTHING}\n"
+        return lines_of(self, model)
+
+    def scene_drawn(self, model: Model) -> Scene:
+        measured = self.measured
+        return model.scene if measured is None else measured.scene(model.scene)
+
+    def lines_before(self) -> list[str]:
+        """Lines that read the recording, or simulate it."""
+        return [] if self.measured is None else recording_lines(self.measured)
+
+    def more_arguments(self) -> dict[str, str]:
+        measured = self.measured
+        if measured is None:
+            return {"recording": "recording"}
+        machine = measured.machine
+        known = {"in_si": "True" if measured.in_si else "False"}
+        known["speed"] = {ROUGH: '"rough"', NOT_KNOWN: '"unknown"'}.get(machine.speed_source, "")
+        if machine.exact_speed is None and not self.finds_speed and self.shaft_speed is not None:
+            known["speed"] = short(self.shaft_speed)  # which elsewhere is not looked for
+        known["bearing"] = '"frequencies"' if machine.by_frequencies else ""
+        if machine.bearing is None:
+            known["bearing"] = '"unknown"'
+        usual = {"in_si": "True"}
+        return {"recording": "recording"} | {
+            name: code for name, code in known.items() if code and code != usual.get(name)
+        }
+
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
+        there = self.measurement is not None and self.measurement.measured is not None
+        self.panel.visible = there or not self.waits
+        if there:
+            self.bring()
+        if self.hidden is not None:
+            self.hidden.visible = self.measured is not None
+        self._caption.put(nothing=self.measured is None)
+        # hidden figures are not saved as pictures
+        self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
+
+    @property
+    def is_empty(self) -> bool:
+        """Without a signal there are no numbers either."""
+        return not self.drawn
+
+    @property
+    def drawn(self) -> bool:
+        """True while its figures are on screen."""
+        return self.measured is not None
+
+
+def column_name(direction: str, in_si: bool) -> str:
+    """Of the signal along a direction; without a unit where that is not known."""
+    return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
+
+
+def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
+    """Columns of a table of a signal; without units, and velocities, where that is not known."""
+    columns = table.in_units().named()
+    if in_si:
+        return columns
+    return {
+        name.replace("_m_per_s2", "_as_in_file"): values
+        for name, values in columns.items()
+        if not name.startswith("velocity")
+    }
+
+
+def recording_lines(measured: Measured) -> list[str]:
+    """Lines of Python that make `recording`: read from the file, or simulated without noise."""
+    recording, origin = measured.recording, measured.origin
+    along, rate = code_of(list(recording.directions)), short(recording.sample_rate)
+    if origin is None:
+        duration = math.ceil(10.0 * recording.duration) / 10.0
+        return [
+            "# simulated again, without noise",
+            f"motion = simulate(scene, {short(duration + 0.3)}, {rate})",
+            f"columns = [motion.dofs.index(dof) for dof in {along}]",
+            "settled = motion.outer_acceleration[motion.time >= 0.3]",
+            f"recording = Recording(settled[:, columns], {rate}, {along})",
+        ]
+    known = {"sensitivity": origin.sensitivity, "shaft_speed": measured.machine.exact_speed}
+    further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
+    name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
+    return [
+        f"table = read_table({name}, Path({name}).read_bytes())",
+        *([] if measured.in_si else ["# the unit of the file is not known"]),
+        "recording = table.recording(",
+        f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",
+        ")",
+    ]

@@ -1,0 +1,243 @@
+"""The spectrum of an envelope with the lines of each part of the bearing in it.
+
+The lines of the part that stands out most are drawn strong where they were found, with its
+sidebands and a mark on each harmonic; those of the other parts are drawn faint, where geometry has
+them. Below are frequencies, above the same in turns of the shaft (orders).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from bokeh.models import LinearAxis, Scatter, VSpan
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.diagnosis.views.frequency_lines import ROW_PIXELS
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_over
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearingcore import Diagnosis
+from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.parts import PARTS
+
+FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
+ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")
+LEVEL = style.AxisQuantity("Level above local noise", "", "dB")
+FRAME, HEIGHT = 236.0, 330  # [px]
+MOST_LINES = 3000
+"""Of a spectrum that are drawn."""
+LOWEST = -6.0  # [dB] drawn
+
+STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
+"""Opacity of lines: of the leading part, of the others, of all where none leads."""
+
+NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
+COLORS = {"outer race": "#E69F00", "inner race": "#AA3377", "ball": "#009E73"}
+INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
+"""Colours of the parts: those that their lines have on all figures."""
+
+_ROW = ROW_PIXELS / FRAME
+_NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
+"""Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
+_WORDS = """
+const name = row.order == 1 ? '%s' : `${row.order}×`
+return row.labelled ? `${name} ${rounded(row.frequency, 4)} Hz` : name
+"""
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """A line to look at closely: a harmonic of a part; all of them where there is no part."""
+
+    part: str = ""
+    harmonic: int = 1
+
+    @classmethod
+    def of(cls, words: str) -> Zoom:
+        """The line that "inner race 2" says, the second harmonic; of no words all lines."""
+        part, _, harmonic = words.rpartition(" ")
+        return cls(part, int(harmonic)) if part else cls()
+
+
+def leading(diagnosis: Diagnosis) -> PartEvidence | None:
+    """The part that stands out, be it enough to be named or not; None where none is seen."""
+    return None if diagnosis.fault == NONE_SEEN else diagnosis.leading
+
+
+def shaft_frequency(diagnosis: Diagnosis) -> float:
+    """Turns of the shaft a second [Hz] on which the lines rest."""
+    one = diagnosis.evidence[0]
+    return one.nominal_frequency / one.nominal_order
+
+
+def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
+    """The frequency [Hz] at which the first line of a part is drawn."""
+    return one.frequency if one is leading(diagnosis) else one.nominal_frequency
+
+
+def window(diagnosis: Diagnosis, zoom: Zoom) -> tuple[float, float]:
+    """Frequencies [Hz] that are shown: all lines, or the surroundings of one."""
+    if zoom.part not in PARTS:
+        greatest = max(fundamental(diagnosis, one) * len(one.harmonics)
+                       for one in diagnosis.evidence)  # fmt: skip
+        assert diagnosis.spectrum is not None
+        return 0.0, min(1.04 * greatest, float(diagnosis.spectrum.frequency[-1]))
+    one = diagnosis.of(zoom.part)
+    middle = fundamental(diagnosis, one) * zoom.harmonic
+    sideways = 3.4 if one.sideband_source == "cage" else 1.7
+    return max(middle - sideways * one.sideband_spacing, 0.0), middle + (
+        sideways * one.sideband_spacing
+    )
+
+
+def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
+    NDArray[np.float64]
+):  # fmt: skip
+    """Those of the multiples of `first` [Hz] in a window whose names do not overlap."""
+    width = high - low
+    kept: list[float] = []
+    clear = -math.inf
+    for multiple in multiples[(multiples * first >= low) & (multiples * first <= high)]:
+        at = multiple * first
+        wide = _NAME_WIDTH if multiple == 1.0 else _ORDER_WIDTH
+        if at >= clear and at + wide * width <= high + 0.5 * wide * width:
+            kept.append(float(multiple))
+            clear = at + wide * width
+    return np.array(kept)
+
+
+def layers() -> list[Layer]:
+    """From the lowest to the highest: lines of the parts, the spectrum, marks on harmonics."""
+    beneath: list[Layer] = []
+    marks: list[Layer] = []
+    for part in PARTS:
+        color, names = COLORS[part], f"{_lines(part)}_names"
+        line = {"line_color": color, "level": "underlay"}
+        found = {**line, "line_alpha": "alpha", "line_width": "width"}
+        dotted = {**line, "line_alpha": 0.7, "line_dash": "dotted"}
+        mark = {"size": 8, "fill_color": color, "line_color": style.INK}
+        beneath += [
+            Glyph(VSpan, _lines(part), ("frequency",), found, ("alpha", "width")),
+            Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
+            names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
+                       ("order", "alpha", "labelled"), x_offset=3, text_alpha="alpha"),
+        ]  # fmt: skip
+        marks.append(Glyph(Scatter, _points(part), ("frequency", "level"), mark))
+    spectrum = curve("diagnosis_spectrum", "frequency", "level", style.INK, 1.2, alpha=0.9)
+    return [*beneath, spectrum, *marks]
+
+
+class PartLines:
+    """The figure, and what it shows."""
+
+    def __init__(self, packed: PackedSource) -> None:
+        self._levels = StickyRange(LOWEST, 30.0, least_span=12.0)
+        shown = packed.range("diagnosis_frequency", 0.0, 1000.0)
+        orders = packed.range("diagnosis_order", 0.0, 40.0)
+        level = packed.range("diagnosis_level", LOWEST, 30.0)
+        self.plot = style.make_figure(FREQUENCY, LEVEL, shown, level, height=HEIGHT)
+        self._add_orders(self.plot, orders)
+        draw(self.plot, packed, layers())
+
+    def _add_orders(self, plot: figure, orders: object) -> None:
+        plot.extra_x_ranges["order"] = orders
+        axis = LinearAxis(x_range_name="order")
+        style.style_axis(axis)
+        style.write_units(axis, ORDER, orders)  # type: ignore[arg-type]
+        plot.add_layout(axis, "above")
+        self._order_axis = axis
+
+    def show_orders(self, known: bool) -> None:
+        """The axis of orders, where the shaft's speed is known."""
+        self._order_axis.visible = known
+
+    def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
+        """The sources of a diagnosis with a spectrum."""
+        spectrum = diagnosis.spectrum
+        assert spectrum is not None
+        low, high = window(diagnosis, zoom)
+        shaft = shaft_frequency(diagnosis)
+        drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
+        sources: Sources = {"diagnosis_spectrum": drawn}
+        lead = leading(diagnosis)
+        for row, one in enumerate(diagnosis.evidence):
+            first = fundamental(diagnosis, one)
+            alpha = EVEN if lead is None else STRONG if one is lead else FAINT
+            multiples = np.arange(1.0, len(one.harmonics) + 1.0)
+            size = multiples.size
+            labels = named(multiples, first, low, high)
+            sources[_lines(one.part)] = {
+                "frequency": multiples * first,
+                "alpha": np.full(size, alpha),
+                "width": np.full(size, 2.2 if one is lead else 1.2),
+            }
+            sources[f"{_lines(one.part)}_names"] = {
+                "frequency": labels * first,
+                "order": labels,
+                "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
+                "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+                "labelled": np.full(labels.size, float(zoom.part != "")),
+            }
+        if lead is not None:
+            sources |= self._of_lead(lead)
+        swells = drawn["frequency"] > 0.5 * shaft  # what drifts slowly is not what the scale is for
+        loudest = float(np.max(drawn["level"][swells], initial=10.0))
+        room = _ROW * (len(PARTS) + 0.8)
+        head = (loudest - LOWEST) * room / (1.0 - room)
+        return sources, {
+            "diagnosis_frequency": (low, high),
+            "diagnosis_order": (low / shaft, high / shaft),
+            "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
+        }
+
+    def _of_lead(self, lead: PartEvidence) -> Sources:
+        """The marks on the harmonics of the part that leads, and its sidebands."""
+        multiples = np.arange(1.0, len(lead.harmonics) + 1.0)
+        sources: Sources = {
+            _points(lead.part): {
+                "frequency": multiples * lead.frequency,
+                "level": np.maximum(lead.harmonics, LOWEST),
+            }
+        }
+        if lead.part != "outer race":  # which stands still in the load and makes none
+            sidebands = np.array([-lead.sideband_spacing, lead.sideband_spacing])
+            both = multiples[:, None] * lead.frequency + sidebands
+            sources[_sidebands(lead.part)] = {"frequency": both.ravel()}
+        return sources
+
+
+def excerpt(
+    frequency: NDArray[np.float64], level: NDArray[np.float64], low: float, high: float
+) -> dict[str, NDArray[np.float64]]:
+    """A spectrum between two frequencies [Hz] with no more lines than can be seen; peaks stay."""
+    first, last = np.searchsorted(frequency, [low, high])
+    first, last = max(int(first) - 1, 0), min(int(last) + 1, frequency.size)
+    frequency, level = frequency[first:last], level[first:last]
+    size = math.ceil(frequency.size / MOST_LINES)
+    if size > 1:
+        n = frequency.size // size * size
+        frequency = frequency[:n].reshape(-1, size)[:, size // 2]
+        level = level[:n].reshape(-1, size).max(axis=1)
+    # between lines a level may be endlessly low: what is below the frame is at its foot
+    return {"frequency": frequency, "level": np.maximum(level, LOWEST)}
+
+
+def _key(part: str) -> str:
+    return part.replace(" ", "_")
+
+
+def _lines(part: str) -> str:
+    return f"diagnosis_{_key(part)}_lines"
+
+
+def _sidebands(part: str) -> str:
+    return f"diagnosis_{_key(part)}_sidebands"
+
+
+def _points(part: str) -> str:
+    return f"diagnosis_{_key(part)}_points"

@@ -1,0 +1,290 @@
+"""A diagnosis in words: a headline, sentences, a summary to copy, and rows of a table."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+from bearing_explorer.diagnosis.diagnoses import SLIP, Question
+from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SPEED_SOURCES, Machine
+from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
+from bearing_explorer.kit.plots import style
+from bearingcore import Diagnosis, MeasuredExtent
+from bearingcore.common.numbers import percent_off, probability
+from bearingcore.diagnosis.part import say
+from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
+from bearingcore.diagnosis.part.listed import ListedBearing
+
+SIDEBANDS = 2.0
+"""[dB] above their surroundings from which sidebands are spoken of."""
+
+COUNTED = (
+    " The number of {} is an estimate: with another one, damage of a race shows at another "
+    "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
+)
+"""Follows "no damage seen" where the number of balls or rollers follows from a designation."""
+
+LENGTH_HIDDEN = "the length of the spall does not show"
+
+_FREQUENCY = {
+    "outer race": "the outer-race frequency (BPFO)",
+    "inner race": "the inner-race frequency (BPFI)",
+    "ball": "twice the ball-spin frequency (2 BSF)",
+}
+
+
+def the(part: str) -> str:
+    """A part in a sentence."""
+    return "a ball" if part == "ball" else f"the {part}"
+
+
+def mood(found: Diagnosis) -> str:
+    """Damage ("fault"), none ("healthy") or no answer ("unknown")."""
+    if found.names_a_part:
+        return "fault"
+    return "healthy" if found.fault == NONE_SEEN else "unknown"
+
+
+def headline(found: Diagnosis) -> str:
+    """The answer in a few words."""
+    if found.names_a_part:
+        words = the(found.fault)
+        probably = "" if found.probability >= LIKELY else "probably "
+        return f"{words[0].upper()}{words[1:]} is {probably}damaged"
+    return "No damage seen" if found.fault == NONE_SEEN else "No clear result"
+
+
+def plain(found: Diagnosis, question: Question) -> str:
+    """The finding in a sentence or three."""
+    if found.names_a_part:
+        one = found.of(found.fault)
+        modulated = f", modulated once per {one.sideband_source} turn"
+        turns = one.part != "outer race" and float(one.sidebands[:3].mean()) >= SIDEBANDS
+        doubt = say.perhaps_a_ball() if found.perhaps_a_ball else ""
+        return (
+            f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
+            f"{modulated if turns else ''}.{doubt}"
+        )
+    if found.fault == NONE_SEEN:
+        return (
+            "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
+            f"that modulate the vibration by {swing(found.detectable_depth)} would have shown."
+            f"{counted(question)}"
+        )
+    return found.detail
+
+
+def counted(question: Question) -> str:
+    """Sentence on an estimated number of balls or rollers; empty of a given one."""
+    bearing = question.bearing
+    return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
+
+
+def extent(found: MeasuredExtent) -> str:
+    """The length of a spall in a few words."""
+    if found.measured:
+        return f"{found.size} long, or that and whole ball spacings"
+    return found.size if math.isfinite(found.high) else LENGTH_HIDDEN
+
+
+def explained(one: ListedBearing) -> str:
+    """The quality with which a listed bearing explains a signal."""
+    found = one.diagnosis
+    return (
+        f"{found.fault}, probability {probability(found.probability)}, lines "
+        f"{decibels(one.level)} dB clear, {slip(one.slip)} against its geometry"
+    )
+
+
+def swing(depth: float) -> str:
+    """A share of the envelope's mean."""
+    return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
+
+
+def duration(seconds: float) -> str:
+    """A time for a sentence."""
+    return f"{style.number(seconds, 2)} s"
+
+
+def turns(found: Diagnosis) -> str:
+    """The shaft's speed for a sentence; empty where none is known."""
+    if found.shaft_speed is None:
+        return ""
+    return f"{30.0 / math.pi * found.shaft_speed:.0f} turns a minute"
+
+
+def speed_alone(machine: Machine) -> str:
+    """The shaft speed, in a sentence, while the bearing is not known."""
+    if machine.shaft_speed is None:
+        return "The shaft speed is not known; it is looked for with the bearing."
+    words = "assumed" if "speed" in machine.guessed else SPEED_SOURCES[machine.speed_source]
+    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {words}."
+
+
+def assumed(question: Question) -> str:
+    """Assumptions of the answer that a file only suggests, in a sentence after the finding."""
+    machine = question.measured.machine
+    names = {
+        "bearing": f"the bearing ({machine.bearing_name})",
+        "speed": f"the shaft speed ({_rpm(machine.shaft_speed or 0.0)})",
+    }
+    guessed = [words for name, words in names.items() if name in machine.guessed]
+    if not guessed:
+        return ""
+    return f" Assumed from the look of the file: {style.list_words(guessed)}."
+
+
+def _rpm(speed: float) -> str:
+    """A shaft speed [rad/s] for a sentence."""
+    return f"{style.number(30.0 / math.pi * speed, 4)} turns a minute"
+
+
+def speed_source(found: Diagnosis, machine: Machine) -> str:
+    """Where the shaft speed of an answer is from, in words."""
+    own = SPEED_SOURCES.get(machine.speed_source, "")
+    if "speed" in machine.guessed:
+        own = "assumed, a guess from the file"
+    for given in ("given by the recording", "given"):
+        if found.speed_source.startswith(given):
+            return own + found.speed_source.removeprefix(given)
+    return f"{own}; {found.speed_source}" if own else f"not given; {found.speed_source}"
+
+
+def sentence(found: Diagnosis, question: Question) -> str:
+    """The answer in sentences, with the shaft speed and where that is from."""
+    source = speed_source(found, question.measured.machine)
+    said = dataclasses.replace(found, speed_source=source)
+    return said.sentence + assumed(question) + truth(question)
+
+
+def pass_on(found: Diagnosis, question: Question) -> str:
+    """A summary for a technician."""
+    speed, doubt = turns(found), assumed(question)
+    at = f" at {speed}" if speed else ""
+    head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
+    if found.names_a_part:
+        one = found.of(found.fault)
+        return (
+            f"{head}{headline(found).lower()} (probability {probability(found.probability)}); "
+            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
+            f"the bearing inspected, and measure again to see whether it grows.{doubt}"
+        )
+    if found.fault == NONE_SEEN:
+        return (
+            f"{head}no damage seen on outer race, inner race or balls (probability "
+            f"{probability(found.probability)}). Measure again at the usual time. This says "
+            f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
+        )
+    return f"{head}no clear result from this signal.{doubt}"
+
+
+def facts(found: Diagnosis, question: Question) -> list[list[str]]:
+    """The assumptions of the answer: [name, value]."""
+    bearing = question.bearing
+    angle = style.in_degrees(bearing.contact_angle)
+    speed, source = turns(found), speed_source(found, question.measured.machine)
+    rows = [
+        ["Shaft", f"{speed}, {source}" if speed else source],
+        ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],
+        [
+            "Bearing",
+            f"{bearing.n_balls} {bearing.kind.elements} of "
+            f"{style.number(1e3 * bearing.ball_diameter, 5)} mm on "
+            f"{style.number(1e3 * bearing.pitch_diameter, 5)} mm, contact angle {angle}"
+            f"{_origin(question)}",
+        ],
+    ]
+    if not question.measured.in_si:
+        rows.append(["Unit", "not known; the part does not depend on it"])
+    if found.spectrum is not None:
+        low, high = found.spectrum.band
+        rows.append(
+            ["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}, found"]
+        )
+    return rows
+
+
+def _origin(question: Question) -> str:
+    """Where the bearing of an answer is from, after a comma."""
+    machine, estimated = question.measured.machine, question.bearing.estimated
+    source = "assumed, a guess from the file"
+    if "bearing" not in machine.guessed:
+        source = BEARING_SOURCES[machine.bearing_source]
+    if machine.by_frequencies:
+        return f", from its {machine.bearing_name} ({source}); sizes are in proportion only"
+    known = "".join(f", {words}" for words in (machine.bearing_name, source) if words)
+    if not estimated:
+        return known
+    spread = question.bearing.frequency_spread("bpfo")
+    off = f", so BPFO ± {style.number(100.0 * spread, 2)} %" if spread else ""
+    return f"{known}, estimated from the designation{off}"
+
+
+def band(low: float, high: float) -> str:
+    """A band [Hz] in kHz."""
+    return f"{style.number(1e-3 * low, 2)} to {style.number(1e-3 * high, 2)} kHz"
+
+
+def truth(question: Question) -> str:
+    """The true state behind a simulated signal, and whether it is unrealistically quiet."""
+    part = question.measured.true_part
+    if not part:
+        return ""
+    if part != "none":
+        return f" The signal is simulated: {the(part)} is damaged."
+    words = " The signal is simulated: the bearing is healthy."
+    if question.measured.noiseless:
+        words += (
+            " Without any noise even a healthy bearing's balls show as they pass under the load; "
+            "no machine is so quiet. Simulate it with noise."
+        )
+    return words
+
+
+def slip(value: float) -> str:
+    """A slip with its sign."""
+    return percent_off(value)
+
+
+def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
+    """The evidence of each part as the browser lists it."""
+    lead = leading(found)
+    return [_row(one, one is lead, lead is not None) for one in found.evidence]
+
+
+def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
+    near = one.sidebands[: len(one.sidebands) // 2]
+    own = "none expected" if one.part == "outer race" else decibels(float(near.mean()))
+    return {
+        "part": one.part,
+        "name": NAMES[one.part],
+        "color": style.css_color(COLORS[one.part]),
+        "leads": leads,
+        "order": f"{one.order:.3f}",
+        "nominal": f"{one.nominal_order:.3f}",
+        "frequency": f"{style.number(one.frequency, 4)} Hz",
+        "slip": slip(one.slip),
+        "harmonics": [
+            {
+                "order": k + 1,
+                "level": decibels(float(level)),
+                "clear": seen and bool(level > one.noise),
+            }
+            for k, level in enumerate(one.harmonics)
+        ],
+        "together": decibels(one.level),
+        "noise": decibels(one.noise),
+        "sidebands": own,
+        "spacing": ""
+        if one.part == "outer race"
+        else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
+        "band": band(one.band.low, one.band.high),
+        "direction": one.direction,
+        "probability": probability(one.probability),
+    }
+
+
+def decibels(level: float) -> str:
+    """A level for a table."""
+    return f"{level:.0f}".replace("-0", "0").replace("-", "−")

@@ -1,0 +1,75 @@
+"""The figure of a view for a recording, outside of the page."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, Machine, of_scene
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.views.still_figure import Figure
+from bearingcore import Recording, Scene
+from bearingcore.common import checks
+
+BEARINGS = (GIVEN, BY_FREQUENCIES, "unknown")
+"""Knowledge of the bearing of a recording."""
+
+
+def figure_of(
+    kind: type[View[Model]],
+    scene: Scene,
+    *,
+    recording: Recording | None = None,
+    in_si: bool = True,
+    speed: str | float = GIVEN,
+    bearing: str = GIVEN,
+    cage_angle: float = 0.0,
+    focus: int = 0,
+    **more: Any,
+) -> Figure[Model]:
+    """The figure of a view for a recording, with the scene as its model.
+
+    Parameters
+    ----------
+    recording
+        the signal that was measured, on the bearing and at the speed of the scene.
+    in_si
+        whether its numbers are in m/s².
+    speed
+        knowledge of the shaft speed: "given" (that of the scene), "rough" (good to 10 %),
+        "unknown", or another one [rad/s].
+    bearing
+        knowledge of the bearing: "given" (that of the scene), "frequencies" (the scene has the
+        frequencies of its parts alone), or "unknown".
+    cage_angle, focus
+        of the scene's figures; those of a signal do not depend on them.
+    more
+        further parameters of `Figure`.
+    """
+    del cage_angle, focus
+    machine = of_scene(scene, GIVEN).knowing(speed)
+    if checks.choice("bearing", bearing, BEARINGS) == "unknown":
+        machine = dataclasses.replace(machine, bearing=None)
+    machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)
+
+    def prepare(view: View[Model]) -> None:
+        if recording is not None:
+            view.measure(_measurement(scene, recording, machine, in_si))  # type: ignore[attr-defined]
+
+    return Figure(kind, Model(scene), prepare=prepare, **more)
+
+
+def _measurement(scene: Scene, recording: Recording, machine: Machine, in_si: bool) -> Measurement:
+    """A measurement that is there already."""
+
+    async def assign(change: Any) -> None:
+        change()
+
+    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
+    bare = dataclasses.replace(recording, shaft_speed=None)
+    made.measured = Measured(bare, machine, in_si=in_si)
+    return made

@@ -1,0 +1,376 @@
+"""A machine over time: numbers of several files, compared with one of them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import Scatter
+from bokeh.plotting import figure
+
+from bearing_explorer.diagnosis.series import Series, SeriesRecordings
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
+from bearing_explorer.diagnosis.views.measured_job_view import MeasuredJobView, SceneNow
+from bearing_explorer.diagnosis.views.measured_view import (
+    NOTHING,
+    named_columns,
+    shown_unit,
+)
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import (
+    Glyph,
+    Layer,
+    add_all,
+    curve,
+    segments,
+    sources_of,
+)
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
+from bearingcore import Trend, trend
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
+from bearingcore.diagnosis.trend import LINES
+from bearingcore.errors import FieldError
+
+if TYPE_CHECKING:
+    from bearing_explorer.diagnosis.model import Model
+
+HEIGHT = 210
+COLORS = {
+    line: next(family.color for family in FAMILIES if line.startswith(family.name))
+    for line in LINES
+}
+LABELS = {"bpfo": "BPFO", "bpfi": "BPFI", "bsf_2": "2 BSF", "ftf": "FTF"}
+NUMBER = style.AxisQuantity("File", "", "number")
+HOURS = style.AxisQuantity("Time since the first", "t", "h")
+RMS = style.AxisQuantity("RMS", "", "")
+AMPLITUDE = style.AxisQuantity("Envelope", "", "")
+AXES = {
+    "rms": RMS,
+    "kurtosis": style.AxisQuantity("Kurtosis", "", ""),
+    "lines": AMPLITUDE,
+    "extent": style.AxisQuantity("Extent", "Δφ", "°"),
+}
+MOST_NAMED = 3
+"""Files that are left out which a sentence names."""
+
+
+def _layers(name: str) -> list[Layer]:
+    """Layers of the figure of this name."""
+    if name == "lines":
+        names = {f"{line}_line": color for line, color in COLORS.items()}
+    else:
+        names = {name: style.color_along("y")}
+    drawn: list[Layer] = []
+    if name == "rms":
+        drawn.append(curve("trend_baseline", "x", "y", style.FAINT_INK, 1.2, (5, 4)))
+    if name == "extent":
+        drawn.append(segments("trend_interval", style.color_along("y"), 2.0))
+    else:
+        drawn += [curve("trend", "x", y, color, 1.4) for y, color in names.items()]
+    dots = {"size": 6}
+    return [
+        *drawn,
+        *(Glyph(Scatter, "trend", ("x", y), {**dots, "color": c}) for y, c in names.items()),
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class FoundTrend:
+    """A trend, of which files it is, and what was left out."""
+
+    trend: Trend
+    recordings: SeriesRecordings
+    series: Series
+    measured: Measured
+
+
+class TrendOfFiles(MeasuredJobView[FoundTrend]):
+    """Root mean square, kurtosis, lines and extent of several files, in their order."""
+
+    name = "trend"
+    title = "Trend of several files"
+    about = (
+        "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
+        "order. Dashed: the baseline. Bars: intervals of 95 %, without a dot an upper bound. The "
+        "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
+        "they are more than noise, all in the band of the last file; one there need not be the "
+        "bearing's. An extent is there where a damaged race is named."
+    )
+    without_size = True
+    finds_speed = True
+    start = "Compute the trend"
+    bounds = "Takes up to some seconds a file."
+
+    def build(self, packed: PackedSource) -> Any:
+        #: series and signal of the job that began by itself
+        self._began: tuple[Series, Measured] | None = None
+        self._heights = {name: StickyRange(0.0, 1.0, anchor="zero", room=0.05) for name in AXES}
+        number = packed.range("trend_x", 0.5, 2.5)
+        self._plots: dict[str, figure] = {}
+        for name, quantity in AXES.items():
+            self._plots[name] = style.make_figure(
+                NUMBER, quantity, number, packed.range(f"trend_{name}", 0.0, 1.0), height=HEIGHT
+            )
+        sources = sources_of(packed, [layer for name in AXES for layer in _layers(name)])
+        for name, plot in self._plots.items():
+            add_all(plot, sources, _layers(name))
+        key = style.legend((COLORS[line], "━", LABELS[line]) for line in LINES)
+        plots = list(self._plots.values())
+        self._key_of_lines = pn.pane.HTML(key, margin=0)
+        self._results_part = stack(
+            *plots[:2], self._key_of_lines, *plots[2:], stylesheets=[AS_HIGH_AS_SHOWN]
+        )
+        self.hidden = stack(self.job, self._results_part, visible=False)
+        return self.hidden
+
+    # The job
+
+    def fields(self) -> list[FieldSpec]:
+        return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
+
+    def form(self, editor: SceneNow) -> tuple[dict[str, str], dict[str, Any]]:
+        return {"baseline": "1"}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
+        measured, measurement = self.measured, self.measurement
+        if measured is None or measurement is None:
+            raise ValueError(self.why_nothing or NOTHING)
+        series, machine = measurement.series, measured.machine
+        text = given.get("baseline", "").strip() or "1"
+        number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
+        direction = self.direction_of(measured)
+        band = self.demodulation(measured, direction).band
+        known = self.found if self._is_of_now(self.found) else None
+
+        def work(job: Work) -> str:
+            if known is not None and number <= len(known.trend.points):
+                again = dataclasses.replace(known.trend, baseline=number - 1)
+                job.show(dataclasses.replace(known, trend=again))
+                return f"Compared with file {number}."
+            found = measurement.recordings(measured, direction)
+            if not 1 <= number <= len(found.recordings):
+                count = len(found.recordings)
+                raise ValueError(f"The baseline is one of 1 to {count}, not {number}.")
+
+            def goes_on(so_far: Trend, of: int) -> bool:
+                job.progress(len(so_far.points) / of)
+                job.show(FoundTrend(so_far, found, series, measured))
+                return not job.cancelled()
+
+            try:
+                done = trend(
+                    found.recordings, machine.bearing, machine.range, direction=direction,
+                    band=band, baseline=number - 1, goes_on=goes_on,
+                )  # fmt: skip
+            except FieldError as error:
+                raise ValueError(sentence_of(error)) from error
+            return f"{len(done.points)} of {len(found.recordings)} files are in it."
+
+        return work
+
+    def _is_of_now(self, found: FoundTrend | None) -> bool:
+        """Whether a result is complete, and of the files and answers that there are now."""
+        return (
+            found is not None
+            and self.measurement is not None
+            and found.series is self.measurement.series
+            and found.measured is self.measured
+            and len(found.trend.points) == len(found.recordings.recordings)
+        )
+
+    def say(self, model: Model | None, sentence: str) -> None:
+        super().say(model, sentence)
+        measured, measurement = self.measured, self.measurement
+        if measured is None or measurement is None:
+            return
+        several = len(measurement.series.tables) > 1 and measured.origin is not None
+        self.hidden.visible = several or self.drawn
+        self._results_part.visible = self.drawn
+        self._write_axes()
+        if several and measurement.series.together and self._jobs is not None:
+            self._begin_once(model, (measurement.series, measured))
+
+    def _begin_once(self, model: Model | None, now: tuple[Series, Measured]) -> None:
+        """Begin without a click once the last file of a series is diagnosed."""
+        if model is None or self._began == now or self.measurement is None:
+            return
+        question = self.measurement.question()
+        if question is None or self.measurement.diagnoses.of(question) is not None:
+            self._began = now
+            self.start_job(self.job.values)
+
+    # The picture
+
+    @property
+    def drawn(self) -> bool:
+        found, measurement = self.found, self.measurement
+        if found is None or measurement is None or self.measured is None:
+            return False
+        return found.series is measurement.series and self.measured.in_si == found.measured.in_si
+
+    def _write_axes(self) -> None:
+        if self.found is None:
+            return
+        unit, _ = shown_unit(self.found.measured)
+        shown = self.found.trend
+        across = HOURS if np.isfinite(shown.hours).all() else NUMBER
+        self._plots["lines"].visible = self._key_of_lines.visible = bool(
+            np.isfinite(shown.clear_lines).any()
+        )
+        self._plots["extent"].visible = any(
+            math.isfinite(point.extent.high) for point in shown.points
+        )
+        for name, plot in self._plots.items():
+            plot.xaxis[0].axis_label = across.label()
+            plot.xaxis[0].ticker.min_interval = float(across is NUMBER)
+            if name in ("rms", "lines"):
+                plot.yaxis[0].axis_label = dataclasses.replace(AXES[name], unit=unit).label()
+
+    def data(self, model: Model) -> tuple[Sources, Ranges]:
+        found = self.found
+        if found is None or not self.drawn:
+            return {}, {}
+        shown, size = found.trend, 1.0 / shown_unit(found.measured)[1]
+        hours = shown.hours
+        x = hours if np.isfinite(hours).all() else np.arange(1.0, len(shown.points) + 1.0)
+        rms = shown.column("rms") * size
+        extent, low, high = (
+            np.degrees([getattr(point.extent, name) for point in shown.points])
+            for name in ("extent", "low", "high")
+        )
+        lines = {f"{name}_line": shown.clear_lines[:, k] * size for k, name in enumerate(LINES)}
+        columns = {"x": x, "rms": rms, "kurtosis": shown.column("kurtosis"), "extent": extent}
+        sources: Sources = {
+            "trend": columns | lines,
+            "trend_interval": {"x0": x, "x1": x, "y0": low, "y1": high},
+            "trend_baseline": {"x": x, "y": np.full(x.size, rms[shown.baseline])},
+        }
+        heights = {
+            "rms": rms,
+            "kurtosis": columns["kurtosis"],
+            "lines": np.concatenate(list(lines.values())),
+            "extent": high,
+        }
+        room = 0.05 * max(float(np.ptp(x)), 1.0)
+        ranges: Ranges = {"trend_x": (float(x.min()) - room, float(x.max()) + room)}
+        for name, values in heights.items():
+            ranges[f"trend_{name}"] = self._heights[name].fit(np.append(values, 0.0))
+        return sources, ranges
+
+    def sentence(self, model: Model) -> str:
+        measured, found = self.measured, self.found
+        if measured is None or self.measurement is None:
+            return self.why_nothing
+        if found is None or not self.drawn:
+            several = len(self.measurement.series.tables) > 1
+            return "Nothing is computed yet." if several else "One file is no trend yet."
+        words = words_on(found.trend)
+        if out := found.recordings.left_out:
+            more = f" and {len(out) - MOST_NAMED} more" if len(out) > MOST_NAMED else ""
+            words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
+        if found.measured is not measured:
+            words += " Your answers have changed since: compute it again."
+        return words
+
+    def table(self, model: Model) -> dict[str, np.ndarray]:
+        found = self.found
+        if found is None or not self.drawn:
+            return {}
+        return named_columns(found.trend.table(), found.measured.in_si)
+
+    def python(self) -> str:
+        """Lines of Python that read the files and compute the trend without the page."""
+        found, model = self.found, self._results
+        origins = () if found is None else found.recordings.origins
+        if found is None or model is None or None in origins:
+            return super().python()
+        return python_lines(found, model)
+
+
+def words_on(shown: Trend) -> str:
+    """The trend in sentences: level, kurtosis, lines and extent, first and last."""
+    first, last = shown.points[0], shown.points[-1]
+    if len(shown.points) == 1:
+        return f"One recording along {shown.direction}: {part_words(shown)}"
+    most = int(shown.rms_change.argmax())
+    base = shown.points[shown.baseline].name
+    words = (
+        f"{len(shown.points)} recordings along {shown.direction}. Root mean square of the last is "
+        f"{style.number(float(shown.rms_change[-1]), 3)} times that of the baseline, {base}"
+    )
+    if most != len(shown.points) - 1:
+        top = style.number(float(shown.rms_change[most]), 3)
+        words += f"; {top} times at most, in {shown.points[most].name}"
+    kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
+    words += f". Kurtosis {kurtosis[0]} in the first, {kurtosis[1]} in the last. "
+    return words + part_words(shown)
+
+
+def part_words(shown: Trend) -> str:
+    """The part named as damaged in the last recording, and the lines above noise."""
+    last = shown.points[-1]
+    clear = [
+        LABELS[line] for k, line in enumerate(LINES) if np.isfinite(shown.clear_lines[:, k]).any()
+    ]
+    seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
+    if last.extent.race and math.isfinite(last.extent.high):
+        return f"{seen} In the last: {last.extent.sentence}"
+    named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
+    if not math.isfinite(last.probability):
+        return "Which part is damaged is not known before the bearing is."
+    if not named:
+        return f"{seen} No part is named in the last ({last.fault})."
+    return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
+
+
+def python_lines(found: FoundTrend, model: Model) -> str:
+    """Lines that read the files of a trend and compute it."""
+    scene, shown = found.measured.scene(model.scene), found.trend
+    machine, files = found.measured.machine, []
+    bearing = "None" if machine.bearing is None else "scene.bearing"
+    speed = "None" if machine.range is None else code_of(machine.range)
+    for recording, origin in zip(
+        found.recordings.recordings, found.recordings.origins, strict=True
+    ):
+        assert origin is not None
+        unit = origin.unit if found.measured.in_si else "m/s²"
+        given = [
+            code_of(origin.file), str(list(origin.columns)), code_of(list(recording.directions)),
+            code_of(unit), short(recording.sample_rate), short(origin.full_scale),
+            "None" if origin.sensitivity is None else short(origin.sensitivity),
+            "None" if recording.shaft_speed is None else short(recording.shaft_speed),
+        ]  # fmt: skip
+        files.append(f"    ({', '.join(given)}),")
+    return "\n".join([
+        "from pathlib import Path\n",
+        "from bearingcore import Recording, Scene, presets, read_table, trend\n",
+        f"scene = {scene_code(scene)}",
+        "files = [  # columns, directions, unit, sample rate, value of a 1, V/(m/s²), rad/s",
+        *files,
+        "]",
+        "recordings = []",
+        "for name, columns, along, unit, rate, one, sensor, speed in files:",
+        "    made = read_table(name, Path(name).read_bytes()).recording(",
+        "        columns, along, unit, rate, one, sensitivity=sensor",
+        "    )",
+        "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
+        "found = trend(",
+        f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",
+        f"    band=({short(shown.band[0])}, {short(shown.band[1])}), baseline={shown.baseline},",
+        ")",
+        "columns = found.table().in_units().named()",
+        "print(found.rms_change)\n",
+    ])  # fmt: skip

@@ -1,0 +1,93 @@
+"""The questions about the machine of a signal: which bearing, and how fast the shaft turned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import panel as pn
+
+from bearing_explorer.diagnosis.form import LIKELY, WAYS
+from bearing_explorer.diagnosis.machine import (
+    BY_DESIGNATION,
+    BY_FREQUENCIES,
+    FIELDS,
+    FILE,
+    GIVEN,
+    ROUGH,
+)
+from bearing_explorer.diagnosis.session import MeasurementState
+from bearing_explorer.diagnosis.widgets.measurement_form import notes_html
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.widgets.form import Fields, choices, entry, row, select
+from bearingcore.bearings.frequencies import FREQUENCIES
+
+LABELS = {
+    "bearing": "Measured bearing",
+    "designation": "Designation",
+    "bpfo": "BPFO (Hz, or turns of the shaft: 3.1 x)",
+    "bpfi": "BPFI",
+    "ftf": "FTF",
+    "bsf": "BSF",
+    "speed": "Measured speed",
+    "shaft_speed": "Hz or rpm",
+}
+NO_BEARINGS = [["", "choose", WAYS]]
+HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm"}
+
+
+class MachineForm(pn.Column):
+    """Bearing and shaft speed of a signal; each answer counts at once.
+
+    Parameters
+    ----------
+    answer
+        called with all values of the form.
+    """
+
+    def __init__(self, answer: Callable[[Mapping[str, str]], None]) -> None:
+        self._fields = fields = Fields(lambda _: answer(dict(fields.values)))
+        for name in FIELDS:
+            if name == "bearing":
+                fields.add(name, select(LABELS[name], NO_BEARINGS))
+            elif name == "speed":
+                fields.add(name, select(LABELS[name], [["", ""]]))
+            else:
+                fields.add(name, entry(LABELS[name], placeholder=HINTS.get(name, "")))
+        self._notes = pn.pane.HTML("", stylesheets=[asset_text("measurement.css")], margin=0)
+        self._shown: tuple[Any, Any] = (None, None)
+        super().__init__(
+            row(*(fields.widgets[name] for name in LABELS)), self._notes,
+            css_classes=["machine"], sizing_mode="stretch_width", margin=(2, 0, 8, 0),
+        )  # fmt: skip
+
+    def show(self, state: MeasurementState) -> None:
+        """Show the answers on the machine as they are."""
+        fields = self._fields
+        values = {name: state.values.get(name, "") for name in FIELDS}
+        if self._shown != (state.bearings, state.speeds):
+            self._shown = state.bearings, state.speeds
+            for name, options in (("bearing", state.bearings), ("speed", state.speeds)):
+                fields.values[name] = values[name]
+                options = options or (NO_BEARINGS if name == "bearing" else [["", ""]])
+                fields.widgets[name].param.update(**choices(options), value=values[name])
+        fields.put(values)
+        by, speed = values["bearing"], values["speed"]
+        shown = {
+            "bearing": bool(state.bearings),
+            "designation": by == BY_DESIGNATION,
+            "speed": bool(state.speeds),
+            "shaft_speed": speed in (GIVEN, ROUGH) and bool(state.bearings),
+        } | dict.fromkeys(FREQUENCIES, by == BY_FREQUENCIES)
+        missing = {name for name in ("bearing", "designation", "shaft_speed") if not values[name]}
+        for name, widget in fields.widgets.items():
+            marks = {"refused": name in state.refused, "open": name in missing}
+            widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
+            widget.visible = shown[name]
+        likely = [value for value, _, heading in state.bearings if heading == LIKELY]
+        of_file = {"bearing": by in (*likely, BY_FREQUENCIES), "speed": speed == FILE}
+        named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
+        named += [name for name in state.refused if shown.get(name) and name not in named]
+        words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
+        self._notes.object = notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
+        self._notes.visible = bool(self._notes.object)

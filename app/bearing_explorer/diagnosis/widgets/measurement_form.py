@@ -1,0 +1,239 @@
+"""The form of a measurement: a file, or a simulation, and questions about the file's columns."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import panel as pn
+
+from bearing_explorer.diagnosis.form import SIZES, USUAL_SENSITIVITY
+from bearing_explorer.diagnosis.series import MOST_FILES
+from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.messages import UploadBegins, UploadPiece
+from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.widgets.facts import Fact, facts_html
+from bearing_explorer.kit.widgets.file_upload import FileUpload
+from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
+from bearingcore.common.numbers import number
+from bearingcore.files.units import UNITS, VOLTAGES
+
+LABELS = {
+    "x": "Along x, sideways",
+    "y": "Along y, up",
+    "unit": "Unit",
+    "full_scale": "1 in the file is",
+    "sensitivity": "Sensor (mV/g)",
+    "sample_rate": "Sample rate (Hz)",
+}
+FORMATS = (
+    "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
+    f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
+)
+_MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
+_WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+
+
+class MeasurementForm(pn.Column):
+    """A file to choose, a measurement to simulate, and questions about the file.
+
+    Once there is a signal it folds to a line, and unfolds again by a button. The fields about a
+    file are made when there is the first one.
+    """
+
+    def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
+        self.folded = self._agreed = False
+        self._unfolded = unfolded
+        self._measurement: Measurement | None = None
+        self._fields: Fields | None = None
+        self._shown = MeasurementState()
+        self.upload = FileUpload(
+            self._uploaded, largest=MOST_BYTES, piece=PIECE, most=MOST_FILES, note=FORMATS
+        )
+        self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
+        self._facts = _text("", visible=False, css_classes=["note"])
+        self._load = button("", self._take_load, visible=False)
+        self._words = _text("")
+        self._line = _text("", css_classes=["line"])
+        self._change = button("Change", self._turn, css_classes=["change"])
+        self._cancel = button("Cancel", self._give_up, visible=False, align="start")
+        self._in_short = row(self._line, self._change, visible=False)
+        self._ways = row(
+            self._way("Files of your own", self.upload, "5 1 260px"),
+            self._way("No file at hand?", self._simulation(), "9 1 420px"),
+            css_classes=["ways"],
+        )
+        self._in_full = pn.Column(
+            self._ways, self._about_file, row(self._facts, self._load), **_WIDE
+        )
+        super().__init__(self._in_short, self._in_full, self._words, self._cancel, **_WIDE)
+        self.show(MeasurementState())
+
+    def attach(self, measurement: Measurement) -> None:
+        """Show a measurement, which gets the choices made here."""
+        self._measurement = measurement
+        measurement.show, measurement.want = self.show, self.upload.want
+        measurement.more = self.upload.more
+        self.show(measurement.state)
+
+    def _way(self, title: str, content: pn.viewable.Viewable, flex: str) -> pn.Column:
+        head = _text(f"<h3>{title}</h3>")
+        return pn.Column(
+            head, content, margin=0, css_classes=["way"], styles={"flex": flex},
+            stylesheets=[asset_text("measurement.css")],
+        )  # fmt: skip
+
+    def _simulation(self) -> pn.Column:
+        noises = {
+            name: "none" if math.isinf(level) else f"{level:.0f} dB"
+            for name, level in sorted(NOISES.items(), key=lambda item: item[0] != "20")
+        }
+        pits = {
+            name: "the scene's" if length is None else f"pit of {name} mm, balls with mass"
+            for name, length in PITS.items()
+        }
+        machines = {name: _MACHINE_WORDS[name] for name in MACHINES}
+        lists = [
+            select(label, list(options.items()), css_classes=["beside", kind])
+            for label, kind, options in (
+                ("Noise below the signal", "noise", noises),
+                ("Machine", "machine", machines),
+                ("Defect", "pit", pits),
+            )
+        ]
+
+        def simulate() -> None:
+            if self._measurement is not None:
+                self._measurement.simulate(*(chosen.value for chosen in lists))
+
+        note = "Uses the current scene; the true size is shown for comparison."
+        return pn.Column(
+            row(button("Simulate a signal", simulate, css_classes=["simulate"]), *lists),
+            _text(note, css_classes=["note"]),
+            **_WIDE,
+        )
+
+    # What is chosen here
+
+    def _uploaded(self, message: UploadBegins | UploadPiece) -> None:
+        if self._measurement is None:
+            return
+        if isinstance(message, UploadBegins):
+            self._measurement.begin_upload(
+                message.name, message.size, message.number, message.count, message.chosen
+            )
+        else:
+            self._measurement.take_piece(message.content, message.of)
+
+    def _take_load(self) -> None:
+        if self._measurement is not None:
+            self._measurement.take_load()
+
+    def _answer(self, sure: bool) -> None:
+        if self._measurement is not None and self._fields is not None:
+            self._agreed = sure
+            values = self._shown.values | self._fields.values
+            self._measurement.take_form(values, sure)
+
+    # What there is to show
+
+    def show(self, state: MeasurementState) -> None:
+        """Show the state of the measurement."""
+        if state.arrival != self._shown.arrival or (self._agreed and not state.bad):
+            self.folded, self._agreed = bool(state.line), False
+        self._fold(state)
+        self._about_file.visible = bool(state.columns)
+        if state.columns:
+            self._show_fields(state)
+        self._facts.param.update(object=html.escape(state.said), visible=bool(state.said))
+        load = state.load
+        self._load.param.update(
+            label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
+            visible=bool(load),
+        )
+        self._shown = state
+
+    def _fold(self, state: MeasurementState) -> None:
+        """Show the line, or what is behind it, and the words that go with either."""
+        mood = "bad" if state.bad else "busy" if state.busy else "good"
+        words = state.words if mood != "good" or not self.folded else state.remarks
+        self._words.object = (
+            f'<p class="words {mood}" role="status">{html.escape(words)}</p>' if words else ""
+        )
+        whole = f' title="{html.escape(state.whole_name)}"' if state.whole_name else ""
+        self._line.object = f"<p{whole}>{html.escape(state.line)}</p>"
+        self._in_short.visible = bool(state.line)
+        self._in_full.visible = not self.folded
+        self._change.label = "Change" if self.folded else "Fold"
+        self._cancel.visible = state.busy
+
+    def _turn(self) -> None:
+        self.folded = not self.folded
+        self._fold(self._shown)
+        self._unfolded()
+
+    def _give_up(self) -> None:
+        if self._measurement is not None:
+            self._measurement.cancel()
+
+    def _make_fields(self) -> Fields:
+        fields = Fields(lambda _: self._answer(False))
+        for name in LABELS:
+            if name in ("x", "y", "unit"):
+                fields.add(name, select(LABELS[name], [["", ""]]))
+            else:
+                hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
+                fields.add(name, entry(LABELS[name], placeholder=hint))
+        self._agree = button("Use these answers", lambda: self._answer(True))
+        self._notes = _text("")
+        self._about_file[:] = [row(*fields.widgets.values(), self._agree), self._notes]
+        return fields
+
+    def _show_fields(self, state: MeasurementState) -> None:
+        first = self._fields is None
+        fields = self._fields = self._fields or self._make_fields()
+        values = {name: state.values.get(name, "") for name in LABELS}
+        fields.values.update(values)
+        for name in ("x", "y"):
+            if first or state.columns != self._shown.columns:
+                fields.widgets[name].param.update(**choices(state.columns), value=values[name])
+        if first or state.proposed != self._shown.proposed:
+            fields.widgets["unit"].param.update(**choices(units(state)), value=values["unit"])
+        fields.put(values)
+        for name, widget in fields.widgets.items():
+            marks = {"refused": name in state.refused, "open": name in state.open}
+            widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
+        fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
+        fields.widgets["sensitivity"].visible = values["unit"] in VOLTAGES
+        self._agree.visible = not set(state.open) <= set(SIZES)
+        shown = [name for name, widget in fields.widgets.items() if widget.visible]
+        labels = {name: label.partition(" (")[0] for name, label in LABELS.items()}
+        self._notes.object = notes_html(state, shown, labels)
+
+
+def _text(words: str, **params: Any) -> pn.pane.HTML:
+    return pn.pane.HTML(words, stylesheets=[asset_text("measurement.css")], **_WIDE, **params)
+
+
+def units(state: MeasurementState) -> list[list[str]]:
+    """Options of the unit; one that the file does not state has to be chosen."""
+    known = [[unit, unit] for unit in UNITS]
+    if state.proposed is None:
+        return known
+    words = f"choose ({state.proposed} is likely)" if state.proposed else "choose"
+    return [["", words], *known]
+
+
+def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:
+    """Beneath the fields: why they are refused, or where their values come from."""
+    facts = []
+    for name in fields:
+        words = state.refused.get(name) or state.reasons.get(name)
+        if words:
+            mark = "refused" if name in state.refused else "open" if name in state.open else ""
+            facts.append(Fact(html.escape(labels[name]), words, mark=mark))
+    return facts_html(facts)

@@ -1,0 +1,249 @@
+"""A diagnosis on the page: the bearing with the damaged part marked, the answer, the evidence."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import panel as pn
+
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.widgets.facts import Fact, facts_html
+from bearing_explorer.kit.widgets.form import button, row
+
+_PICTURES = {
+    "busy": "Bearing; the signal is being analysed",
+    "healthy": "Bearing, no part marked: no damage seen",
+    "unknown": "Bearing with a question mark: no clear result",
+    "question": "Bearing with a question mark: which one is not known",
+}
+_COPY = """
+navigator.clipboard?.writeText(summary.text)
+button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
+"""
+NOT_NOW = "Neither can be taken while the answer is out of date."
+_REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
+_MOST_BALLS = 60
+
+
+class PartPanel(pn.Column):
+    """The bearing with the damaged part marked, the answer in words, and its assumptions."""
+
+    def __init__(self) -> None:
+        wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
+        self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
+        self._summary = pn.pane.Str("", visible=False)
+        self._copy = button("Copy the summary", lambda: None, align="start")
+        self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
+        self._report = button("Report on one page", lambda: None, align="start")
+        self._report.js_on_click(code=_REPORT)
+        self._why_not = _words("")
+        self._actions = row(self._copy, self._report, self._why_not, visible=False)
+        super().__init__(self._answer, self._actions, self._summary, **wide)
+        self.state: Mapping[str, Any] = {}
+
+    def show(self, state: Mapping[str, Any]) -> None:
+        """Show an answer, as `views.diagnosis.panel_state` makes it."""
+        if state == self.state:
+            return
+        self.state = state
+        self._answer.object = part_html(state)
+        stale = state.get("stale", "")
+        summary = "" if stale else state.get("pass_on", "")
+        self._summary.object = summary
+        self._copy.param.update(label="Copy the summary", disabled=not summary)
+        self._report.disabled = not summary
+        self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
+        self._actions.visible = bool(state.get("pass_on", ""))
+
+    def outdate(self, why: str) -> None:
+        """Mark the answer that is shown: it is not that of the newest answers and settings."""
+        if self.state.get("mood") in ("fault", "healthy", "unknown"):
+            self.show({**self.state, "stale": why})
+
+
+class ListedBearings(pn.Column):
+    """Listed bearings to take in place of the one that does not explain a signal.
+
+    Parameters
+    ----------
+    take
+        called with the name of the one that is chosen.
+    cancel
+        called to end the search.
+    search
+        called to begin one.
+    """
+
+    def __init__(
+        self,
+        take: Callable[[str], None],
+        cancel: Callable[[], None],
+        search: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._take = take
+        self._shown: object = None
+        # both stay while the search goes on: a click on what is replaced meanwhile is lost
+        self._head = _words("")
+        self._cancel = button("Cancel the search", cancel, visible=False)
+        self._search = button(
+            "Try the listed bearings", search, visible=False, align="start",
+            css_classes=["search"],
+        )  # fmt: skip
+        head = row(self._search, self._head, self._cancel)
+        super().__init__(head, visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
+
+    def show(
+        self,
+        words: str,
+        bearings: Sequence[tuple[str, str]] = (),
+        searching: bool = False,
+        offer: bool = False,
+    ) -> None:
+        """Show a sentence, and bearings with how well each explains the signal.
+
+        `offer`: whether a search can be begun.
+        """
+        if self._shown == (words, list(bearings), searching, offer):
+            return
+        self._shown = (words, list(bearings), searching, offer)
+        self.visible = bool(words) or offer
+        self._search.visible = offer
+        self._head.object = f'<p role="status">{html.escape(words)}</p>'
+        self._cancel.visible = searching
+        if bearings or len(self) > 1:
+            self[1:] = [
+                row(
+                    button(f"Take {name}", partial(self._take, name)),
+                    _words(f"<p>{html.escape(why)}</p>"),
+                )
+                for name, why in bearings
+            ]
+
+
+def _words(content: str) -> pn.pane.HTML:
+    style = {"flex": "1 1 300px", "align-self": "center"}
+    return pn.pane.HTML(content, stylesheets=[asset_text("part.css")], margin=0, styles=style)
+
+
+def part_html(state: Mapping[str, Any]) -> str:
+    """The answer as HTML: picture, headline, words, summary, assumptions."""
+    names = (
+        "headline", "probability", "extent", "plain", "pass_on", "color", "mood", "stale",
+    )  # fmt: skip
+    said = {name: html.escape(str(state.get(name, ""))) for name in names}
+    short = said["probability"], said["extent"]
+    facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
+    summary = (
+        f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
+        if said["pass_on"] and not said["stale"]
+        else ""
+    )
+    assumptions = (
+        f'<div class="rests"><h4>Assumptions</h4>{facts_html(facts)}</div>' if facts else ""
+    )
+    stale = ""
+    if said["stale"]:
+        stale = f'<p class="stale" role="status"><strong>Out of date.</strong> {said["stale"]}</p>'
+    return (
+        f'{stale}<section class="part{" old" if stale else ""}" '
+        f'aria-label="Which part is damaged" data-mood="{said["mood"]}" '
+        f'style="--part: {said["color"] or "var(--accent)"}">'
+        f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
+        f'<p class="probability">{" · ".join(filter(None, short))}</p>'
+        f"<p>{said['plain']}</p>{summary}</div>"
+        f'<div class="rests">{assumptions}</div></section>'
+    )
+
+
+def picture(state: Mapping[str, Any]) -> str:
+    """The bearing along the shaft as SVG, to scale, with the damaged part marked."""
+    bearing, mood = state["bearing"], state["mood"]
+    part = state.get("part", "") if mood == "fault" else ""
+    ball, outer, inner = bearing["ball"], bearing["outer"], bearing["inner"]
+    rim, bore = outer + 0.45 * ball, max(inner - 0.45 * ball, 0.3 * inner)
+    scale = 96.0 / rim
+
+    def ring(radius: float, hole: float, name: str) -> str:
+        circles = " ".join(
+            f"M{-r:.2f} 0A{r:.2f} {r:.2f} 0 1 1 {r:.2f} 0A{r:.2f} {r:.2f} 0 1 1 {-r:.2f} 0Z"
+            for r in (scale * radius, scale * hole)
+        )
+        marked = " marked" if part == name else ""
+        return f'<path class="steel{marked}" fill-rule="evenodd" d="{circles}"/>'
+
+    balls = "".join(
+        f'<circle class="ball{" marked" if part == "ball" and not i else ""}" '
+        f'r="{0.5 * scale * ball:.2f}" cx="{0.5 * scale * bearing["pitch"] * math.cos(turn):.2f}" '
+        f'cy="{0.5 * scale * bearing["pitch"] * math.sin(turn):.2f}"/>'
+        for i in range(min(bearing["n_balls"], _MOST_BALLS))
+        for turn in [2.0 * math.pi * i / bearing["n_balls"] + 0.5 * math.pi]
+    )
+    # the impact is drawn at the bottom, as if the load were there
+    places = {"outer race": outer, "inner race": inner, "ball": 0.5 * (bearing["pitch"] + ball)}
+    mark = _impact(scale * places[part], max(0.22 * scale * ball, 4.5)) if part else ""
+    if mood in ("unknown", "question"):
+        mark = '<text class="question" text-anchor="middle" dominant-baseline="central">?</text>'
+    words = f"Bearing, {part} marked" if part else _PICTURES.get(mood, "Bearing")
+    return (
+        f'<svg viewBox="-104 -104 208 208" role="img" aria-label="{words}" data-part="{part}">'
+        f"{ring(rim, outer, 'outer race')}{ring(inner, bore, 'inner race')}{balls}{mark}</svg>"
+    )
+
+
+def _impact(y: float, size: float) -> str:
+    """A spot with rays around it."""
+    rays = ""
+    for i in range(8):
+        c, s = (turn(math.pi * (i + 0.5) / 4.0) for turn in (math.cos, math.sin))
+        rays += f"M{size * c:.2f} {y + size * s:.2f}"
+        rays += f"L{2.1 * size * c:.2f} {y + 2.1 * size * s:.2f}"
+    return (
+        f'<path class="rays" d="{rays}"/>'
+        f'<circle class="spot" cx="0" cy="{y:.2f}" r="{0.55 * size:.2f}"/>'
+    )
+
+
+def evidence_html(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The evidence for each part as a table; rows are those of `part_words.evidence_rows`."""
+    if not rows:
+        return ""
+    harmonics = range(1, len(rows[0]["harmonics"]) + 1)
+    heads = [
+        ("Part", ""), ("Order", "nominal"), ("Line", "slip"),
+        *((f"{k}×", "dB" if k == 1 else "") for k in harmonics),
+        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""), ("Probability", ""),
+    ]  # fmt: skip
+    head = "".join(_cell(words, below, 'th scope="col"') for words, below in heads)
+    body = "".join(_row(row) for row in rows)
+    return (
+        '<div class="rows" tabindex="0" role="region" aria-label="Evidence for each part"><table>'
+        f"<caption>Evidence for each part</caption><thead><tr>{head}</tr></thead>"
+        f"<tbody>{body}</tbody></table></div>"
+    )
+
+
+def _row(row: Mapping[str, Any]) -> str:
+    swatch = f'<i class="swatch" style="background: {row["color"]}"></i>'
+    cells = [
+        f'<th scope="row">{swatch}{row["part"]}<small>{row["name"]}</small></th>',
+        _cell(row["order"], f"of {row['nominal']}"),
+        _cell(row["frequency"], row["slip"]),
+        *(
+            _cell(one["level"], tag='td class="clear"' if one["clear"] else "td")
+            for one in row["harmonics"]
+        ),
+        _cell(row["together"], f"noise {row['noise']}"),
+        _cell(row["sidebands"], row["spacing"]),
+        _cell(row["band"], f"along {row['direction']}"),
+        _cell(row["probability"]),
+    ]
+    return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'
+
+
+def _cell(words: str, below: str = "", tag: str = "td") -> str:
+    small = f"<small>{html.escape(below)}</small>" if below else ""
+    return f"<{tag}>{html.escape(words)}{small}</{tag.split()[0]}>"

@@ -1,0 +1,1 @@
+"""The scene: its controls, results, views and lessons."""

@@ -1,0 +1,92 @@
+"""All that the page takes of the scene's half: its tabs, its session, its lessons, its help."""
+
+from __future__ import annotations
+
+import html
+
+from bearing_explorer.explorer.half import Explorer
+from bearing_explorer.explorer.state import glossary
+from bearing_explorer.explorer.state.lessons import (
+    Tabs,
+    faults_in,
+    lessons_in,
+    own_folder,
+    text_for_teachers,
+)
+from bearing_explorer.explorer.views.accuracy import Accuracy
+from bearing_explorer.explorer.views.alternatives import OtherModels
+from bearing_explorer.explorer.views.bearing import BearingDrawing
+from bearing_explorer.explorer.views.bearing_editor import BearingEditor
+from bearing_explorer.explorer.views.bearing_picture import bearing_picture
+from bearing_explorer.explorer.views.depth_profile import DepthProfile
+from bearing_explorer.explorer.views.explore import ExplorePlane
+from bearing_explorer.explorer.views.free_directions import FreeDirections
+from bearing_explorer.explorer.views.life import LifeOfBearing
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.maps import StiffnessMaps
+from bearing_explorer.explorer.views.mass_time import MassInTime
+from bearing_explorer.explorer.views.mechanism import WhichMechanism
+from bearing_explorer.explorer.views.model_editor import ModelEditor
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.orbit import SteadyOrbit
+from bearing_explorer.explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.explorer.views.overview.change import LastChange
+from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness
+from bearing_explorer.explorer.views.paper import PaperFigures
+from bearing_explorer.explorer.views.scene_figure import figure_of
+from bearing_explorer.explorer.views.slow_passage import SlowPassage
+from bearing_explorer.explorer.views.speed_run import SpeedRunSpectra
+from bearing_explorer.explorer.views.stability_map import OrbitStability
+from bearing_explorer.explorer.views.stiffness import Stiffness
+from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
+from bearing_explorer.explorer.views.vibration_time import VibrationInTime
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.half import Section
+from bearingcore import presets
+
+__all__ = [
+    "SECTIONS",
+    "Explorer",
+    "Tabs",
+    "faults_in",
+    "figure_of",
+    "help_texts",
+    "lessons_in",
+    "own_folder",
+    "text_for_teachers",
+]
+
+SECTIONS = (
+    Section(
+        "overview",
+        "Overview",
+        (OverviewBearing, LastChange, OverviewStiffness, OverviewSpectrum),
+    ),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
+    Section("stiffness", "Curves", (Stiffness,), "Stiffness"),
+    Section("maps", "Maps", (StiffnessMaps,), "Stiffness"),
+    Section("modes", "Frequencies", (NaturalFrequencies,)),
+    Section(
+        "vibration",
+        "Vibration",
+        (VibrationInTime, VibrationSpectra, SlowPassage, MassInTime, WhichMechanism),
+    ),
+    Section("bearing", "Bearing", (BearingEditor,), "Machine"),
+    Section("model", "Rotor and support", (ModelEditor, FreeDirections), "Machine"),
+    Section("life", "Life", (LifeOfBearing,), "Machine"),
+    Section("accuracy", "Accuracy", (Accuracy, OtherModels)),
+    Section("explore", "Explore", (ExplorePlane,), "More"),
+    Section("over-speed", "Over speed", (SpeedRunSpectra, SteadyOrbit, OrbitStability), "More"),
+    Section("paper", "Paper", (PaperFigures,), "More"),
+)
+"""Tabs of the scene, and their parts."""
+
+
+def help_texts() -> dict[str, str]:
+    """Parts of the page's help that are about the scene, as HTML by their names."""
+    return {
+        "glossary": glossary.as_html(),
+        "bearing_picture": bearing_picture(presets["fan-rig"].bearing),
+        "python_lines": html.escape(asset_text("notebooks/first_lines.py")),
+    }

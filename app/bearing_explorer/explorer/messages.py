@@ -1,0 +1,110 @@
+"""Messages of the page's scripts about the scene, its links and its lessons."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import msgspec
+
+from bearing_explorer.kit.messages import TextFile
+
+Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
+
+
+class SceneChange(msgspec.Struct, omit_defaults=True):
+    """A change of the scene: numbers, choices, a reset, a measured floor, a table of bearings.
+
+    Attributes
+    ----------
+    mark
+        number of the change; the picture that shows it carries the same.
+    set, typed
+        numbers by the keys of their fields, in the units of the page: dragged, or as text.
+    choose
+        options by the names of their lists.
+    released
+        whether a drag has ended with it, as one step to undo.
+    turning
+        whether the bearing turns by itself, which is no step to undo.
+    search
+        text for which bearings are searched; it changes nothing, and has no mark.
+    """
+
+    mark: Mark | None = None
+    set: dict[str, Any] | None = None
+    typed: dict[str, Any] | None = None
+    choose: dict[str, str] | None = None
+    reset: bool = False
+    released: bool = False
+    turning: bool = False
+    floor: TextFile | None = None
+    catalogue: TextFile | None = None
+    search: str | None = None
+
+
+class LinksChange(SceneChange, omit_defaults=True):
+    """A message of the bar above the controls: steps, scenes that are kept or compared, files.
+
+    Attributes
+    ----------
+    open, file, compare
+        a scene that is to be opened, from the browser or from a file, or drawn too.
+    compare_here
+        the name under which the current scene is drawn too; empty for the usual one.
+    number
+        which of the compared scenes to `remove`, or to `rename`.
+    keep
+        the name under which the browser keeps the current scene.
+    want
+        kind of a file to download.
+    report
+        address of the page, for the link in a report; `title`, `machine` and `remarks` go in it.
+    measured
+        whether it is the page on the measured signal.
+    """
+
+    undo: bool = False
+    redo: bool = False
+    open: TextFile | None = None
+    file: TextFile | None = None
+    compare: TextFile | None = None
+    compare_here: str | None = None
+    number: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    remove: bool = False
+    rename: str | None = None
+    keep: str | None = None
+    want: str | None = None
+    report: str | None = None
+    measured: bool = False
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
+
+
+class Simulation(msgspec.Struct):
+    """A simulated measurement, by the names of its options."""
+
+    noise: str = "scene"
+    machine: str = "scene"
+    pit: str = "scene"
+
+
+class LessonChange(SceneChange, omit_defaults=True):
+    """A lesson begins, its words are shown, or a button among them is pressed.
+
+    Attributes
+    ----------
+    lesson
+        number or name; the empty name closes it.
+    words_only
+        whether its scene stays unset.
+    show
+        name of a tab to open.
+    simulate
+        a measurement to simulate.
+    """
+
+    lesson: int | str | None = None
+    words_only: bool = False
+    show: str | None = None
+    simulate: Simulation | None = None

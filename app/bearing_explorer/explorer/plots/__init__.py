@@ -1,0 +1,1 @@
+"""Drawing that is of scenes alone."""

@@ -1,0 +1,220 @@
+"""The drawing of the symmetric 5×5 stiffness matrix: a cell for each of its 15 terms.
+
+One canvas instead of fifteen: column j and row i of the matrix are the unit square at (j, -i). That
+paints several times faster than a figure for each term, and shows where in the matrix each stands.
+Below the diagonal, where the matrix only repeats itself, is room for the number of loaded balls.
+The numbers of a cell are next to it, out of sight while the cell fills the frame: then the
+drawing's own axes show, with the numbers of the cells in view, see cell_axes.js.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJS,
+    CustomJSTickFormatter,
+    FixedTicker,
+    Range1d,
+    Text,
+)
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.glyphs import add_glyph
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearingcore import DOF_NAMES
+from bearingcore.statics.equilibrium import TERM_SYMBOLS
+
+UNITS = ("N/m", "N/rad", "N·m/rad")
+"""Units of stiffness with no, one and two rotations."""
+NEGLIGIBLE = 1e-6
+"""Of the geometric mean of the two diagonal terms: rounding, not coupling."""
+ZERO = "0 by symmetry"
+"""Why a cell is empty."""
+
+PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
+"""Row and column of each term."""
+SYMBOLS = list(TERM_SYMBOLS.values())
+"""Symbols of the terms; what follows the space is a subscript."""
+NAMES = [*SYMBOLS, "Loaded balls"]
+"""Names of the cells."""
+SIDES = ("left", "right", "bottom", "top")
+SERIF = "Georgia, 'Times New Roman', serif"
+"""Font of the symbols."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A frame in the drawing, in matrix columns and rows."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    def x(self, share: np.ndarray) -> np.ndarray:
+        """Places along the frame for shares of 0 to 1."""
+        return self.left + (self.right - self.left) * share
+
+    def y(self, value: np.ndarray, limits: tuple[float, float]) -> np.ndarray:
+        """Heights of values on an axis with these limits."""
+        low, high = limits
+        return self.bottom + (self.top - self.bottom) * (value - low) / (high - low)
+
+
+def sides_of(cells: Sequence[Cell]) -> dict[str, NDArray[np.float64]]:
+    """The sides of cells, as columns."""
+    return {side: np.array([getattr(cell, side) for cell in cells]) for side in SIDES}
+
+
+Named = tuple[str, float, float, float, float]
+
+
+def named_cells(cells: Sequence[Cell]) -> list[Named]:
+    """Name and sides of the cells, one for each of NAMES."""
+    return [(name, c.left, c.right, c.bottom, c.top) for name, c in zip(NAMES, cells, strict=True)]
+
+
+def enlarge_on_click(plot: figure) -> None:
+    """Let a click on a cell fill the screen with it, see enlarge.js."""
+    code = """
+const detail = {figure: plot.id, x: cb_obj.x, y: cb_obj.y}
+window.dispatchEvent(new CustomEvent("explorer-cell", {detail}))
+"""
+    plot.js_on_event("tap", CustomJS(args={"plot": plot}, code=code))
+
+
+def matrix_figure(
+    x: tuple[float, float], y: tuple[float, float], looks: str = "", **options: Any
+) -> figure:
+    """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card."""
+    plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
+    # as a property of the figure Panel would give the width to the whole card
+    plot.min_width = None
+    plot.stylesheets = [f":host {{ min-width: var(--matrix-width, 560px); }} {looks}"]
+    return plot
+
+
+def scrolled(plot: figure) -> pn.Column:
+    """The figure in a frame that scrolls."""
+    scroll = ":host { overflow-x: auto; max-width: 100%; }"
+    return pn.Column(plot, sizing_mode="stretch_both", margin=0, stylesheets=[scroll])
+
+
+def write(plot: figure, source: ColumnDataSource, text: Any, **look: Any) -> None:
+    """Small words at the places x, y of a source."""
+    usual = {
+        "text_font": {"value": style.FONT},
+        "text_font_size": style.SMALL_TEXT_SIZE,
+        "text_color": style.FAINT_INK,
+    }
+    place = look.pop("x", "x"), look.pop("y", "y")
+    add_glyph(plot, Text, source, *place, text=text, **{**usual, **look})
+
+
+def write_names(plot: figure, cells: Sequence[Cell]) -> None:
+    """The symbols of the terms above their cells, and the name of the last cell."""
+    *terms, balls = cells
+    source = ColumnDataSource(
+        {
+            "x": [cell.left for cell in terms],
+            "y": [cell.top for cell in terms],
+            "below": [symbol[2:] for symbol in SYMBOLS],
+        }
+    )
+    serif = {"text_font": {"value": SERIF}, "text_color": style.INK}
+    write(plot, source, {"value": "k"}, y_offset=-6, text_font_size="15px", **serif)
+    write(plot, source, "below", x_offset=9, y_offset=-3, **serif)
+    name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})
+    look = {"y_offset": -6, "text_font_size": style.TEXT_SIZE, "text_color": style.INK}
+    write(plot, name, {"value": NAMES[-1]}, **look)
+
+
+def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
+    """For each term the size that counts as one: geometric mean of its two diagonal terms.
+
+    `term` gives the numbers that are shown of a term, by its name.
+    """
+    tops = []
+    for dof in DOF_NAMES:
+        values = np.abs(term(f"k_{dof}{dof}"))
+        tops.append(float(np.max(values, where=np.isfinite(values), initial=0.0)))
+    return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in PLACES]
+
+
+def cleaned(values: np.ndarray, scale: float) -> np.ndarray:
+    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
+    return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
+
+
+def trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
+    """Least and greatest value that a cell shows of a term whose size is `scale`; NaN for none."""
+    finite = np.concatenate(traces)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return math.nan, math.nan
+    if not finite.any():
+        return -1.0, 1.0
+    middle = 0.5 * (finite.min() + finite.max())
+    return sticky.fit(*traces, np.array([middle - 0.005 * scale, middle + 0.005 * scale]))
+
+
+_TICK_WORDS = "const k = shown.data.at.indexOf(tick)\nreturn k < 0 ? '' : shown.data.words[k]"
+
+
+def axes_when_zoomed(
+    plot: figure,
+    cells: Sequence[Cell],
+    scale_of: str,
+    sources: Sequence[ColumnDataSource],
+    **known: Any,
+) -> None:
+    """Show the axes of a bare figure while it is zoomed into.
+
+    Parameters
+    ----------
+    cells
+        one for each of NAMES.
+    scale_of
+        JavaScript: body of a function of `k`, a cell, which returns the quantities of its sides:
+        ``{x: side, y: side}``, each ``{first, last, factor, unit, words}``. What is written is a
+        place over `factor`; empty `words` stand for the name of the cell.
+    sources
+        sources whose news change that; the function knows them as `sources`.
+    known
+        further models that it knows.
+    """
+    axes = []
+    for axis in (plot.xaxis[0], plot.yaxis[0]):
+        shown = ColumnDataSource({"at": [], "words": []}, syncable=False)
+        axis.ticker = FixedTicker(ticks=[], minor_ticks=[], syncable=False)
+        axis.formatter = CustomJSTickFormatter(args={"shown": shown}, code=_TICK_WORDS)
+        axis.syncable = False  # it is the browser that shows and hides it
+        axes.append([axis, axis.ticker, shown])
+    follow = CustomJS(
+        args={
+            "plot": plot,
+            "axes": axes,
+            "cells": [[cell.left, cell.right, cell.bottom, cell.top] for cell in cells],
+            "cell_names": NAMES,
+            "sources": list(sources),
+            "home": [[shown.start, shown.end] for shown in (plot.x_range, plot.y_range)],
+            **known,
+        },
+        code=f"{style.JS_PREFIX}const scale_of = (k) => {{{scale_of}}}\n"
+        + asset_text("cell_axes.js"),
+    )
+    for end in ("start", "end"):
+        plot.x_range.js_on_change(end, follow)
+        plot.y_range.js_on_change(end, follow)
+    for source in sources:
+        source.js_on_change("data", follow)

@@ -1,0 +1,298 @@
+"""Messages of the browser about the scene, its links, files and lessons, and how each is answered.
+
+They are whole: `messages.take` has let none pass that the scripts of the page do not send. Words
+and numbers in them are not to be trusted.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, Protocol, TypeVar
+
+from bearing_explorer.explorer.report import report
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.address import Place
+from bearing_explorer.explorer.state.bookmarks import (
+    Bookmarks,
+    OpenRequest,
+    open_request_of,
+    read_request,
+)
+from bearing_explorer.explorer.state.lessons import Fault, Lesson
+from bearing_explorer.explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from bearing_explorer.explorer.widgets.controls import Controls, Rows
+from bearing_explorer.explorer.widgets.lesson import LessonPanel
+from bearing_explorer.explorer.widgets.share import ShareBar
+from bearing_explorer.kit.bearing_list import read_table
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.report_page import About, now
+from bearing_explorer.kit.views.base import View
+from bearingcore.bearings.catalogue import MOST_BYTES
+
+log = logging.getLogger(__name__)
+
+Found = TypeVar("Found")
+
+_LONGEST_NAME = 200
+_LONGEST_LINK = 2000
+_REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
+"""Greatest length of the words in a report."""
+
+
+class ForReport(NamedTuple):
+    """Results at rest, all views, and the findings of jobs by the name of the view."""
+
+    results: Results
+    views: list[type[View]]
+    found: dict[str, Any]
+
+
+class Page(Protocol):
+    """The part of a session that requests need."""
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
+
+    def show_tab(self, message: Any) -> None:
+        """Open the tab that a message names."""
+
+    def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
+        """Compute something off the event loop, then take it."""
+
+    def for_report(self) -> ForReport:
+        """Results, views and findings for a report."""
+
+
+class Requests:
+    """The scene of a session with the panels that change it.
+
+    Parameters
+    ----------
+    editor, bookmarks
+        the scene, and its steps and links.
+    lessons
+        those that the page offers.
+    page
+        the session.
+    """
+
+    def __init__(
+        self,
+        editor: SceneEditor,
+        bookmarks: Bookmarks,
+        lessons: Sequence[Lesson | Fault],
+        page: Page,
+    ) -> None:
+        self.editor, self.bookmarks = editor, bookmarks
+        #: number of the newest change of the browser
+        self.mark = 0
+        self.share = ShareBar(self.change_links, state=bookmarks.state())
+        self.lesson = LessonPanel(self.change_lesson, lessons)
+        #: makes the report on the measured signal, or None where there is none; and simulates a
+        #: measurement of the scene. The page sets them, where it has that half
+        self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | None] = lambda _: (
+            None
+        )
+        self.simulate: Callable[[str, str, str], None] = lambda noise, machine, pit: None
+        self._page = page
+        self._reporting = False
+        self._open_lesson_of_link()
+        self.controls = Controls(self.change_scene, state=editor.state())
+        self.panels: list[Rows] = [self.controls]
+
+    def show_controls(self, **news: Any) -> None:
+        """Show news on all panels of controls; each shows its own part.
+
+        The mark lets a panel pass over what a slider has moved on from meanwhile.
+        """
+        if "state" in news:
+            news["state"] = {**news["state"], "mark": self.mark}
+        for panel in self.panels:
+            panel.show(**news)
+
+    def show_links(self) -> None:
+        """Bring the bar up to date: the address, and what can be undone."""
+        if self.share.state != (state := self.bookmarks.state()):
+            self.share.state = state
+
+    # The scene
+
+    def change_scene(self, message: Any) -> None:
+        """Take a message of the controls: numbers, choices, a reset, a file."""
+        if (text := message.get("search")) is not None:
+            listed, show = self.editor.listed, self.controls.send
+            self._page.in_background(
+                lambda: listed.search(text), lambda found: show({"found": found})
+            )
+            return
+        self.mark = message.get("mark", self.mark)
+        if compiling.STATICS in compiling.left():
+            self._page.draw()  # sliders do not move yet, and the mark is answered
+            return
+        try:
+            if "reset" in message:
+                self.editor.take_preset(self.editor.preset)
+                self.show_controls(state=self.editor.state())
+            if "choose" in message:
+                refused = self.editor.choose(message["choose"])
+                self.show_controls(
+                    state=self.editor.state(), **({"refused": refused} if refused else {})
+                )
+            if "set" in message:
+                self._set(message["set"], confirm=False)
+            if "typed" in message:
+                self._set(message["typed"], confirm=True)
+            rests = "typed" in message or "released" in message
+            if rests and (narrowed := self.editor.narrow()):
+                self.show_controls(state=self.editor.state(narrowed))
+            self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
+            self._open_file(
+                message.get("catalogue"), MOST_BYTES, read_table, self.editor.listed.take
+            )
+        finally:
+            if self.bookmarks.follow(message):
+                self.show_links()
+            self._page.draw()  # even a refusal is answered, or the browser would wait for its mark
+
+    def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
+        """Take numbers; what is refused stays as it was, with a sentence.
+
+        A slider knows where it is; what was typed is confirmed as it was understood.
+        """
+        editor = self.editor
+        was_changed, waited = editor.changed, bool(editor.draft)
+        refused, changed = editor.set(given)
+        names = [name for name in changed if name not in given]
+        names += [name for name in editor.draft if name not in names]
+        if confirm:
+            names += [name for name in given if name in editor.values and name not in refused]
+        if names or waited or was_changed != editor.changed:
+            self.show_controls(state=editor.state(names))
+        if refused:
+            self.show_controls(refused=refused)
+
+    def _take_floor(self, name: str, found: Any) -> None:
+        self.editor.take_floor(name, *found)
+        self.bookmarks.step()
+
+    def _open_file(
+        self,
+        file: Mapping[str, str] | None,
+        longest: int,
+        read: Callable[[str], Found],
+        take: Callable[[str, Found], object],
+    ) -> None:
+        """Read the text of a file off the event loop, as it may be long, and take its content.
+
+        `longest` [characters]: one more is read, so that the reader sees that there are too many.
+        """
+        if file is not None:
+            name, text = file["name"], file["text"][: longest + 1]
+            self._page.in_background(
+                lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
+            )
+
+    def _taken(self, take: Callable[[str, Found], object], name: str, found: Found) -> None:
+        take(name, found)
+        self.show_controls(state=self.editor.state())
+        self.show_links()
+        self._page.draw()
+
+    # The bar above the controls
+
+    def change_links(self, message: Any) -> None:
+        """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
+        if "keep" in message:
+            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
+        if message.get("want") == "toml":
+            self.share.answer(file=self.bookmarks.toml())
+        if "report" in message and not self._reporting:
+            self._report(message["report"][:_LONGEST_LINK], message)
+        if "mark" not in message:
+            return
+        if self.bookmarks.go(message):
+            self.show_controls(state=self.editor.state())
+        self.bookmarks.change_compared(message)
+        if (wanted := open_request_of(message)) is not None:
+            self._page.in_background(
+                lambda: read_request(wanted),
+                lambda found: self._taken(
+                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
+                ),
+            )
+        self.change_scene(message)  # the mark, and a reset
+
+    def open_link(self, name: str, text: str) -> None:
+        """Open what a link of the page's own holds, and its tab."""
+        request = OpenRequest("open", name, text)
+        place = read_request(request)
+        self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
+        if isinstance(place, Place):
+            self._page.show_tab({"show": place.tab})
+
+    def _report(self, base: str, words: Mapping[Any, Any]) -> None:
+        """Make a report; `base` is the address of the page without its query.
+
+        `words` may hold a title, the machine and remarks, and that it is of the measured signal.
+        """
+        title, machine, remarks = (
+            words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
+        )
+        link = f"{base}?{self.bookmarks.state()['address']}"
+        about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
+        parts = self._page.for_report()
+        on_signal = self.report_on_signal(about) if words.get("measured") else None
+        if isinstance(on_signal, str):
+            self.bookmarks.say(f"No report: {on_signal}")
+            self.show_links()
+            return
+
+        def make() -> dict[str, Any] | None:
+            try:
+                return report(*parts, about) if on_signal is None else on_signal()
+            except Exception:
+                log.exception("a report failed")
+                return None
+
+        def take(made: dict[str, Any] | None) -> None:
+            self._reporting = False
+            self.share.answer(report=made)
+
+        self._reporting = True
+        self._page.in_background(make, take)
+
+    # Lessons
+
+    def _open_lesson_of_link(self) -> None:
+        """Open the lesson that the address names; with its scene where the address has none."""
+        name = self.bookmarks.lesson
+        if not name:
+            return
+        lesson = self.lesson.begin(name)
+        if lesson is None:
+            self.bookmarks.lesson = ""
+            self.bookmarks.say(f"There is no lesson “{name}” here.")
+        else:
+            self.lesson.open_first = True
+            if not self.bookmarks.has_scene:
+                lesson.begin(self.editor)
+                self.bookmarks.begin_anew(lesson.tab)
+        self.share.state = self.bookmarks.state()
+
+    def change_lesson(self, message: Any) -> None:
+        """A lesson begins, is shown again or closed, or a button among its words is pressed."""
+        words_only = "words_only" in message
+        closed = message.get("lesson") == ""
+        lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        if lesson is not None or closed:
+            self.bookmarks.lesson = "" if lesson is None else lesson.name
+        if not (words_only or closed):
+            if lesson is not None:
+                lesson.begin(self.editor)
+                self.show_controls(state=self.editor.state())
+            self._page.show_tab(message if lesson is None else {"show": lesson.tab})
+        self.change_scene(message)  # the mark, and what a button changes
+        if "simulate" in message and not (words_only or closed):
+            wish = message["simulate"]
+            self.simulate(wish["noise"], wish["machine"], wish["pit"])

@@ -1,0 +1,309 @@
+"""A scene's motion without and with the mass of its balls: what mass adds, when, and where."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bearingcore as core
+from bearing_explorer.explorer.results.excerpt import (
+    Event,
+    acceleration_columns,
+    excerpt_of,
+    why_ended,
+)
+from bearingcore import Motion, Scene
+from bearingcore.common.numbers import level_difference
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.ball_comparison import (
+    QUIET,
+    SETTLING,
+    BallComparison,
+    compared_directions,
+)
+from bearingcore.dynamics.ball_comparison import compare_motions as compare_bands
+from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
+from bearingcore.scene.defect import RACES
+from bearingcore.statics.passes import path_kinks
+
+Array = NDArray[np.float64]
+
+LOWEST_OCTAVE = 250.0
+"""[Hz] at which the lowest octave begins: eight lines of the spectra to it."""
+
+BEFORE, AFTER = 0.4, 1.1
+"""Parts of the time that a ball takes through the defect that are shown before it enters and after
+it leaves."""
+SHORTEST_LOOK = 1e-3
+"""[s] that is shown at least."""
+
+PARTS = 4
+"""Into which the settled motion is cut to see how much the powers of octaves scatter."""
+SHORTEST_PART = 4096  # samples
+
+LATE = 1.5
+"""Within how many times its way through the defect a ball strikes that counts as its strike."""
+
+HARD, MOST_STRIKES = 0.4, 2
+"""Load of a strike over that of the hardest on its race from which on it is shown, and how many of
+a race at most. Elastic loads: the dashpot of a contact adds most of what the housing feels."""
+
+ENOUGH_PASSES = (3.0, 1.0, 0.6)
+"""Ball passes out of which the stretch is taken; fewer where the motion is too short for more."""
+
+
+@dataclass(frozen=True)
+class BallMass:
+    """Two motions of one scene, massless balls and balls with mass, over the same time.
+
+    Attributes
+    ----------
+    scene, sample_rate [Hz], bandwidth [Hz], samples, settled, first
+        what moves, for how many samples; from which on it counts as settled, and which is the first
+        of `time`.
+    step_rates : {balls: step rate} [Hz]
+    broke_off
+        why one of the motions ended early; empty if none did.
+    time : (n,) [s]
+        of a stretch around a ball's way through the defect; it enters at 0.
+    massless, with_mass : {dof: (n,)} [m/s²]
+        acceleration of the housing.
+    balls : (k,), loads : (2, n, k) [N]
+        the balls that enter or leave, counted from 0, and their loads at the inner and outer race.
+    events, flights
+        of these balls.
+    strikes
+        the hard ones, of the ball that enters at 0, on a race that it has let go of.
+    far_edge [s]
+        when that ball meets the far edge, where it lets go of neither race; else NaN.
+    octaves : (m + 1,) [Hz], share : (m,), spread : (m,)
+        edges, share of the power along x and y that mass adds, 1 − P(massless)/P(with mass), and
+        its standard error over parts of the motion, NaN where that is too short for it.
+    added : (m,) [dB]
+        the same as a ratio of powers.
+    comparison
+        up to which frequency massless balls will do; None where the motions are too short for it.
+    quiet : (m,)
+        True where there is next to no power against the loudest octave.
+    """
+
+    scene: Scene
+    sample_rate: float
+    bandwidth: float
+    samples: int
+    settled: int
+    first: int
+    step_rates: dict[str, float]
+    broke_off: str
+    time: Array
+    massless: dict[str, Array]
+    with_mass: dict[str, Array]
+    balls: NDArray[np.int64]
+    loads: Array
+    events: tuple[Event, ...]
+    flights: tuple[Flight, ...]
+    strikes: tuple[Strike, ...]
+    far_edge: float
+    octaves: Array
+    share: Array
+    spread: Array
+    added: Array
+    quiet: NDArray[np.bool_]
+    comparison: BallComparison | None
+
+    def table(self) -> ResultTable:
+        """A row a time: acceleration without and with mass, loads of the balls at both races."""
+        loads = [
+            (f"ball_{ball + 1}_{race}_race_load", "N", load[:, k])
+            for k, ball in enumerate(self.balls)
+            for race, load in zip(RACES_OF_LOADS, self.loads, strict=True)
+        ]
+        return table_of(
+            ("time", "s", self.time),
+            *acceleration_columns("massless_", self.massless),
+            *acceleration_columns("with_mass_", self.with_mass),
+            *loads,
+        )
+
+    def share_table(self) -> ResultTable:
+        """A row an octave: the share of the power that mass adds."""
+        return table_of(
+            ("lowest_frequency", "Hz", self.octaves[:-1]),
+            ("highest_frequency", "Hz", self.octaves[1:]),
+            ("mass_share", "1", self.share),
+            ("mass_share_standard_error", "1", self.spread),
+            ("added", "dB", self.added),
+            ("quiet", "", self.quiet),
+        )
+
+    @property
+    def entry(self) -> Event | None:
+        """The ball that enters at 0."""
+        return _entry(self.events)
+
+    @property
+    def exit(self) -> Event | None:
+        """The same ball as it leaves."""
+        return _exit(self.events)
+
+    @property
+    def free_share(self) -> float:
+        """Share of the shown time of the shown balls that is free flight."""
+        return float((self.loads <= 0.0).all(axis=0).mean())
+
+
+def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
+    """Compare two motions of equal duration and sample rate, settled `since` [s]."""
+    scene, rate = heavy.scene, heavy.sample_rate
+    for passes in ENOUGH_PASSES:
+        whole = excerpt_of(scene, heavy, since, n_passes=passes)
+        if _entry(whole.events) is not None:
+            break
+    start, end = _look(whole.events, whole.time)
+    begin = round((whole.motion_time + start) * rate)
+    stop = min(max(round((whole.motion_time + end) * rate), begin + 2), len(heavy.time))
+    time = heavy.time[begin:stop] - whole.motion_time
+    events = tuple(event for event in whole.events if start <= event.time <= end)
+    balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
+    balls = balls if balls.size else whole.balls
+    loads = heavy.race_loads(begin, stop)[:, :, balls]
+    struck = _strikes(time, loads, balls, events)
+    dofs = compared_directions(heavy.dofs)
+    columns = [heavy.dofs.index(dof) for dof in dofs]
+    seen = [
+        dict(zip(dofs, motion.outer_acceleration[begin:stop, columns].T, strict=True))
+        for motion in (massless, heavy)
+    ]
+    first = math.ceil(since * rate - 1e-6)
+    late = [motion.outer_acceleration[first:, columns] for motion in (massless, heavy)]
+    finite = all(np.isfinite(signal).all() for signal in late)
+    bandwidth = min(massless.bandwidth, heavy.bandwidth)
+    octaves = _octaves(bandwidth)
+    both = [core.spectrum(s, rate).up_to(bandwidth) for s in late] if finite and dofs else []
+    power = [found.powers(octaves).sum(axis=1) for found in both] or [
+        np.full(len(octaves) - 1, math.nan)
+    ] * 2
+    added = level_difference(power[1], power[0])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = 1.0 - power[0] / power[1]
+    return BallMass(
+        scene=scene,
+        sample_rate=rate,
+        bandwidth=bandwidth,
+        samples=len(heavy.time),
+        settled=first,
+        first=begin,
+        step_rates={motion.scene.balls: motion.step_rate for motion in (massless, heavy)},
+        broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
+        time=time,
+        massless=seen[0],
+        with_mass=seen[1],
+        balls=balls,
+        loads=loads,
+        events=events,
+        flights=tuple(
+            Flight(int(balls[flight.ball]), flight.begin, flight.end)
+            for flight in flights(time, loads)
+        ),
+        strikes=struck,
+        far_edge=math.nan if struck else _far_edge(scene, events, whole.motion_time),
+        octaves=octaves,
+        share=share,
+        spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),
+        added=added,
+        quiet=power[1] < QUIET * np.max(power[1], initial=0.0),
+        comparison=_comparison(massless, heavy),
+    )
+
+
+def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
+    """Up to which frequency massless balls will do; None where motions are too short."""
+    enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
+    if not (enough and massless.completed and heavy.completed):
+        return None
+    return compare_bands(massless, heavy)
+
+
+def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
+    """From when to when [s] the way of the ball is shown that enters at 0."""
+    last = _exit(events)
+    if last is None:
+        return float(time[0]), float(time[-1])
+    leaves = last.time
+    start = max(float(time[0]), -max(BEFORE * leaves, 0.3 * SHORTEST_LOOK))
+    end = leaves + max(AFTER * leaves, 0.7 * SHORTEST_LOOK)
+    return start, min(float(time[-1]), end)
+
+
+def _entry(events: tuple[Event, ...]) -> Event | None:
+    return next((e for e in events if e.enters and abs(e.time) < 1e-8), None)
+
+
+def _exit(events: tuple[Event, ...]) -> Event | None:
+    """The ball that enters at 0, as it leaves."""
+    entry = _entry(events)
+    if entry is None:
+        return None
+    return next((e for e in events if not e.enters and e.ball == entry.ball and e.time > 0.0), None)
+
+
+def _strikes(
+    time: Array, loads: Array, balls: NDArray[np.int64], events: tuple[Event, ...]
+) -> tuple[Strike, ...]:
+    """The hard strikes on each race of the ball that enters at 0, on its way through the defect."""
+    entry, leaves = _entry(events), _exit(events)
+    if entry is None:
+        return ()
+    slot = int(np.flatnonzero(balls == entry.ball)[0])
+    until = float(time[-1]) if leaves is None else LATE * leaves.time
+    own = [s for s in strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
+    found = []
+    for race in RACES:
+        there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
+        found += [
+            dataclasses.replace(strike, ball=entry.ball)
+            for strike in there
+            if strike.load >= HARD * there[0].load
+        ]
+    return tuple(sorted(found, key=lambda strike: strike.time))
+
+
+def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
+    """Time [s] at which the ball that enters at 0 meets the far edge; NaN if no edge gives it.
+
+    `zero`: [s] of the motion at which it enters.
+    """
+    leaves = _exit(events)
+    if leaves is None:
+        return math.nan
+    first = scene.cage_speed * zero
+    last = first + scene.cage_speed * leaves.time
+    margin = 1e-6 * (last - first)
+    corners = path_kinks(scene, first + margin, last - margin)
+    return float((corners[-1] - first) / scene.cage_speed) if corners.size else math.nan
+
+
+def _octaves(bandwidth: float) -> Array:
+    """Edges [Hz] of octaves; the last band, of half an octave or more, ends where signals do."""
+    count = math.floor(math.log2(bandwidth / LOWEST_OCTAVE))
+    edges = LOWEST_OCTAVE * 2.0 ** np.arange(count + 1, dtype=np.float64)
+    return np.append(edges, bandwidth) if bandwidth > math.sqrt(2.0) * edges[-1] else edges
+
+
+def _spread(late: list[Array], rate: float, edges: Array) -> Array:
+    """Standard error (m,) of the share, from parts of the motion that are taken one by one."""
+    length = len(late[0]) // PARTS
+    if length < SHORTEST_PART:
+        return np.full(len(edges) - 1, math.nan)
+    shares = []
+    for part in range(PARTS):
+        cut = slice(part * length, (part + 1) * length)
+        massless, heavy = (core.spectrum(s[cut], rate).powers(edges).sum(axis=1) for s in late)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shares.append(1.0 - massless / heavy)
+    scatter: Array = np.asarray(np.std(np.stack(shares), axis=0, ddof=1), dtype=np.float64)
+    return np.asarray(scatter / math.sqrt(PARTS))

@@ -1,0 +1,170 @@
+"""One scene from the loads of its balls to the vibration of its housing, a few numbers a link."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bearing_explorer.explorer.results.excerpt import why_ended
+from bearing_explorer.kit.compute.compiling import StillCompiling
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.statics.ranges import BALL_LOAD
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+    from bearingcore import Equilibrium, Scene, Spectrum
+
+PEAK_BAND = (100.0, 2500.0)
+"""[Hz] where the loudest line of a spectrum is looked for."""
+LEVEL_FLOOR = 1e-20
+"""[(m/s²)²/Hz] below which a housing does not move at all."""
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The highest line within `PEAK_BAND`.
+
+    Attributes
+    ----------
+    frequency, resolution : [Hz]
+    level : [dB re 1 (m/s²)²/Hz]
+    """
+
+    frequency: float
+    level: float
+    resolution: float
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Results of a scene at each link of the chain, over all positions of the bearing.
+
+    Attributes
+    ----------
+    answered
+        part of the positions that have an equilibrium; `reason` is why the first of the others
+        has none.
+    off_line : [rad]
+        mean angle between the balls and the direction of the radial load, each ball weighted by
+        its load. NaN without a radial load.
+    direction : [rad]
+        of the radial load; NaN without one.
+    greatest_load : [N]
+        of a ball.
+    loaded_balls
+        mean number.
+    stiffness
+        mean of the diagonal term of each free direction, by the term's name [N/m or N·m/rad].
+    bands
+        least and greatest natural frequency of each mode [Hz], by its label; empty where the
+        support is not known well enough.
+    peaks
+        loudest line of the housing's acceleration along x and y, where they are free; empty
+        without a motion, and `silent` then says why.
+    """
+
+    answered: float
+    reason: str
+    off_line: float
+    direction: float
+    greatest_load: float
+    loaded_balls: float
+    stiffness: dict[str, float]
+    bands: dict[str, tuple[float, float]]
+    peaks: dict[str, Peak]
+    silent: str
+
+    @property
+    def loudest(self) -> str:
+        """The direction with the highest peak; nothing without peaks."""
+        return max(self.peaks, key=lambda dof: self.peaks[dof].level, default="")
+
+    def table(self) -> ResultTable:
+        """One row."""
+        return table_of(
+            ("off_line", "rad", [self.off_line], "mean angle of the loads off their line"),
+            ("greatest_load", "N", [self.greatest_load], "greatest load of a ball"),
+            ("loaded_balls", "1", [self.loaded_balls], "mean number of balls with a load"),
+            *(
+                (term, TERM_UNITS[term], [value], "mean over all positions")
+                for term, value in self.stiffness.items()
+            ),
+            *(
+                (f"{label}_{end}", "Hz", [band[i]], f"natural frequency of mode {label}")
+                for label, band in self.bands.items()
+                for i, end in enumerate(("least", "most"))
+            ),
+            *(
+                (f"peak_{dof}", "Hz", [peak.frequency], f"loudest line along {dof}")
+                for dof, peak in self.peaks.items()
+            ),
+            *(
+                (f"peak_level_{dof}", "dB", [peak.level], "re 1 (m/s²)²/Hz")
+                for dof, peak in self.peaks.items()
+            ),
+        )
+
+
+def chain(results: Results) -> Chain:
+    """The chain of the scene that `results` are of."""
+    ranges = results.ranges
+    found = ranges.state
+    bad = np.flatnonzero(~found.converged)
+    bands: dict[str, tuple[float, float]] = {}
+    peaks: dict[str, Peak] = {}
+    silent = ""
+    try:
+        bands = {label: band for label, band in results.bands.items() if math.isfinite(band[0])}
+        turns = results.scene.shaft_speed > 0.0
+        spectra = results.late_spectra if turns else {}
+        peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
+        if not spectra:
+            silent = why_ended(results.motion) if turns else "nothing turns"
+    except StillCompiling:
+        raise
+    except ValueError as error:
+        silent = str(error)
+    terms = [f"k_{dof}{dof}" for dof in found.dofs]
+    return Chain(
+        answered=1.0 - float(found.shares[bad].sum()),
+        reason=found.reason(int(bad[0])) if bad.size else "",
+        off_line=off_line(found, results.scene),
+        direction=direction(results.scene),
+        greatest_load=ranges.greatest[BALL_LOAD],
+        loaded_balls=ranges.mean(np.where(found.converged, found.loaded_balls, math.nan)),
+        stiffness={term: ranges.mean(found.term(term)) for term in terms},
+        bands=bands,
+        peaks=peaks,
+        silent=silent,
+    )
+
+
+def off_line(found: Equilibrium, scene: Scene) -> float:
+    """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
+    load = scene.load
+    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    total = carried.sum()
+    if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
+        return math.nan
+    apart = found.ball_angle - math.atan2(load.fy, load.fx)
+    apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
+    return float((carried * apart).sum() / total)
+
+
+def direction(scene: Scene) -> float:
+    """Direction of the radial load [rad]; NaN without one."""
+    load = scene.load
+    return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
+
+
+def loudest(spectrum: Spectrum) -> Peak:
+    """The highest line of one direction within `PEAK_BAND`."""
+    frequency, density = spectrum
+    inside = np.flatnonzero((frequency >= PEAK_BAND[0]) & (frequency <= PEAK_BAND[1]))
+    most = inside[np.argmax(density[inside])]
+    level = 10.0 * math.log10(max(float(density[most]), LEVEL_FLOOR))
+    return Peak(float(frequency[most]), level, float(frequency[1] - frequency[0]))

@@ -1,0 +1,144 @@
+"""The races of a scene with its defects at a cage angle, for shading and drawing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import cached
+from bearingcore import Scene
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.passes import ball_drop
+
+TWO_PI = 2.0 * math.pi
+POINTS = 721
+MARGIN = 0.35  # of the extent, on either side
+LEAST_WIDTH = math.radians(12.0)
+
+
+class Span(NamedTuple):
+    """A stretch of a race that is missing: first edge and extent [rad], depth [m]."""
+
+    start: float
+    extent: float
+    depth: float
+    race: str
+    row: int | None = None
+
+    def meets(self, row: int | None) -> bool:
+        """Whether balls of a row meet it; None: of any row."""
+        return row is None or self.row is None or self.row == row
+
+
+def spans(scene: Scene, cage_angle: float, row: int | None = None) -> list[Span]:
+    """The defects of `scene` with the cage at `cage_angle` [rad]; `start` between 0 and 2π.
+
+    An inner-race defect has turned with the shaft, further than the cage. `row` asks for those
+    that the balls of that row meet.
+    """
+    return [
+        Span(
+            start=(
+                defect.center + defect.turn_ratio(scene.bearing) * cage_angle - 0.5 * defect.extent
+            )
+            % TWO_PI,
+            extent=defect.extent,
+            depth=defect.depth,
+            race=defect.race,
+            row=defect.row,
+        )
+        for defect in scene.defects
+        if row is None or defect.row in (None, row)
+    ]
+
+
+def pieces(span: Span) -> list[tuple[float, float]]:
+    """`span` as intervals within 0 to 2π [rad]: two where it lies across 0."""
+    end = span.start + span.extent
+    if end <= TWO_PI:
+        return [(span.start, end)]
+    return [(span.start, TWO_PI), (0.0, end - TWO_PI)]
+
+
+def race_depth(
+    scene: Scene, cage_angle: float, race: str, angle: ArrayLike, row: int | None = None
+) -> NDArray[np.float64]:
+    """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut.
+
+    `row`: of that row's race alone.
+    """
+    angles = np.asarray(angle, dtype=float)
+    depth = np.zeros_like(angles)
+    for defect in scene.defects:
+        if defect.race == race and (row is None or defect.row in (None, row)):
+            turned = angles - defect.turn_ratio(scene.bearing) * cage_angle
+            depth = np.maximum(depth, defect.surface(turned, scene.bearing))
+    return depth
+
+
+def _walls(found: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
+    """A pair of angles [rad] at every edge of a race, so that walls are drawn upright."""
+    ends = [
+        at
+        for span in found
+        if span.race == race and span.meets(row)
+        for at in (span.start, span.start + span.extent)
+    ]
+    return np.add.outer(ends, [-1e-9, 1e-9]).ravel()
+
+
+def race_angles(found: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
+    """Angles [rad] from 0 to 2π that draw `race` with upright walls."""
+    return np.sort(np.append(np.linspace(0.0, TWO_PI, n), _walls(found, race) % TWO_PI))
+
+
+@dataclass(frozen=True)
+class Profile:
+    """angle (n,) [rad], rising, perhaps past 2π; depth of the race and drop of the ball [m].
+
+    Of the race of one `row`, counted from 0.
+    """
+
+    race: str
+    angle: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    path: NDArray[np.float64]
+    row: int = 0
+
+    def table(self) -> ResultTable:
+        """A row an angle: depth of the race, and how far the ball's centre drops."""
+        return table_of(
+            ("angle", "rad", self.angle),
+            ("race_depth", "m", self.depth),
+            ("ball_center_drop", "m", self.path),
+        )
+
+
+@cached
+def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
+    """Profile around the defect `focus` of `scene` with the cage at `cage_angle` [rad]."""
+    compiling.need(compiling.STATICS)
+    found = spans(scene, cage_angle)
+    if not found:
+        angle = np.linspace(1.5 * math.pi - LEAST_WIDTH, 1.5 * math.pi + LEAST_WIDTH, 3)
+        return Profile("outer", angle, np.zeros(3), np.zeros(3))
+    first = found[focus]
+    middle = first.start + 0.5 * first.extent
+    row = first.row or 0
+    half = min(max((0.5 + MARGIN) * first.extent, LEAST_WIDTH), math.pi)
+    low = middle - half
+    walls = low + (_walls(found, first.race, row) - low) % TWO_PI
+    walls = walls[walls <= low + 2.0 * half]
+    angle = np.sort(np.append(np.linspace(low, low + 2.0 * half, POINTS), walls))
+    return Profile(
+        first.race,
+        angle,
+        race_depth(scene, cage_angle, first.race, angle, row),
+        ball_drop(scene, angle, cage_angle, first.race, row),
+        row,
+    )

@@ -1,0 +1,178 @@
+"""Life of a bearing, pressure on its races, and thickness of the oil film."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import cached
+from bearing_explorer.kit.sentences import sentence_of
+from bearingcore import (
+    ContactPressures,
+    Equilibrium,
+    Film,
+    Life,
+    Limit,
+    Scene,
+    contact_pressures,
+    dynamic_load_rating,
+    film,
+    life,
+)
+from bearingcore import limits as limits_of
+from bearingcore.bearings.ball import USUAL_GROOVES
+from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
+from bearingcore.statics.validity import looked_at
+
+ASSUMED_GROOVES = (
+    f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
+    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. "
+    "Enter yours on the Machine tab, under Bearing."
+)
+ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
+ASSUMED_VISCOSITY = 0.02
+"""[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
+
+
+@dataclass(frozen=True)
+class LifeInputs:
+    """Steel, oil and surfaces as entered under Life.
+
+    dynamic_load_rating
+        C_r [N] of the catalogue; None: computed by ISO 281.
+    viscosity [Pa·s]
+        of the oil where it is drawn in, at its temperature; None: not known, and then a film is
+        shown for `ASSUMED_VISCOSITY` but no limit of the scene judged by it.
+    race_roughness, ball_roughness [m]
+        root mean square.
+    """
+
+    dynamic_load_rating: float | None = None
+    viscosity: float | None = None
+    race_roughness: float = 0.1e-6
+    ball_roughness: float = 0.05e-6
+
+
+@dataclass(frozen=True)
+class Endurance:
+    """Life, pressures and film of a scene; each that is None comes with a reason.
+
+    life, pressures, film
+        the core's answers.
+    healthy
+        the life without the defects.
+    assumed
+        what these answers assume of a bearing whose groove radii are not known, or whose inside is
+        estimated; empty otherwise.
+    rating [N], rating_words
+        the dynamic load rating that was used, and where it comes from.
+    no_life, no_pressures, no_film
+        why there is none; empty where there is one.
+    """
+
+    life: Life | None
+    healthy: Life | None
+    no_life: str
+    rating: float | None
+    rating_words: str
+    pressures: ContactPressures | None
+    no_pressures: str
+    film: Film | None
+    no_film: str
+    assumed: str
+
+
+@cached
+def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
+    """Life, contact pressures and film of a scene."""
+    compiling.need(compiling.STATICS)
+    with_grooves = with_usual_grooves(scene)
+    told = [ESTIMATED] if scene.bearing.estimated else []
+    assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
+    scene = with_grooves or scene
+    rating, rating_words = inputs.dynamic_load_rating, "given"
+    no_life = ""
+    if rating is None:
+        try:
+            rating = dynamic_load_rating(scene.bearing)
+            rating_words = "computed from the dimensions by ISO 281"
+        except ValueError:
+            rating_words = ""
+            no_life = (
+                "The standard's rating of this kind of bearing is not computed here: enter that of "
+                "the catalogue."
+            )
+    lasting = healthy = None
+    if rating is not None:
+        try:
+            lasting = life(scene, rating, positions="all")
+            healthy = life(scene.healthy(), rating, positions="all")
+        except ValueError as error:
+            no_life = sentence_of(error)
+    state = looked_at(scene)
+    pressures, no_pressures = None, ""
+    try:
+        pressures = contact_pressures(scene, state)
+    except ValueError as error:
+        no_pressures = sentence_of(error)
+    oil, no_film = None, ""
+    try:
+        oil = film_of(scene, inputs, state)
+    except ValueError as error:
+        no_film = sentence_of(error)
+    return Endurance(
+        *(lasting, healthy, no_life, rating, rating_words),
+        *(pressures, no_pressures, oil, no_film, assumed),
+    )
+
+
+def with_usual_grooves(scene: Scene) -> Scene | None:
+    """The scene with usual groove radii, where its own are not known and its loads stay the same.
+
+    That is so for a row of balls without contact angle under a radial load: the distance of the
+    groove centres has no effect there. None otherwise.
+    """
+    bearing, load = scene.bearing, scene.load
+    if bearing.knows_contacts or bearing.rows or bearing.kind.line_contact:
+        return None
+    if bearing.contact_angle != 0.0 or (load.fz, load.mx, load.my) != (0.0, 0.0, 0.0):
+        return None
+    ball = bearing.ball_diameter
+    return scene.replace(
+        bearing=bearing.replace(
+            inner_groove_radius=USUAL_GROOVES["inner"] * ball,
+            outer_groove_radius=USUAL_GROOVES["outer"] * ball,
+            groove_center_distance=(sum(USUAL_GROOVES.values()) - 1.0) * ball,
+            youngs_modulus=STEEL_MODULUS,
+            poisson=STEEL_POISSON,
+        )
+    )
+
+
+def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium) -> Film:
+    """The film of a scene with the oil of `inputs`; ValueError as of `film`."""
+    return film(
+        scene,
+        viscosity=inputs.viscosity or ASSUMED_VISCOSITY,
+        roughness_inner=inputs.race_roughness,
+        roughness_outer=inputs.race_roughness,
+        roughness_ball=inputs.ball_roughness,
+        state=state,
+    )
+
+
+@cached
+def limits(
+    scene: Scene, step_rate: float | None, dynamic_load: float | None, inputs: LifeInputs
+) -> tuple[Limit, ...]:
+    """Effects that the model leaves out of a scene, each with its number and its limit.
+
+    `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, are those of a simulated
+    motion; None: there is none.
+    """
+    compiling.need(compiling.STATICS)
+    state = looked_at(scene)
+    oil = None
+    if inputs.viscosity is not None and scene.bearing.knows_contacts:
+        oil = film_of(scene, inputs, state)
+    return limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)

@@ -1,0 +1,436 @@
+"""Maps of one output over the plane of two quantities: outputs, levels of refinement, progress.
+
+A map is refined by halving the distance of its points: each level holds the points of the level
+before, which are not computed again. How fine it gets is a matter of cost: the price of a scene is
+guessed first and measured then, and what would take too long is refused with a sentence.
+
+What is not known has a reason instead of a number. Holds no Panel and draws nothing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import itertools
+import math
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.state.value_range import Sweep
+from bearing_explorer.kit.compute.cache import cached
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.sentences import sentence_of
+from bearingcore import DOF_NAMES, Scene
+from bearingcore.common.lazy import cached_property
+from bearingcore.common.numbers import number
+from bearingcore.diagnosis.size.sizing_error import extent_error
+from bearingcore.sweep.grid import Axis, Grid, StillDirectionError
+from bearingcore.sweep.outputs import (
+    LIFE,
+    MASS,
+    MODES,
+    OUTPUTS,
+    SECONDS,
+    STATICS,
+    Settings,
+    mode_labels,
+    mode_symbol,
+)
+from bearingcore.sweep.status import STATUSES, SweepStatus
+from bearingcore.units import UNITS
+
+Array = NDArray[np.float64]
+
+FINEST = (65, 49)
+"""Points to the right and upwards of the finest map."""
+STRIDES = (16, 8, 4, 2, 1)
+"""Of the levels: every so many-th of the finest points."""
+SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
+"""Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
+
+BUDGET = 120.0
+"""[s] that a map may take."""
+
+LOWEST_BAND, NARROWEST_BAND = 100.0, 1.1
+"""[Hz] at which a band begins at the lowest, and how many times its beginning its end is at least:
+a few lines of a spectrum."""
+
+_SIZING = "sizing"
+_SECONDS = {**SECONDS, _SIZING: 0.6}
+_QUICK = (STATICS, LIFE, MODES)
+"""Computations of which a first level is there while a slider is dragged."""
+_CHUNK = 0.1  # [s] between two looks at whether to go on
+_SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
+_SETTINGS = Settings()
+
+NOT_COMPUTED = "not computed"
+
+
+@dataclass(frozen=True)
+class MapOutput:
+    """Something that can be mapped.
+
+    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode`
+    the mode that it is of. `unit_si`: how much one `unit` is in SI. `band` [Hz] is that of powers
+    where it can be chosen, None where it cannot.
+    """
+
+    name: str
+    group: str
+    label: str
+    unit: str
+    needs: str
+    in_sweep: str = ""
+    mode: str = ""
+    unit_si: float = 1.0
+    band: tuple[float, float] | None = None
+
+    @property
+    def settings(self) -> Settings:
+        """Settings of the sweep that computes it."""
+        if self.band is None:
+            return _SETTINGS
+        return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
+
+    def in_band(self, low: float, high: float) -> MapOutput:
+        """The same between two frequencies [Hz]; ValueError with a sentence for others."""
+        most = 0.5 * _SETTINGS.sample_rate
+        if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
+            raise ValueError(
+                f"A band lies between {LOWEST_BAND / 1e3:g} and {number(most / 1e3, 4)} kHz, and "
+                f"its upper end is at least {NARROWEST_BAND:g} times its lower end."
+            )
+        label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
+        return dataclasses.replace(self, label=label, band=(low, high))
+
+    @property
+    def column(self) -> str:
+        """Its name with its unit, for a table."""
+        suffix = UNITS[self.unit].suffix
+        return "_".join(filter(None, (self.name.replace(":", "_"), suffix)))
+
+
+def _all_outputs() -> dict[str, MapOutput]:
+    made = []
+    for name, output in OUTPUTS.items():
+        unit = "" if output.unit == "1" else output.unit
+        for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
+            label = output.label.format(mode_symbol(mode)) if mode else output.label
+            key = f"{name}:{mode}" if mode else name
+            band = (_SETTINGS.band_low, _SETTINGS.band_high) if output.needs == MASS else None
+            made.append(
+                MapOutput(key, output.group, label, unit, output.needs, name, mode, band=band)
+            )
+    made.append(
+        MapOutput(
+            "extent_error",
+            "Size from the signal",
+            "error of the extent from a simulated signal",
+            "°",
+            _SIZING,
+            unit_si=math.radians(1.0),
+        )
+    )
+    groups = list(dict.fromkeys(output.group for output in made))
+    made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
+    return {output.name: output for output in made}
+
+
+MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
+"""All that can be mapped, by name, in sorted groups: every output of a sweep, and the sizing."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A map to be computed: `output` over the values of `x` and `y`, all else as in `scene`.
+
+    `x` and `y` hold the values of the finest level. Two questions are equal where the answers are.
+    """
+
+    scene: Scene
+    x: Sweep = field(compare=False)
+    y: Sweep = field(compare=False)
+    output: MapOutput
+    places: tuple[object, ...] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        ends = tuple(
+            (s.field.key, float(s.values[0]), float(s.values[-1]), s.values.size)
+            for s in (self.x, self.y)
+        )
+        object.__setattr__(self, "places", ends)
+        first = {name: float(values[0]) for name, values in (self.x.in_si, self.y.in_si)}
+        with contextlib.suppress(ValueError):
+            # what the map goes over does not count
+            object.__setattr__(self, "scene", self.scene.replace(**first))
+
+    @property
+    def figure(self) -> tuple[object, ...]:
+        """All that its figure depends on besides the scene."""
+        return self.places, self.output
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The finest scenes; ValueError where none can be. Not for what a sweep cannot give."""
+        sides, name = dict([self.x.in_si, self.y.in_si]), self.output.in_sweep
+        try:
+            return Grid.of(self.scene, sides, [name], self.output.settings)
+        except StillDirectionError as error:
+            dof = OUTPUTS[name].dof
+            way = "tilt about" if dof.startswith("r") else "move along"
+            raise ValueError(f"The housing does not {way} {dof[-1]} in these scenes.") from error
+
+    @property
+    def at_once(self) -> bool:
+        """Whether the first level is quick enough to follow a slider."""
+        return self.output.needs in _QUICK
+
+    @property
+    def first_stride(self) -> int:
+        """Of the level to begin with: 9 × 7 points where they come at once, or else 5 × 4."""
+        return 8 if self.at_once else 16
+
+    def sides(self, stride: int) -> tuple[Sweep, Sweep]:
+        """The values of a level on both sides."""
+        return self.x.every(stride), self.y.every(stride)
+
+    def level(self, stride: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Indices of the finest columns and rows that belong to a level."""
+        columns, rows = (
+            np.arange(0, whole.values.size, 1 if part is whole else stride)
+            for whole, part in zip((self.x, self.y), self.sides(stride), strict=True)
+        )
+        return columns, rows
+
+    def size_words(self, stride: int) -> str:
+        """The points of a level, in words."""
+        x, y = self.sides(stride)
+        return f"{x.values.size} × {y.values.size} points"
+
+    def count(self, stride: int) -> int:
+        """Points of a level."""
+        columns, rows = self.level(stride)
+        return columns.size * rows.size
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A map as it was found on one level.
+
+    Attributes
+    ----------
+    question
+        output, axes and scene.
+    stride
+        of the level.
+    values : (ny, nx)
+        in the unit of the output; NaN where there is none.
+    reasons : (ny, nx)
+        why there is none; empty elsewhere.
+    """
+
+    question: Question
+    stride: int
+    values: Array
+    reasons: NDArray[np.object_]
+
+    @property
+    def x(self) -> Sweep:
+        """Values of the quantity to the right, (nx,)."""
+        return self.question.x.every(self.stride)
+
+    @property
+    def y(self) -> Sweep:
+        """Values of the quantity upwards, (ny,)."""
+        return self.question.y.every(self.stride)
+
+    @property
+    def missing(self) -> int:
+        """Points without a number."""
+        return int(np.isnan(self.values).sum())
+
+
+class Survey:
+    """All that is known of a map so far, on the finest grid."""
+
+    def __init__(self, question: Question, start: Plane | None = None) -> None:
+        self.question = question
+        shape = (question.y.values.size, question.x.values.size)
+        self._values = np.full(shape, math.nan)
+        self._reasons = np.full(shape, NOT_COMPUTED, dtype=object)
+        self._known = np.zeros(shape, dtype=bool)
+        self.spent = 0.0  # [s] so far
+        self._computed = 0
+        if start is not None:
+            columns, rows = question.level(start.stride)
+            at = np.ix_(rows, columns)
+            self._values[at], self._reasons[at] = start.values, start.reasons
+            self._known[at] = start.reasons != NOT_COMPUTED
+
+    @property
+    def seconds(self) -> float:
+        """Cost of a scene [s]: measured where something was computed, or else guessed."""
+        guess = _SECONDS[self.question.output.needs]
+        return self.spent / self._computed if self._computed >= 6 else guess
+
+    def affordable(self, stride: int) -> bool:
+        """Whether the map may be found on this level too."""
+        return self.spent + self.missing(stride) * self.seconds <= BUDGET
+
+    def missing(self, stride: int) -> int:
+        """Number of points of a level that are not known yet."""
+        columns, rows = self.question.level(stride)
+        return int((~self._known[np.ix_(rows, columns)]).sum())
+
+    def compute(self, stride: int, job: Work | None = None, last: int | None = None) -> bool:
+        """Find what is missing of a level; False where it was cancelled.
+
+        The level `last` is where the work is to end, for the progress. Where there is no picture
+        before, what is known so far is shown from time to time.
+        """
+        shown_at = time.perf_counter()
+        left = self.missing(stride if last is None else last)
+        whole = self._computed + left
+        for at in self._chunks(stride):
+            if job is not None and job.cancelled():
+                return False
+            started = time.perf_counter()
+            self._find(*at)
+            self.spent += time.perf_counter() - started
+            self._computed += at[0].size * at[1].size
+            if job is None:
+                continue
+            job.progress(self._computed / whole)
+            if stride == self.question.first_stride and started - shown_at > _SHOW_EVERY:
+                shown_at = started
+                job.show(self.plane(stride))
+        return True
+
+    def plane(self, stride: int) -> Plane:
+        """The map on a level."""
+        columns, rows = self.question.level(stride)
+        at = np.ix_(rows, columns)
+        return Plane(self.question, stride, self._values[at].copy(), self._reasons[at].copy())
+
+    def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+        """Rows and columns of what is missing, in blocks: lines of extents whole, as they are
+        solved together, others short enough for a job to be cancelled soon.
+        """
+        columns, rows = self.question.level(stride)
+        upright = self.question.y.field.name == "extent"
+        for fixed in columns if upright else rows:
+            line = rows if upright else columns
+            known = self._known[line, fixed] if upright else self._known[fixed, line]
+            left = line[~known]
+            most = left.size if self._in_rows else max(1, int(_CHUNK / self.seconds))
+            for start in range(0, left.size, max(most, 1)):
+                part, one = left[start : start + most], np.array([fixed])
+                yield (part, one) if upright else (one, part)
+
+    @property
+    def _in_rows(self) -> bool:
+        return bool(self.question.output.in_sweep) and self.question.grid.in_rows
+
+    def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
+        output = self.question.output
+        if not output.in_sweep:
+            for j, i in itertools.product(rows, columns):
+                self._put(j, i, *self._size(j, i))
+            return
+        grid = self.question.grid
+        x, y = grid.axes
+        axes = (Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
+        status, numbers = dataclasses.replace(grid, axes=axes).compute()
+        found = numbers[output.in_sweep]
+        if output.mode in grid.labels:
+            found = found[..., grid.labels.index(output.mode)]
+        elif output.mode:
+            found = np.full(status.shape, math.nan)
+        for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
+            value = float(found[a, b]) / output.unit_si
+            why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
+            self._put(j, i, value, why)
+
+    def _put(self, row: int, column: int, value: float, why: str) -> None:
+        self._values[row, column] = value if not why else math.nan
+        self._reasons[row, column] = why
+        self._known[row, column] = True
+
+    def _scene(self, row: int, column: int) -> Scene:
+        (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
+        return self.question.scene.replace(**{x: x_values[column], y: y_values[row]})
+
+    def _why(self, status: SweepStatus, row: int, column: int) -> str:
+        if status is SweepStatus.SCENE_REFUSED:
+            try:
+                self._scene(row, column)
+            except ValueError as error:
+                return sentence_of(error)
+        return status.sentence
+
+    def _size(self, row: int, column: int) -> tuple[float, str]:
+        """Error of a sizing, or why there is none."""
+        try:
+            found = extent_error(self._scene(row, column))
+        except ValueError as error:
+            return math.nan, sentence_of(error)
+        missed = found.error / self.question.output.unit_si
+        return missed, "" if math.isfinite(missed) else found.sizing.sentence
+
+
+@cached
+def coarse(question: Question) -> Plane:
+    """The first level of a map, for a slider that is dragged. ValueError where none can be."""
+    survey = Survey(question)
+    survey.compute(question.first_stride)
+    return survey.plane(question.first_stride)
+
+
+def refine(job: Work, question: Question, finest: int, start: Plane | None = None) -> str:
+    """One level after another up to the stride `finest`, each shown; returns what to say of it.
+
+    Goes on from `start` where it is given. ValueError, with a sentence, where even the first level
+    takes too long, or no scene of the map can be.
+    """
+    survey = Survey(question, start)
+    first = question.first_stride
+    if not survey.affordable(first):
+        raise ValueError(
+            f"Even {question.size_words(first)} would take {_duration(survey, first)}, more than "
+            f"the {BUDGET / 60.0:.0f} minutes allowed here: choose another output."
+        )
+    levels = [stride for stride in STRIDES if finest <= stride <= first]
+    shown = start
+    for stride in levels:
+        if not survey.missing(stride):
+            continue
+        if not survey.affordable(stride):
+            return (
+                f"{_found(shown, survey)} {question.size_words(stride)} would take "
+                f"{_duration(survey, stride)} more; a map may take {BUDGET / 60.0:.0f} minutes."
+            )
+        last = min(level for level in levels if survey.affordable(level))
+        if not survey.compute(stride, job, last):
+            break
+        shown = survey.plane(stride)
+        job.show(shown)
+    return _found(shown, survey)
+
+
+def _found(shown: Plane | None, survey: Survey) -> str:
+    question = survey.question
+    spent = f" after {survey.spent:.1f} s" if survey.spent else ""
+    if shown is not None:
+        return f"{question.size_words(shown.stride)}{spent}."
+    first = question.first_stride
+    known = question.count(first) - survey.missing(first)
+    return f"{known} of {question.size_words(first)}{spent}."
+
+
+def _duration(survey: Survey, stride: int) -> str:
+    seconds = survey.missing(stride) * survey.seconds
+    return f"about {seconds:.0f} s" if seconds < 90.0 else f"about {seconds / 60.0:.0f} minutes"

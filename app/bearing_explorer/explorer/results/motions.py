@@ -1,0 +1,261 @@
+"""Simulated motions and what is made of them, shared by all sessions.
+
+At rest a motion is marched with steps that resolve the highest natural frequency and every passage
+of a ball. While a slider moves, a motion that takes too long for that is shorter and coarser.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import bearingcore as core
+from bearing_explorer.explorer.results.ball_mass import BallMass, compare_motions
+from bearing_explorer.explorer.results.excerpt import Excerpt, excerpt_of
+from bearing_explorer.explorer.state.settings import Marching
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import Overtaken, cached
+from bearingcore import Motion, Orbit, Scene, Spectrum
+from bearingcore.common.numbers import thousands
+from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import default_step_rate, fine_step_rate
+from bearingcore.scene.packing import is_planar
+from bearingcore.scene.scene import MASSLESS, WITH_MASS
+
+MOST_STEPS = 400_000
+"""Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
+shorter, or one person's drag would fill the memory of the server."""
+MOST_STEPS_WITH_MASS = 1_600_000
+"""The same of balls with mass, of which samples are kept and not steps: about a second."""
+SHORTEST = 0.1
+"""[s] Shorter motions show nothing at the resolution of the spectra."""
+
+COARSE_STEPS = 0.55
+"""Part of the usual steps that is taken while a slider moves, where all of them take too long.
+Against short steps over the same stretch of time, spectra of fan-rig, liew-lim, 6205 and 6206 are
+then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB."""
+
+PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
+"""[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
+of it that counts as its start and is not shown. What is shown is as long as one stretch of a
+spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
+ends within six tenths of the next."""
+
+FEW_PERIODS = 30
+"""Periods that are integrated at most to find an orbit while a slider moves; most take 5 to 12."""
+
+GENERAL_COST = 4.0
+"""Cost of a contact that is not that of a flat bearing, over the cost of one that is."""
+MASS_COST = 2.5
+"""Cost of a ball with mass over one without: it has two contacts and a motion of its own."""
+MOST_IN_FULL = 2.0e5
+"""Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
+3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
+MOST_TOUCHED = 2.0e6
+"""The same of what is shortened until it can follow a slider: about 40 ms."""
+MOST_COMPARED = 6.0e7
+"""The same of balls with mass at rest, to be compared with massless ones: a second."""
+
+
+class SettledMotion(NamedTuple):
+    """A motion, and since when [s] it counts as settled."""
+
+    motion: Motion
+    since: float
+
+
+class Ending(NamedTuple):
+    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled."""
+
+    fault: str
+    since: float
+
+
+# What a motion costs
+
+
+@cached
+def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
+    """Steps a second [Hz] of a scene's motion at a sample rate [Hz]; None where nothing moves.
+
+    ValueError where the support is not known well enough.
+    """
+    compiling.need(compiling.STATICS)
+    highest = highest_natural_frequency(scene)
+    if scene.shaft_speed == 0.0 or not math.isfinite(highest):
+        return None
+    return default_step_rate(scene, sample_rate, highest)
+
+
+def _contacts(scene: Scene, how: Marching) -> float:
+    """Contacts of a flat bearing that a second of motion would step; 0 where there is none."""
+    try:
+        rate = how.step_rate or step_rate_of(scene, how.sample_rate) or 0.0
+    except ValueError:
+        return 0.0  # there is no motion
+    cost = scene.bearing.total_balls * (1.0 if is_planar(scene) else GENERAL_COST)
+    return rate * cost * (MASS_COST if scene.balls == WITH_MASS else 1.0)
+
+
+def is_costly(scene: Scene, how: Marching) -> bool:
+    """Whether a motion takes too long to be marched in full while a slider moves."""
+    return how.duration * _contacts(scene, how) > MOST_IN_FULL
+
+
+def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
+    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time.
+
+    `at_rest`: what may be touched of one that is not coarse.
+    """
+    most, contacts = MOST_TOUCHED if how.coarse else at_rest, _contacts(scene, how)
+    if scene.balls == MASSLESS or not contacts:
+        return how.duration
+    shortest = SHORTEST
+    if how.coarse and scene.cage_speed > 0.0:
+        preview = PREVIEW_PASSES * scene.bearing.ball_spacing / scene.cage_speed
+        shortest = min(max(preview, PREVIEW_DURATION), SHORTEST)
+    return min(how.duration, max(most / contacts, shortest))
+
+
+def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> float:
+    """`duration` [s], or as much of it as the steps that are allowed make."""
+    with_mass = scene.balls == WITH_MASS
+    most = MOST_STEPS_WITH_MASS if with_mass else MOST_STEPS
+    if duration * rate <= most:
+        return duration
+    if SHORTEST * rate > most:
+        why = "the defect is passed so fast that"
+        if with_mass:
+            why = "balls vibrate so fast between their races that"
+        raise ValueError(
+            f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
+            f"second; allowed here: {thousands(most / SHORTEST)}"
+        )
+    return most / rate
+
+
+def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
+    return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
+
+
+# Motions and what is made of them
+
+
+@cached
+def motion(scene: Scene, how: Marching) -> SettledMotion:
+    """The motion from rest; its second half counts as settled. ValueError where there is none."""
+    compiling.need(compiling.MOTION, scene)
+    by_hand = how.step_rate
+    rate = step_rate_of(scene, how.sample_rate) if by_hand is None else by_hand
+    if by_hand is None and how.coarse:
+        rate = _coarse_step_rate(scene, how.sample_rate)
+    duration = quick_duration(scene, how)
+    if rate is not None:
+        duration = _affordable(scene, duration, rate, by_hand is not None)
+    found = core.simulate(
+        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
+    )
+    preview = how.coarse and duration < SHORTEST
+    return SettledMotion(found, (PREVIEW_TRANSIENT_SHARE if preview else 0.5) * duration)
+
+
+@cached
+def ending(scene: Scene, how: Marching) -> Ending:
+    """The end of the motion."""
+    found, since = motion(scene, how)
+    return Ending("" if found.completed else found.reason, since)
+
+
+@cached
+def excerpt(scene: Scene, how: Marching) -> Excerpt:
+    """Some ball passes of the settled motion."""
+    compiling.need(compiling.MOTION, scene)
+    return excerpt_of(scene, *motion(scene, how))
+
+
+@cached
+def spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
+    """Spectrum of the housing's acceleration along each direction, from rest on."""
+    return _spectra_of(motion(scene, how).motion, 0.0)
+
+
+@cached
+def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
+    """The same of the settled motion; empty where it did not stay finite."""
+    found, since = motion(scene, how)
+    return _spectra_of(found, since) if found.completed else {}
+
+
+def _spectra_of(found: Motion, since: float) -> dict[str, Spectrum]:
+    frequency, density = found.spectrum(since=since)
+    return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(found.dofs)}
+
+
+@cached
+def dynamic_load(scene: Scene, how: Marching) -> float:
+    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
+    found, since = motion(scene, how)
+    if not found.completed:
+        return math.nan
+    loads = found.ball_loads(math.ceil(since * found.sample_rate - 1e-6))
+    return float(loads.max(initial=0.0))
+
+
+def as_far_as_with_mass(light: Scene, how: Marching) -> Marching:
+    """The same for massless balls, with which their motion is known as far as one with mass is."""
+    if how.coarse or how.step_rate is not None:
+        return how
+    return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))
+
+
+@cached
+def ball_mass(scene: Scene, how: Marching) -> BallMass:
+    """The motions without and with the balls' mass, compared over the same time."""
+    heavy = scene.replace(balls=WITH_MASS)
+    alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
+    moved = motion(heavy, alike)
+    light = scene.replace(balls=MASSLESS)
+    massless = motion(light, as_far_as_with_mass(light, alike))
+    return compare_motions(massless.motion, moved.motion, moved.since)
+
+
+# Orbits
+
+
+@cached
+def orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None) -> Orbit:
+    """The orbit, looked for with steps as those of the motion.
+
+    Raises `Overtaken` where `give_up` ended the search.
+    """
+    compiling.need(compiling.ORBITS)
+    given_up = False
+
+    def stop() -> bool:
+        nonlocal given_up
+        given_up = give_up is not None and give_up()
+        return given_up
+
+    found = core.orbit(scene, step_rate=_orbit_step_rate(scene, how), give_up=stop)
+    if given_up:
+        raise Overtaken
+    return found
+
+
+@cached
+def quick_orbit(scene: Scene, how: Marching) -> Orbit:
+    """The orbit, or what a search of FEW_PERIODS has come to."""
+    compiling.need(compiling.ORBITS)
+    periods = itertools.count(1)
+    return core.orbit(
+        scene,
+        step_rate=_orbit_step_rate(scene, how),
+        give_up=lambda: next(periods) >= FEW_PERIODS,
+    )
+
+
+def _orbit_step_rate(scene: Scene, how: Marching) -> float | None:
+    return _coarse_step_rate(scene, how.sample_rate) if how.coarse else None

@@ -1,0 +1,490 @@
+"""Results: what is known about one scene, computed when first asked for.
+
+Everything that is drawn passes through here. What is costly is
+computed by the functions of `statics`, `motion` and `endurance`, whose results all sessions share.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import bearingcore as core
+from bearing_explorer.explorer.results import endurance, motions, statics
+from bearing_explorer.explorer.results.ball_mass import BallMass
+from bearing_explorer.explorer.results.chain import Chain, chain
+from bearing_explorer.explorer.results.defect_shape import Profile, profile
+from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
+from bearing_explorer.explorer.results.excerpt import Excerpt
+from bearing_explorer.explorer.results.load_curve import Curve, load_curve
+from bearing_explorer.explorer.results.python_arguments import arguments
+from bearing_explorer.explorer.results.verdict import status_of
+from bearing_explorer.explorer.state.field_values import defects_of
+from bearing_explorer.explorer.state.references import (
+    HEALTHY,
+    OTHER_BALLS,
+    Reference,
+    grey_reference,
+)
+from bearing_explorer.explorer.state.settings import Marching, Settings
+from bearing_explorer.kit.compute.cache import cached
+from bearing_explorer.kit.compute.executors import PICTURES
+from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
+from bearingcore.common.lazy import cached_property
+from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.scene.scene import MASSLESS, WITH_MASS
+from bearingcore.statics.ball_positions import EquilibriumWithMass
+from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
+from bearingcore.statics.positions import turns
+from bearingcore.statics.ranges import StaticRanges, ranges_of
+
+if TYPE_CHECKING:
+    from bearing_explorer.kit.views.base import View
+
+Compute = TypeVar("Compute", bound=Callable[..., object])
+
+MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
+"""Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
+
+SLOW: set[str] = set()
+"""Attributes of `Results` that take long enough to be drawn after the others."""
+OF_MOTION: set[str] = set()
+"""Attributes that are made of a simulated motion."""
+OVER_STRETCH: set[str] = set()
+"""Attributes over the cage angles of the curves, fewer while a slider moves."""
+
+
+def of_kind(*kinds: set[str]) -> Callable[[Compute], Compute]:
+    """Note the name of an attribute in these sets."""
+
+    def note(compute: Compute) -> Compute:
+        for kind in kinds:
+            kind.add(compute.__name__)
+        return compute
+
+    return note
+
+
+LONGEST_ORBIT = 60
+"""Ball passes of the longest orbit that is looked for while sliders move."""
+
+
+@cached
+def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool) -> Chain:
+    """The chain of another scene: a whole drag is compared with the one where it began."""
+    return Results(scene, cage_angle, settings, moving=moving).chain
+
+
+class Results:
+    """All that the views read. Attributes are computed when first asked for, in any thread.
+
+    Parameters
+    ----------
+    scene
+        the scene shown.
+    cage_angle
+        [rad] shown.
+    settings
+        how finely it is computed.
+    focus
+        number of the defect that is looked at.
+    moving
+        whether a slider moves: be quick.
+    compared
+        scenes that are drawn too, each under a name.
+    before
+        the scene before the last change, where there was one.
+    grey
+        kind of the reference that is drawn in grey.
+    life_inputs
+        steel, oil and surfaces as entered under Life.
+    give_up
+        called in long searches: whether the results are no longer wanted.
+    like
+        other results, over whose stretch and with whose steps these are computed.
+    """
+
+    slow = SLOW
+
+    def __init__(
+        self,
+        scene: Scene,
+        cage_angle: float = 0.0,
+        settings: Settings | None = None,
+        focus: int = 0,
+        *,
+        moving: bool = False,
+        compared: Sequence[Reference] = (),
+        before: Reference | None = None,
+        grey: str = HEALTHY,
+        life_inputs: LifeInputs | None = None,
+        give_up: Callable[[], bool] | None = None,
+        like: Results | None = None,
+    ) -> None:
+        self.scene = scene
+        self.cage_angle = cage_angle
+        self.settings = settings or Settings()
+        self.focus = focus
+        self.moving = moving
+        self.compared = tuple(compared)
+        self.before = before
+        self.grey_kind = grey
+        self._against: dict[tuple[Scene, bool], Results] = {}
+        self.life_inputs = life_inputs or LifeInputs()
+        self._give_up = give_up
+        self._like = like
+
+    def against(self, reference: Reference, *, own_period: bool = False) -> Results:
+        """Results of another scene, to be compared with these.
+
+        Over the cage angles and with the steps of these, or over its `own_period` with its own.
+        """
+        key = reference.scene, own_period
+        if key not in self._against:
+            self._against[key] = Results(
+                reference.scene,
+                self.cage_angle,
+                self.settings,
+                moving=self.moving,
+                give_up=self._give_up,
+                like=None if own_period else self,
+            )
+        return self._against[key]
+
+    @cached_property
+    def compared_results(self) -> list[Results]:
+        """Results of the compared scenes in their order, each over its own period."""
+        return [self.against(one, own_period=True) for one in self.compared]
+
+    @cached_property
+    def grey(self) -> Reference:
+        """The reference that is drawn in grey."""
+        return grey_reference(self.scene, self.grey_kind)
+
+    @property
+    def reference(self) -> Results:
+        """Results of that."""
+        return self.against(self.grey)
+
+    @property
+    def reference_label(self) -> str:
+        """The name of the grey curves before their numbers; empty where the scene is the same."""
+        return self.grey.label
+
+    @property
+    def over_shaft(self) -> bool:
+        """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
+        return turns(self.scene)
+
+    @cached_property
+    def stretch(self) -> tuple[float, float, int]:
+        """First and last cage angle [rad] that curves are drawn over, and how many there are.
+
+        A ball spacing, after which all is as before; of rows of unlike balls what their spacings
+        have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
+        soon: then the turn of the shaft that the cage angle shown lies in.
+        """
+        if self._like is not None:
+            return self._like.stretch
+        settings = self.settings
+        n = settings.n_cage_angles
+        if self.moving:
+            n = min(n, settings.n_while_moving)
+        if has_long_period(self.scene):
+            n = min(n, settings.n_long_period)
+        angles = default_cage_angles(self.scene, n)
+        length = float(angles[-1])
+        turn = math.floor(self.cage_angle / length + 1e-9) if self.over_shaft else 0
+        return turn * length, (turn + 1) * length, angles.size
+
+    def along(self, cage_angle: ArrayLike) -> NDArray[np.float64]:
+        """Cage angles [rad] as curves show them [degrees], within the stretch.
+
+        Those of the cage, or where the curves are over a turn of the shaft, those of the shaft.
+        """
+        first, last, _ = self.stretch
+        angle = np.asarray(cage_angle, dtype=float)
+        inside = first + np.where(angle == last, last - first, (angle - first) % (last - first))
+        if self.over_shaft:
+            return 360.0 * (inside - first) / (last - first)
+        return np.degrees(inside)
+
+    @cached_property
+    @of_kind(OVER_STRETCH)
+    def equilibrium(self) -> Equilibrium:
+        """Static answers over the stretch."""
+        return statics.curves(self.scene, *self.stretch)
+
+    @cached_property
+    @of_kind(OVER_STRETCH)
+    def ranges(self) -> StaticRanges:
+        """Least, greatest and mean of static answers, over all positions of the bearing.
+
+        Where a defect turns with the shaft they are more than the turn that curves are over.
+        """
+        if self.over_shaft or (self._like is not None and self._like.over_shaft):
+            return statics.ranges(self.scene, self.moving)
+        return ranges_of(self.equilibrium)
+
+    @cached_property
+    def load_curves(self) -> list[Curve]:
+        """Load [N] of a ball over its angle [rad], a curve a row; see `load_curve`."""
+        rows = range(len(self.scene.bearing.all_rows))
+        return [load_curve(self.ranges.state, row) for row in rows]
+
+    @cached_property
+    def inner_load_curves(self) -> list[Curve]:
+        """The same at the inner race, where balls with mass carry less; none of massless ones."""
+        found = self.ranges.state
+        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+            return []
+        rows = range(len(found.scene.bearing.all_rows))
+        return [load_curve(found, row, found.inner_load) for row in rows]
+
+    @cached_property
+    def now(self) -> Equilibrium:
+        """Static answer at the cage angle shown; arrays of length 1."""
+        return statics.equilibrium_at(self.scene, self.cage_angle)
+
+    @cached_property
+    @of_kind(OVER_STRETCH)
+    def modes(self) -> Modes:
+        """Natural frequencies over the stretch."""
+        return statics.modes(self.scene, *self.stretch)
+
+    @cached_property
+    @of_kind(OVER_STRETCH)
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
+
+        Looked for between the angles too, and in all turns of the shaft: the same however finely
+        curves are drawn. Coarser while a slider moves.
+        """
+        return statics.bands(self.scene, self.moving)
+
+    @property
+    def extent(self) -> float:
+        """Extent [rad] of the defect that is looked at."""
+        return defects_of(self.scene)[self.focus].extent
+
+    @cached_property
+    def maps(self) -> Maps:
+        """Stiffness and loaded balls over extents of the defect looked at, and cage angles.
+
+        The same maps for every extent that they hold: moving along them computes nothing.
+        """
+        first, last, _ = self.stretch
+        others = list(defects_of(self.scene))
+        looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
+        scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
+        reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
+        # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
+        n = self.settings.n_map_angles
+        columns = 2 * n - 1 if has_long_period(self.scene) else n
+        return statics.maps(scene, reach, self.settings.n_extents, first, last, columns)
+
+    @cached_property
+    def drop(self) -> dict[str, np.ndarray]:
+        """Drop [m] of each ball's centre into the outer and the inner race, by race."""
+        return statics.drops(self.scene, self.cage_angle)
+
+    @cached_property
+    def profile(self) -> Profile:
+        """The race around the defect and the path of a ball's centre over it."""
+        return profile(self.scene, self.cage_angle, self.focus)
+
+    def prefetch(self, needed: frozenset[str]) -> None:
+        """Begin in another thread what of these attributes can be computed at the same time."""
+        if {"late_spectra", "reference"} <= needed:
+            key = self.grey.scene, self.reference.marching
+            if not motions.late_spectra.knows(*key):  # the picture waits for this one
+                PICTURES.submit(motions.late_spectra, *key)
+
+    def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
+        """The status line of results that took `seconds` [s], for views that need these."""
+        return status_of(self, seconds, needed)
+
+    def arguments(self, view: View) -> dict[str, str]:
+        """Arguments with which lines of Python make a figure of these."""
+        return arguments(view, self)
+
+    @property
+    def _with_mass(self) -> Scene:
+        """The scene with mass of its balls, where that is known."""
+        known = not self.scene.bearing.kind.mass_unknown
+        return self.scene.replace(balls=WITH_MASS) if known else self.scene
+
+    def is_coarse(self, shown: frozenset[str]) -> bool:
+        """Whether what is shown of attributes is made of motions that are marched coarsely."""
+        scenes = [self.scene] if shown & OF_MOTION else []
+        if "reference" in shown and scenes:
+            scenes.append(self.grey.scene)
+        if "ball_mass" in shown:
+            scenes.append(self._with_mass)
+        return any(map(self._is_coarse, scenes))
+
+    def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
+        """Whether any of these attributes is computed more finely once the slider rests."""
+        if shown & OVER_STRETCH or self.is_coarse(shown):
+            return True
+        if not shown & {"orbit", "orbit_spectra"}:
+            return False
+        try:
+            return self.orbit is not None and self.orbit.status is OrbitStatus.NOT_CONVERGED
+        except ValueError:
+            return False  # there is no motion, and none at rest
+
+    def coarse_words(self, shown: frozenset[str]) -> str:
+        """In which way motions shown are coarse."""
+        scene = self.scene if "ball_mass" not in shown else self._with_mass
+        if scene.balls == MASSLESS:
+            return "coarse while it moves: half the motion in half the steps"
+        seconds = motions.quick_duration(scene, self.settings.coarse_marching)
+        return f"coarse while it moves: {seconds:.2g} s of motion"
+
+    def _is_coarse(self, scene: Scene) -> bool:
+        how = self.settings.marching
+        return self.moving and how.step_rate is None and motions.is_costly(scene, how)
+
+    def _marching_of(self, *scenes: Scene) -> Marching:
+        """Settings of motions: coarse where one of them takes too long while a slider moves."""
+        coarse = any(map(self._is_coarse, scenes))
+        return self.settings.coarse_marching if coarse else self.settings.marching
+
+    @cached_property
+    def marching(self) -> Marching:
+        """Settings of its motions; those of the scene with the defect where it is compared."""
+        first = self._like or self
+        how = first._marching_of(first.scene, first.grey.scene)
+        if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
+            return motions.as_far_as_with_mass(self.scene, how)
+        return how
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def motion(self) -> Motion:
+        """Simulated motion of rotor and housing."""
+        return motions.motion(self.scene, self.marching).motion
+
+    @property
+    def fault(self) -> str:
+        """Why the motion ended early; empty where it did not."""
+        return motions.ending(self.scene, self.marching).fault
+
+    @property
+    def settled_since(self) -> float:
+        """Time [s] of the motion after which it counts as settled."""
+        return motions.ending(self.scene, self.marching).since
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def excerpt(self) -> Excerpt:
+        """Some ball passes of the settled motion, with static loads for comparison."""
+        return motions.excerpt(self.scene, self.marching)
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def spectra(self) -> dict[str, Spectrum]:
+        """Spectrum of the housing's acceleration along each direction, by its name."""
+        return motions.spectra(self.scene, self.marching)
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def late_spectra(self) -> dict[str, Spectrum]:
+        """The same of the settled motion; empty where it did not stay finite."""
+        return motions.late_spectra(self.scene, self.marching)
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def ball_mass(self) -> BallMass:
+        """The motions without and with the balls' mass, marched alike; whatever the scene has."""
+        if kind := self.scene.bearing.kind.mass_unknown:
+            raise ValueError(f"the model has no mass of {kind}")
+        how = self._marching_of(self.scene.replace(balls=WITH_MASS))
+        return motions.ball_mass(self.scene.replace(balls=MASSLESS), how)
+
+    @property
+    def ball_passes(self) -> int | None:
+        """After how many ball passes all is as before; None where it never is."""
+        return common_ball_passes(self.scene)
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION)
+    def orbit(self) -> Orbit | None:
+        """The motion that repeats itself; None where it takes too many ball passes to look for.
+
+        The search is short while a slider moves.
+        """
+        if (self.ball_passes or 0) > LONGEST_ORBIT:
+            return None
+        # balls without mass, whatever the scene has
+        key = self.scene.replace(balls=MASSLESS), self.marching
+        found = motions.quick_orbit(*key)
+        if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
+            return found
+        return motions.orbit(*key, give_up=self._give_up)
+
+    @cached_property
+    @of_kind(SLOW)
+    def orbit_spectra(self) -> dict[str, Spectrum]:
+        """Spectrum of a record as long as the second half of the motion; empty without an orbit."""
+        if self.orbit is None or not self.orbit.multipliers.size:
+            return {}
+        duration = 0.5 * self.settings.duration
+        frequency, density = self.orbit.spectrum(self.settings.sample_rate, duration=duration)
+        return {
+            dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(self.orbit.dofs)
+        }
+
+    @cached_property
+    def contact_damping(self) -> float:
+        """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
+        return statics.contact_damping(self.scene)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Effects that the model leaves out of the scene, with their numbers in motion.
+
+        The same whatever is on screen: looked at over cage angles of its own, and with the motion
+        that any view has had simulated.
+        """
+        step_rate = self.settings.step_rate
+        if step_rate is None:
+            try:
+                step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
+            except ValueError:
+                step_rate = None  # no motion, no steps
+        return endurance.limits(self.scene, step_rate, self._dynamic_load, self.life_inputs)
+
+    @property
+    def endurance(self) -> Endurance:
+        """Life, pressure and film of the scene, with the oil and steel of `life_inputs`."""
+        return endurance.endurance(self.scene, self.life_inputs)
+
+    @property
+    def _dynamic_load(self) -> float | None:
+        """Greatest ball load [N] of the settled motion, where one has been simulated."""
+        key = self.scene, self.settings.marching
+        simulated = not self.moving and motions.motion.knows(*key)
+        if not simulated and not motions.dynamic_load.knows(*key):
+            return None
+        load = motions.dynamic_load(*key)
+        return load if math.isfinite(load) else None
+
+    @cached_property
+    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
+    def chain(self) -> Chain:
+        """Results from the loads of the balls to the vibration."""
+        return chain(self)
+
+    def chain_of(self, reference: Reference) -> Chain:
+        """The same of a reference, looked up while a drag is compared with where it began."""
+        if reference.scene == self.scene:
+            return self.chain
+        return _chain_of(reference.scene, self.cage_angle, self.settings, self.moving)

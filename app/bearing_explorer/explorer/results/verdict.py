@@ -1,0 +1,141 @@
+"""Status of the computation, in words and colour: one verdict for all that is on screen."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from bearing_explorer.kit.compute.compiling import StillCompiling
+from bearing_explorer.kit.sentences import words_of
+from bearingcore.common.numbers import count, scientific
+from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.scene.scene import DOF_SYMBOLS
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+
+ORBITS = frozenset({"orbit", "orbit_spectra"})
+"""Attributes of the results that are of the steady orbit."""
+MOTIONS = frozenset({"motion", "excerpt", "spectra", "late_spectra"})
+"""Attributes that are of a simulated motion."""
+
+BALLS = frozenset({"ball_mass"})
+"""Attributes that compare motions without and with the mass of balls."""
+
+LOST = {
+    "-1": "Unstable: period doubling (flip)",
+    "pair": "Unstable: second frequency (Neimark–Sacker)",
+    "+1": "Unstable: jump to another orbit (fold)",
+}
+"""Losses of stability, by the place where the largest multiplier leaves the unit circle."""
+
+_NO_ORBIT = {
+    OrbitStatus.NO_PERIOD: "No common period",
+    OrbitStatus.NO_START: "No static state",
+}
+
+
+class Verdict(NamedTuple):
+    """`mood`: "good", "bad" or "busy"."""
+
+    mood: str
+    words: str
+
+
+def verdict(results: Results, shown: frozenset[str]) -> Verdict:
+    """The verdict on what is on screen: `shown` are the attributes that its views read.
+
+    The first failure counts: without a static state there is no motion, and a motion that broke
+    off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
+    place where a machine stays.
+    """
+    static = of_statics(results)
+    if static.mood == "good" and "now" in shown:
+        static = of_now(results)
+    if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
+        return static
+    try:
+        if shown & BALLS and results.ball_mass.broke_off:
+            return Verdict("bad", f"No motion: {results.ball_mass.broke_off}")
+        if shown & MOTIONS and (moving := of_motion(results)).mood != "good":
+            return moving
+        if shown & ORBITS:
+            return of_orbit(results)
+    except StillCompiling as wait:
+        return Verdict("busy", f"Not ready: {wait}")
+    except ValueError as error:  # the view gives the whole sentence
+        return Verdict("bad", f"No motion: {words_of(error)}")
+    return static
+
+
+def of_statics(results: Results) -> Verdict:
+    """Whether the static equilibrium was found at all cage angles of the curves."""
+    found = results.equilibrium
+    bad = np.flatnonzero(~found.converged)
+    if not bad.size:
+        return Verdict("good", "Converged")
+    reason = found.reason(int(bad[0]))
+    if bad.size == found.converged.size:
+        return Verdict("bad", f"No answer: {reason}")
+    return Verdict(
+        "bad", f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
+    )
+
+
+def of_now(results: Results) -> Verdict:
+    """Whether there is a static equilibrium at the cage angle that is drawn."""
+    now = results.now
+    if now.converged[0]:
+        return Verdict("good", "Converged")
+    return Verdict("bad", f"No answer at this cage angle: {now.reason(0)}")
+
+
+def of_motion(results: Results) -> Verdict:
+    """Whether the simulated motion reached its end."""
+    if not results.fault:
+        return Verdict("good", "Converged")
+    return Verdict("bad", f"The motion {results.fault}")
+
+
+def of_orbit(results: Results) -> Verdict:
+    """Whether there is a steady orbit, and whether it is stable."""
+    orbit = results.orbit
+    if orbit is None:
+        return Verdict("bad", "Orbit not searched")
+    if orbit.multipliers.size:
+        if orbit.stable:
+            return Verdict("good", "Stable orbit")
+        return Verdict("bad", LOST[orbit.through])
+    if orbit.status in _NO_ORBIT:
+        return Verdict("bad", _NO_ORBIT[orbit.status])
+    return (
+        Verdict("busy", "No orbit found yet")
+        if results.moving
+        else Verdict("bad", "No orbit found")
+    )
+
+
+def status_of(
+    results: Results, seconds: float, shown: frozenset[str] = frozenset()
+) -> dict[str, Any]:
+    """The status line of results that took `seconds` [s] to compute.
+
+    `shown`: the attributes of the results that views on screen read.
+    """
+    found = results.equilibrium
+    n_angles = found.converged.size
+    mood, words = verdict(results, shown)
+    details = []
+    finite = found.residual[found.converged & np.isfinite(found.residual)]
+    if finite.size:
+        details.append(f"residual at most {scientific(float(finite.max()))}")
+    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
+    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
+    details.append(f"{freedom}: {symbols}")
+    details.append(count(n_angles, "cage angle"))
+    if results.is_coarse(shown):
+        details.append(results.coarse_words(shown))
+    by_hand = results.settings.changed_by_hand()
+    details = [*by_hand, *details, f"{1e3 * seconds:.1f} ms of computing"]
+    return {"mood": mood, "words": words, "details": details, "resting": not results.moving}

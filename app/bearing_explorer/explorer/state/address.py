@@ -1,0 +1,544 @@
+"""A scene as the text behind the question mark of the page's address, and back.
+
+    v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&tab=stiffness&cage_angle_deg=12.5
+
+The text says what differs from a preset, under the names and in the units of the page: so a person
+can read it, change a number by hand and see in a mail what a link is about. One packed word would
+be hardly shorter, as most scenes differ from a preset in two or three numbers, and could not
+be mended. Only the points of a measured floor are packed.
+
+The rules of version 1, which later versions go on reading:
+
+- `v` is 1, `preset` a name of `bearingcore.presets`. What follows is left out where it is as in the
+  preset; so the numbers of a preset must not change (a test holds them).
+- A number is in the unit of its name, or in SI with ``SI`` behind it where no number in that unit
+  stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
+  read back to the last bit.
+- Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
+  on; each says what differs from the first defect of the preset. `selected` is the one the sliders
+  move.
+- `race`, `edge`, `law`, `balls`, `dofs` (``auto`` or names with dots between) are words. `floor` is
+  ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
+  too long for an address.
+- `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
+  between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
+  of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
+  it has not, and none of the last ones. `name` is what a person calls the bearing, `estimated` the
+  dimensions that are estimates, with dots between them.
+- What has ``compare1.`` in front are the first scene that is compared, by
+  the same rules; `compare1.label` is the name of its curves.
+- `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
+  open; alone it stands for the scene that the lesson begins with.
+- `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
+  whose first bytes all come first, then all second ones: neighbours have their first bytes alike.
+
+An address is not trusted: it is never evaluated, its length and what unpacks from it are
+bounded, and what cannot be understood is answered with a sentence.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import dataclasses
+import math
+import re
+import struct
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache, lru_cache, partial
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from bearing_explorer.explorer.state import field_values
+from bearing_explorer.explorer.state.bearing_kinds import MOST_SHOWN_ROWS
+from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
+from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defects_of
+from bearing_explorer.explorer.state.references import Reference, usual_name
+from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
+from bearing_explorer.kit.sentences import one_line, sentence_of
+from bearing_explorer.kit.serve.address import TOO_LONG
+from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
+from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
+from bearingcore.bearings.rows import Row
+from bearingcore.fields import SCENE_PARTS, Field, Range
+from bearingcore.scene.floor import MOST_ROWS
+
+VERSION = "1"
+LONGEST_LINK = 7_000
+"""Characters of a link: servers in front of ours take lines of 8 kB as they come."""
+LONGEST_TEXT = 2_500_000
+"""Characters that are read at the most, of what a browser has kept: a floor of any length fits."""
+_MOST_FIELDS = 400
+_MOST_ESCAPES = 100_000
+_LONGEST_NUMBER = 40
+
+TAB_OF_OLD_LINKS = "load"
+"""Links that name no tab are of days when this one came first."""
+FORMER_TABS = {
+    "sizing": "diagnosis",
+    "ball-mass": "vibration",
+    "orbits": "over-speed",
+    "speed-run": "over-speed",
+}
+"""Former names of tabs, in links that people have."""
+
+_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length")
+_OF_ROW = (
+    *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
+    *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),
+)
+"""Numbers of a row in the order of links; those from the sixth on only where it has its own."""
+_ALWAYS_OF_ROW = 5
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A scene and how one looks at it: what a link stands for.
+
+    `selected` is the defect that the sliders move, `cage_angle` in degrees, `tab` a section of the
+    page. `note` is a sentence for whoever opened the link; `compared` are the scenes drawn too.
+    """
+
+    scene: Scene
+    preset: str
+    selected: int = 0
+    cage_angle: float = 0.0
+    tab: str = ""
+    note: str = ""
+    name: str = ""
+    compared: tuple[Reference, ...] = ()
+
+
+def write(place: Place, longest: int | None = None) -> str:
+    """The text of a place; floors that make it longer than `longest` are left out of it."""
+    text = _written(place, False)
+    return text if longest is None or len(text) <= longest else _written(place, True)
+
+
+def leaves_out(text: str) -> bool:
+    """Whether `write` left a floor out."""
+    return "floor=left-out" in text
+
+
+def read(text: str) -> Place | None:
+    """The place of a text; None where the text says nothing about a scene.
+
+    Raises
+    ------
+    ValueError
+        with a sentence for the page.
+    """
+    if len(text) > LONGEST_TEXT:
+        raise ValueError("It is far too long.")
+    if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one
+        raise ValueError("It has far too many percent signs to be a scene.")
+    try:
+        pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
+    except ValueError:
+        raise ValueError(
+            "It has far too many parts, or characters that do not belong in it."
+        ) from None
+    strange = [name for name, _ in pairs if not _is_known(name)]
+    given: dict[str, str] = {}
+    for name, value in pairs:
+        if name in given:
+            raise ValueError(f"“{_shown(name)}” is given twice.")
+        if _is_known(name):
+            given[name] = value
+    if not given:
+        return None
+    place = _read(given)
+    if strange:
+        note = f"“{_shown(strange[0])}” in the address is not known and was ignored."
+        place = dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
+    return place
+
+
+def opened(text: str, editor: SceneEditor) -> Place:
+    """Show the place of a text on an editor. Never fails: `note` says where it could not be."""
+    tab, note = "", ""
+    compared: tuple[Reference, ...] = ()
+    try:
+        place = read(text)
+        if place is not None:
+            tab, note, compared = place.tab, place.note, place.compared
+            editor.take_scene(
+                place.scene, place.preset, place.selected, place.cage_angle, place.name
+            )
+    except ValueError as error:
+        why = sentence_of(error)
+        note = f"The address could not be opened. {why} Showing the default bearing instead."
+    return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
+
+
+_LESSON = re.compile(r"(?:^|&)lesson=([a-z0-9-]{1,60})(?=&|$)")
+
+
+def lesson_in(text: str) -> tuple[str, str]:
+    """The lesson that an address names, or "", and the address without it."""
+    text = text.removeprefix("?")
+    found = _LESSON.search(text) if len(text) <= LONGEST_TEXT else None
+    if found is None:
+        return "", text
+    return found[1], (text[: found.start()] + text[found.end() :]).removeprefix("&")
+
+
+def holds_scene(text: str) -> bool:
+    """Whether a text says something about a scene that can be read."""
+    try:
+        return read(text) is not None
+    except ValueError:
+        return False
+
+
+def place_of(editor: SceneEditor, tab: str = "") -> Place:
+    """The place that the editor shows."""
+    angle = editor.values[CAGE_ANGLE]
+    return Place(editor.scene, editor.preset, editor.selected, angle, tab, name=editor.own_name)
+
+
+# Writing
+
+
+def _written(place: Place, without_floors: bool) -> str:
+    pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
+    for number, one in enumerate(place.compared, 1):
+        preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
+        own = [("label", one.name), *_scene_pairs(Place(one.scene, preset), without_floors)]
+        pairs += [(f"compare{number}.{name}", value) for name, value in own]
+    if place.cage_angle:
+        pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
+    if place.tab:
+        pairs.append(("tab", place.tab))
+    return urlencode(pairs)
+
+
+def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
+    """The scene of a place, with the defect that is selected and its bearing's name."""
+    scene, base = place.scene, presets[place.preset]
+    pairs: list[tuple[str, str]] = [("preset", place.preset)]
+    defects, usual = defects_of(scene), defects_of(base)[0]
+    if len(defects) != 1:
+        pairs.append(("defects", str(len(defects))))
+    for number, defect in enumerate(defects):
+        own = [*_changes(_DEFECT, defect, usual), *_floor_pairs(defect.floor, without_floors)]
+        pairs += [(_behind(number) + name, value) for name, value in own]
+    if place.selected:
+        pairs.append(("selected", str(place.selected + 1)))
+    for part, entries in _SCENE.items():
+        pairs += _changes(entries, _part_of(scene, part), _part_of(base, part))
+    if place.name:
+        pairs.append(("name", place.name))
+    return pairs
+
+
+def _behind(number: int) -> str:
+    return f"defect{number + 1}." if number else ""
+
+
+def _part_of(scene: Scene, part: str) -> Any:
+    return scene if part == "scene" else getattr(scene, part)
+
+
+def _changes(entries: Iterable[Entry], owner: Any, usual: Any) -> Iterable[tuple[str, str]]:
+    """The entries of an owner that are not as usual."""
+    for entry in entries:
+        if (value := getattr(owner, entry.field)) != getattr(usual, entry.field):
+            yield entry.name, entry.text_of(value)
+
+
+def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
+    if isinstance(floor, RoughFloor):
+        yield "floor", floor_name(floor)
+        yield from ((entry.name, entry.text_of(getattr(floor, entry.field))) for entry in _FLOOR)
+    elif isinstance(floor, MeasuredFloor) and left_out:
+        yield "floor", "left-out"
+    elif isinstance(floor, MeasuredFloor):
+        yield "floor", floor_name(floor)
+        yield "points", packed(floor)
+
+
+def number_text(field: Field, value: float | None) -> str:
+    """A number in SI as the address has it; `_number` makes the very same of it."""
+    if value is None:
+        return "none"
+    shown = field_values.in_shown_unit(field, value)
+    if field_values.in_si(field, shown) == value:
+        return _short(shown)
+    return _short(value) + "SI"
+
+
+def rows_text(rows: tuple[Row, ...]) -> str:
+    """Rows of balls as a word; `_rows` makes the very same of it."""
+    if not rows:
+        return "one"
+    words = []
+    for row in rows:
+        numbers = [getattr(row, name) for name in _OF_ROW]
+        words.append("_".join("" if one is None else _short(one) for one in numbers).rstrip("_"))
+    return "~".join(words)
+
+
+def _short(value: float) -> str:
+    """The shortest text of a float, whole numbers without a point."""
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
+
+
+@lru_cache(maxsize=32)
+def packed(floor: MeasuredFloor) -> str:
+    """The points of a floor as a word."""
+    numbers = floor.places + floor.depths
+    raw = struct.pack(f"<{len(numbers)}d", *numbers)
+    sorted_bytes = b"".join(raw[place::8] for place in range(8))
+    return base64.urlsafe_b64encode(zlib.compress(sorted_bytes, 9)).rstrip(b"=").decode()
+
+
+# Reading
+
+
+_OF_COMPARED = re.compile(r"compare([1-4])\.(.+)", re.ASCII)
+
+
+def _is_known(name: str) -> bool:
+    if own := _OF_COMPARED.fullmatch(name):
+        return own[2] == "label" or (own[2] not in _PLACE_ONLY and _is_known_of_scene(own[2]))
+    return name in _PLACE_ONLY or _is_known_of_scene(name)
+
+
+def _is_known_of_scene(name: str) -> bool:
+    head, dot, tail = name.rpartition(".")
+    if not dot:
+        return name in _PLACE_NAMES or name in _DEFECT_NAMES
+    return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
+
+
+def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
+    """The compared scenes of an address, in the order of their numbers; they are taken out."""
+    parts: dict[str, dict[str, str]] = {}
+    for name in list(given):
+        if own := _OF_COMPARED.fullmatch(name):
+            parts.setdefault(own[1], {})[own[2]] = given.pop(name)
+    found = []
+    for _, part in sorted(parts.items()):
+        label = one_line(part.pop("label", ""), LONGEST_NAME)
+        scene = _read({"v": VERSION, **part}).scene
+        found.append(Reference(scene, label or usual_name(scene)))
+    return tuple(found)
+
+
+def _read(given: dict[str, str]) -> Place:
+    compared = _compared(given)
+    version = given.pop("v", None)
+    if version is None:
+        raise ValueError("Its version is missing (v=1).")
+    if version == TOO_LONG:
+        raise ValueError("It is far too long.")
+    if version != VERSION:
+        raise ValueError(
+            f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
+        )
+    preset = given.pop("preset", "fan-rig")
+    if preset not in presets:
+        raise ValueError(f"There is no bearing “{_shown(preset)}”.")
+    base = presets[preset]
+    count = _count(given.pop("defects", "1"), "defects")
+    selected = _count(given.pop("selected", "1"), "selected") - 1
+    cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
+    tab = given.pop("tab", "")
+    name = one_line(given.pop("name", ""), LONGEST_NAME)
+    defects, note = [], ""
+    for number in range(count):
+        here = {name: _behind(number) + name for name in _DEFECT_NAMES}
+        own = {name: given.pop(there) for name, there in here.items() if there in given}
+        if own.get("floor") == "left-out":
+            note = "A measured floor was too long for the address; here it is flat."
+        defects.append(_defect(own, defects_of(base)[0]))
+    fields = {part: _taken(entries, given) for part, entries in _SCENE.items()}
+    if given:
+        raise ValueError(f"“{_shown(next(iter(given)))}” belongs to a defect that is missing.")
+    own_fields = fields.pop("scene")
+    if fields["bearing"]:
+        fields["bearing"]["kind"] = ""  # links do not say it: the numbers do
+    parts = {
+        part: dataclasses.replace(getattr(base, part), **changes)
+        for part, changes in fields.items()
+    }
+    defect = defects[0] if count == 1 else tuple(defects)
+    scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
+    tab = FORMER_TABS.get(tab, tab)[:40]
+    return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
+
+
+def _taken(entries: Iterable[Entry], given: dict[str, str]) -> dict[str, Any]:
+    """The values of the entries that are given, by their fields; they are taken out."""
+    return {
+        entry.field: entry.value_of(given.pop(entry.name))
+        for entry in entries
+        if entry.name in given
+    }
+
+
+def _rows(text: str) -> tuple[Row, ...]:
+    if text == "one":
+        return ()
+    rows: list[Row] = []
+    for word in text.split("~"):
+        numbers = word.split("_")
+        few = not _ALWAYS_OF_ROW <= len(numbers) <= len(_OF_ROW)
+        if few or "" in numbers[:_ALWAYS_OF_ROW] or len(rows) == MOST_SHOWN_ROWS:
+            raise ValueError(f"“{_shown(text)}” does not describe the rows of a bearing.")
+        given: dict[str, Any] = {
+            name: _parsed(number, "rows")[0]
+            for name, number in zip(_OF_ROW, numbers, strict=False)
+            if number
+        }
+        for name in ("facing", "n_balls"):
+            if (number := given.get(name)) is not None and number == int(number):
+                given[name] = int(number)
+        rows.append(Row(**given))
+    return tuple(rows)
+
+
+def _defect(given: dict[str, str], usual: Defect) -> Defect:
+    fields = _taken(_DEFECT, given)
+    kind = given.get("floor", "flat")
+    if kind == "rough":
+        fields["floor"] = RoughFloor(
+            **{entry.field: entry.value_of(given.get(entry.name, "")) for entry in _FLOOR}
+        )
+    elif kind == "measured":
+        fields["floor"] = unpacked(given.get("points", ""))
+    elif kind in ("flat", "left-out"):
+        fields["floor"] = None
+    else:
+        raise ValueError(f"There is no floor “{_shown(kind)}”.")
+    return dataclasses.replace(usual, **fields)
+
+
+def _number(field: Field, text: str) -> float | None:
+    """A number in SI; ValueError with a sentence where it is none."""
+    if text == "none" and (field.optional or field.name in _MAY_BE_NONE):
+        return None
+    value, is_si = _parsed(text, field.key)
+    if not is_si:
+        # as it would be typed on the page: out of range it is refused in the words of the page
+        field_values.read(field.key, text, _usual_limits())
+        value *= field.factor
+    return int(value) if field.whole and value == int(value) else value
+
+
+@cache
+def _usual_limits() -> Mapping[str, Range]:
+    """Range of what can be typed: the same with every preset."""
+    return field_values.limits_of(presets["fan-rig"])
+
+
+def _parsed(text: str, name: str) -> tuple[float, bool]:
+    """A number and whether it is said to be in SI."""
+    found = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
+    value = float(found[1]) if found else math.nan
+    if found is None or not math.isfinite(value):
+        raise ValueError(f"“{_shown(text)}” is not a number for {name}.")
+    return value, found[2] is not None
+
+
+def _count(text: str, name: str) -> int:
+    if not (text.isascii() and text.isdecimal() and 1 <= int(text[:3]) <= MOST_DEFECTS):
+        raise ValueError(f"“{_shown(text)}” is out of range: {name} goes from 1 to {MOST_DEFECTS}.")
+    return int(text[:3])
+
+
+def _option(choice: Choice, text: str) -> Any:
+    """The value of an option."""
+    if text not in choice.in_links:
+        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.in_links)}.")
+    return choice.in_links[text]
+
+
+def _option_text(choice: Choice, value: Any) -> str:
+    return next(name for name, held in choice.in_links.items() if held == value)
+
+
+def _dofs(text: str) -> tuple[str, ...] | None:
+    if text == "auto":
+        return None
+    names = tuple(text.split("."))
+    if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
+        raise ValueError(f"“{_shown(text)}” is not a list of directions that can move.")
+    return names
+
+
+def _dofs_text(dofs: tuple[str, ...] | None) -> str:
+    return "auto" if dofs is None else ".".join(dofs)
+
+
+def unpacked(word: str) -> MeasuredFloor:
+    """The floor of `packed`; ValueError with a sentence for anything else."""
+    most = 16 * MOST_ROWS
+    try:
+        squeezed = base64.b64decode(word + "=" * (-len(word) % 4), b"-_", validate=True)
+        opener = zlib.decompressobj()
+        raw = opener.decompress(squeezed, most + 1)  # no more, whatever it would swell to
+    except (binascii.Error, ValueError, zlib.error):
+        raise ValueError("The points of a measured floor cannot be read.") from None
+    if len(raw) > most or len(raw) % 16 or not opener.eof:
+        raise ValueError("The points of a measured floor cannot be read.")
+    count = len(raw) // 8
+    numbers = struct.unpack(f"<{count}d", b"".join(bytes(raw[k::count]) for k in range(count)))
+    half = count // 2
+    try:
+        return MeasuredFloor(numbers[:half], numbers[half:])
+    except ValueError as error:
+        raise ValueError(sentence_of(error)) from None
+
+
+def _shown(text: str) -> str:
+    """Untrusted text for a sentence: short, on one line."""
+    clean = one_line(text, 31)
+    return clean if len(clean) <= 30 else clean[:29] + "…"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A field of a scene in an address: its name there, and the way to its text and back."""
+
+    name: str
+    field: str
+    text_of: Callable[[Any], str]
+    value_of: Callable[[str], Any]
+
+
+def _numbers_of(part: str) -> list[Entry]:
+    return [
+        Entry(field.key, field.name, partial(number_text, field), partial(_number, field))
+        for field in SHOWN_FIELDS
+        if field.part == part
+    ]
+
+
+def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
+    return [
+        Entry(choice.name, choice.field, partial(_option_text, choice), partial(_option, choice))
+        for choice in choices
+    ]
+
+
+_SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
+_SCENE["bearing"] += [
+    Entry("rows", "rows", rows_text, _rows),
+    Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
+]
+_SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
+"""Entries of each part of a scene."""
+_DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]
+_FLOOR = _numbers_of("floor")
+
+_PLACE_ONLY = {"v", "tab", CAGE_ANGLE}
+_PLACE_NAMES = {
+    *("preset", "defects", "selected", "name"),
+    *(entry.name for entries in _SCENE.values() for entry in entries),
+}
+_DEFECT_NAMES = ["floor", "points", *(entry.name for entry in (*_DEFECT, *_FLOOR))]

@@ -1,0 +1,217 @@
+"""Scenes that a session remembers: steps to undo, compared scenes, the address.
+
+Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
+and refused with a sentence. Scenes that a person keeps lie in the browser, as
+the text of `explorer.state.address` with a name; nothing of them stays on the server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+from urllib.parse import urlencode
+
+from bearing_explorer.explorer.state.address import (
+    LONGEST_LINK,
+    LONGEST_TEXT,
+    TAB_OF_OLD_LINKS,
+    Place,
+    holds_scene,
+    leaves_out,
+    lesson_in,
+    opened,
+    place_of,
+    read,
+    write,
+)
+from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
+from bearing_explorer.explorer.state.history import History
+from bearing_explorer.explorer.state.references import Reference, scene_line, usual_name
+from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
+from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
+from bearing_explorer.kit.sentences import one_line, sentence_of
+from bearingcore import Scene
+from bearingcore.common.scene_file import LARGEST_TEXT
+
+_STEPS = ("set", "typed", "choose", "reset", "floor")
+
+
+@dataclass(frozen=True)
+class OpenRequest:
+    """A request to open or compare a scene; `read_request` reads it, in any thread."""
+
+    what: str
+    name: str
+    text: str
+
+
+def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
+    """The request of a message to open ("open", "file") or compare a scene, or None."""
+    for what in ("open", "file", "compare"):
+        if given := message.get(what):
+            return OpenRequest(what, name_of(given["name"]), given["text"][: LONGEST_TEXT + 1])
+    return None
+
+
+def read_request(request: OpenRequest) -> Place | str:
+    """The place that is requested, or a sentence."""
+    try:
+        if request.what == "file":
+            if len(request.text) > LARGEST_TEXT:
+                return f"{request.name} is longer than a scene can be."
+            return Place(Scene.from_toml(request.text), "")
+        place = read(request.text)
+    except ValueError as error:
+        return f"{request.name}: {sentence_of(error)}"
+    return f"{request.name} holds no scene." if place is None else place
+
+
+def name_of(text: str) -> str:
+    """A name for a scene from untrusted text: short, on one line, not empty."""
+    return one_line(text, LONGEST_NAME) or "Unnamed"
+
+
+class Bookmarks:
+    """Undo, compared scenes, notice and address of one session."""
+
+    def __init__(self, editor: SceneEditor, address: str = "") -> None:
+        """`address`: what stood behind the question mark as the page was opened."""
+        self._editor = editor
+        #: the lesson that is open, by its name; empty without one
+        self.lesson, address = lesson_in(address)
+        #: whether the address said which scene to show
+        self.has_scene = bool(address)
+        place = opened(address, editor)
+        self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
+        self._said = (0, place.note)
+        self._history: History[Snapshot] = History(editor.snapshot())
+        #: scenes that are drawn too
+        self.compared: tuple[Reference, ...] = place.compared
+
+    def begin_anew(self, tab: str) -> None:
+        """The scene that the editor has now is the one to begin with."""
+        self._tab = tab
+        self._history = History(self._editor.snapshot())
+
+    @property
+    def tab(self) -> str:
+        """The section that is to be shown; empty where the address says nothing of a scene."""
+        return self._tab
+
+    @property
+    def moving(self) -> bool:
+        """Whether a hand moves something: a step has begun and not ended."""
+        return bool(self._history.moving)
+
+    def say(self, sentence: str) -> None:
+        """Set the notice shown in the toolbar; the same one again counts as new."""
+        self._said = (self._said[0] + 1, sentence)
+
+    def show(self, tab: str) -> None:
+        """Another section is on screen."""
+        self._tab = tab
+
+    def follow(self, message: Mapping[Any, Any]) -> bool:
+        """Note what a message did to the editor; whether a step has ended.
+
+        Play turns the bearing while a hand moves something else: that belongs to the hand's step.
+        """
+        now = self._editor.snapshot()
+        given = message.get("set")
+        if message.get("turning") is True:
+            self._history.amend(now)
+            return message.get("released") is True
+        if given is None or any(name in message for name in _STEPS[1:]):
+            self._history.step(now)
+            return True
+        if given:
+            names = sorted(str(name)[:40] for name in list(given)[:9] if name != CAGE_ANGLE)
+            self._history.moved(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
+        if message.get("released") is True:
+            self._history.settle()
+        return not self._history.moving
+
+    def step(self) -> None:
+        """Note that the editor was changed at once."""
+        self._history.step(self._editor.snapshot())
+
+    def go(self, message: Mapping[Any, Any]) -> bool:
+        """Undo or redo where a message asks for it; whether there was something to."""
+        if message.get("undo") is True:
+            kept = self._history.undo()
+        elif message.get("redo") is True:
+            kept = self._history.redo()
+        else:
+            return False
+        if kept is not None:
+            self._editor.restore(kept)
+        return kept is not None
+
+    def take(self, request: OpenRequest, found: Place | str) -> bool:
+        """Open or compare the place that `read_request` found; whether anything changed."""
+        if isinstance(found, str):
+            self.say(found)
+            return False
+        if request.what == "compare":
+            self._compare(found.scene, request.name)
+            return True
+        try:
+            self._editor.take_scene(
+                found.scene, found.preset, found.selected, found.cage_angle, found.name
+            )
+        except ValueError as error:
+            self.say(f"{request.name}: {sentence_of(error)}")
+            return False
+        self.compared = found.compared or self.compared
+        self.say(found.note or f"{request.name} is open.")
+        self.step()
+        return True
+
+    def change_compared(self, message: Mapping[Any, Any]) -> None:
+        """Add the scene of now, rename or remove compared scenes, where a message says so."""
+        if isinstance(name := message.get("compare_here"), str):
+            usual = usual_name(self._editor.scene, self._editor.selected)
+            self._compare(self._editor.scene, one_line(name, LONGEST_NAME) or usual)
+        compared = list(self.compared)
+        number = message.get("number")
+        if not isinstance(number, int) or number >= len(compared):
+            return
+        if message.get("remove") is True:
+            del compared[number]
+        if isinstance(name := message.get("rename"), str) and number < len(compared):
+            compared[number] = replace(compared[number], name=name_of(name))
+        self.compared = tuple(compared)
+
+    def _compare(self, scene: Scene, name: str) -> None:
+        if len(self.compared) == MOST_COMPARED:
+            self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
+            return
+        self.compared += (Reference(scene, name),)
+        self.say(f"“{name}” is drawn with every scene now.")
+
+    def kept(self, name: str) -> dict[str, str]:
+        """The scene of now for the browser to keep."""
+        return {"name": name_of(name), "text": write(place_of(self._editor))}
+
+    def toml(self) -> dict[str, str]:
+        """The scene of now as a file."""
+        name = f"bearing-{self._editor.preset}.toml"
+        return {"name": name, "type": "application/toml", "text": self._editor.scene.to_toml()}
+
+    def state(self) -> dict[str, Any]:
+        """State for the browser."""
+        place = replace(place_of(self._editor, self._tab), compared=self.compared)
+        address = write(place, LONGEST_LINK)
+        if self.lesson:
+            address += "&" + urlencode({"lesson": self.lesson})
+        return {
+            "address": address,
+            "whole": not leaves_out(address),
+            "undo": self._history.can_undo,
+            "redo": self._history.can_redo,
+            "compared": [one.name for one in self.compared],
+            "scene": scene_line(self._editor.name, self._editor.scene),
+            "usual_name": usual_name(self._editor.scene, self._editor.selected),
+            "said": {"number": self._said[0], "words": self._said[1]},
+        }

@@ -1,0 +1,316 @@
+"""Every choice of the page that is taken out of a list: its options, and what it is of a scene.
+
+The controls, what the browser may ask for, links, lessons and reports all come from this table. A
+choice that is a field of a scene or of its defects needs an entry here and nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bearing_explorer.explorer.state.field_values import defects_of
+from bearingcore import MeasuredFloor, RoughFloor, Scene
+from bearingcore.bearings import KINDS
+
+NOTHING = object()
+"""The value of an option that is None in the core."""
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option: its name in messages, links and lessons, and its words on the page.
+
+    `in_core` is what the core calls it, where that is not its name.
+    """
+
+    name: str
+    label: str
+    about: str
+    in_core: Any = None
+
+    @property
+    def value(self) -> Any:
+        """The value of the scene's field."""
+        if self.in_core is NOTHING:
+            return None
+        return self.name if self.in_core is None else self.in_core
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One choice of the page.
+
+    Parameters
+    ----------
+    group
+        the group of quantities that it stands with; `first`: before their sliders.
+    of
+        "scene" or "defect" where it is the value of a field of that, "scene" also where it is one
+        of the bearing, the load or the support; else the editor of the scene knows what it does.
+    field
+        that field.
+    all_alike
+        all defects have it alike.
+    said
+        how a report says it, "{}" standing for what is chosen.
+    not_in_lessons
+        options that a lesson cannot set; all of them where it cannot choose at all.
+    lesson_control
+        whether it can be a control of a lesson.
+    """
+
+    name: str
+    label: str
+    group: str
+    options: tuple[Option, ...]
+    of: str = ""
+    field: str = ""
+    first: bool = False
+    all_alike: bool = False
+    said: str = ""
+    not_in_lessons: frozenset[str] = frozenset()
+    lesson_control: bool = False
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the options."""
+        return tuple(option.name for option in self.options)
+
+    @property
+    def in_lessons(self) -> tuple[str, ...]:
+        """Names of the options that a lesson can set."""
+        return tuple(name for name in self.names if name not in self.not_in_lessons)
+
+    @property
+    def in_links(self) -> Mapping[str, Any]:
+        """Values by their names in links, with hyphens for spaces."""
+        return {option.name.replace(" ", "-"): option.value for option in self.options}
+
+    def value_of(self, name: str) -> Any:
+        """The value of the scene's field with an option."""
+        return next(option.value for option in self.options if option.name == name)
+
+    def name_of(self, owner: Any) -> str:
+        """The option that a scene or a defect has, whichever the choice is of."""
+        if isinstance(owner, Scene):
+            parts = (owner, owner.bearing, owner.load, owner.support)
+            owner = next(part for part in parts if hasattr(part, self.field))
+        value = getattr(owner, self.field)
+        return next(option.name for option in self.options if option.value == value)
+
+    def sentence(self, owner: Any) -> str:
+        """The sentence of a report about a scene or a defect; empty without one."""
+        return self.said.format(self.name_of(owner)) if self.said else ""
+
+
+RACE = Choice(
+    "race",
+    "Race",
+    "Defect",
+    (
+        Option("outer", "Outer", "The outer ring is at rest, and its defect too."),
+        Option(
+            "inner",
+            "Inner, turns",
+            "The inner ring turns with the shaft. Curves are then drawn over a turn of the "
+            "shaft, as the defect meets the balls in other places with each turn of the cage.",
+        ),
+    ),
+    of="defect",
+    field="race",
+    first=True,
+    lesson_control=True,
+)
+
+ROW = Choice(
+    "row",
+    "Row",
+    "Defect",
+    (
+        Option("all", "All rows", "It reaches across all rows of balls.", NOTHING),
+        Option("1", "Row 1", "Only the balls of the first row meet it, lowest on the shaft.", 0),
+        Option("2", "Row 2", "Only the balls of the second row meet it.", 1),
+    ),
+    of="defect",
+    field="row",
+    first=True,
+    lesson_control=True,
+)
+
+EDGE = Choice(
+    "edge",
+    "Edge model",
+    "Defect",
+    (
+        Option(
+            "published",
+            "Published (Eq. 6)",
+            "Eq. 6 with its factor 0.25: a ball sinks less than geometry asks for, but the "
+            "paper's figures were made with it.",
+        ),
+        Option(
+            "chord",
+            "Chord, whole arc",
+            "Eq. 6 without the factor 0.25: the ball follows a straight chord between the edges.",
+        ),
+        Option(
+            "exact",
+            "Exact, curved race",
+            "A ball that pivots on the corner of the curved race.",
+        ),
+    ),
+    of="defect",
+    field="edge",
+    all_alike=True,  # defects that run into one another need one edge model
+    said="edge model “{}”",
+    lesson_control=True,
+)
+
+FLOOR = Choice(
+    "floor",
+    "Floor",
+    "Defect",
+    (
+        Option("flat", "Flat", "The same depth everywhere."),
+        Option(
+            "rough",
+            "Rough",
+            "Random heights about the depth. The centre of a ball follows the ball's circle "
+            "rolled over them.",
+        ),
+        Option(
+            "measured",
+            "From a file",
+            "A text file of two columns: angle around the race in degrees, depth in "
+            "micrometres. Extent, depth and centre come from the file; their sliders stretch "
+            "it.",
+        ),
+    ),
+    not_in_lessons=frozenset({"measured"}),
+    lesson_control=True,
+)
+
+LAW = Choice(
+    "law",
+    "Contact law",
+    "Contact of a moving ball",
+    (
+        Option(
+            "published",
+            "Published, may pull",
+            "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
+        ),
+        Option(
+            "no tension",
+            "Without tension",
+            "The same damping, but a contact never pulls: its force ends at zero.",
+        ),
+    ),
+    of="scene",
+    field="contact_law",
+    said="Contact law: {}",
+)
+
+BALLS = Choice(
+    "balls",
+    "Balls",
+    "Turning",
+    (
+        Option(
+            "massless",
+            "Massless",
+            "Each ball is a spring between the rings, as in the paper. Exact at low frequencies; "
+            "the status line says up to which frequency.",
+        ),
+        Option(
+            "with mass",
+            "With mass",
+            "Each ball has its own place, its inertia, centrifugal load and weight, and a contact "
+            "with each race: it can lift off and strike. Loads and stiffness at rest count the "
+            "centrifugal load; maps and natural frequencies leave it out.",
+        ),
+    ),
+    of="scene",
+    field="balls",
+    said="Balls: {}",
+    lesson_control=True,
+)
+
+NUMBERS = Choice(
+    "numbers",
+    "Given as",
+    "",
+    (
+        Option(
+            "direct",
+            "Numbers of the contact model",
+            "As the paper prints them: groove centres, clearance and load-deflection factor are "
+            "given.",
+        ),
+        Option(
+            "drawing",
+            "A drawing",
+            "Groove radii and material are given; groove centres, raceway radii and the "
+            "load-deflection factor follow from them (Hertz). Contact angle and clearance describe "
+            "the same freedom: give one and leave the other 0, or give both, as the paper does.",
+        ),
+    ),
+    first=True,
+    not_in_lessons=frozenset({"direct", "drawing"}),
+)
+
+MATERIAL = Choice(
+    "ball_material",
+    "Balls of",
+    "",
+    (
+        Option("steel", "Steel, as the rings", "The balls are of the material of the rings."),
+        Option(
+            "silicon nitride",
+            "Silicon nitride (hybrid bearing)",
+            "Ceramic balls in steel rings: stiffer contacts, and balls of less than half the mass. "
+            "The load rating of steel balls is not theirs.",
+        ),
+    ),
+    first=True,
+    not_in_lessons=frozenset({"steel", "silicon nitride"}),
+)
+
+KIND_OF_VARIANT = {variant.name: kind for kind in KINDS.values() for variant in kind.variants}
+"""The kind of bearing that each option of KIND is of."""
+
+KIND = Choice(
+    "kind",
+    "Kind of bearing",
+    "",
+    tuple(Option(*variant) for kind in KINDS.values() for variant in kind.variants),
+    first=True,
+    not_in_lessons=frozenset(KIND_OF_VARIANT),
+)
+
+CHOICE_LIST: tuple[Choice, ...] = (KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS, MATERIAL)
+"""All choices, in the order in which several are taken."""
+
+OF_SCENE = tuple(choice for choice in CHOICE_LIST if choice.of == "scene")
+OF_DEFECT = tuple(choice for choice in CHOICE_LIST if choice.of == "defect")
+
+
+def floor_name(floor: object) -> str:
+    """The option of FLOOR that a defect's floor is."""
+    kinds = {RoughFloor: "rough", MeasuredFloor: "measured"}
+    return next((name for kind, name in kinds.items() if isinstance(floor, kind)), "flat")
+
+
+def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
+    """The options that a scene has, of its `selected` defect where they are one's."""
+    defect = defects_of(scene)[selected]
+    return {
+        **{choice.name: choice.name_of(defect) for choice in OF_DEFECT},
+        FLOOR.name: floor_name(defect.floor),
+        **{choice.name: choice.name_of(scene) for choice in OF_SCENE},
+        KIND.name: scene.bearing.kind.variant(scene.bearing),
+        NUMBERS.name: "drawing" if scene.bearing.is_drawn else "direct",
+        MATERIAL.name: scene.bearing.ball_material,
+    }

@@ -1,0 +1,73 @@
+"""Differences of two scenes, in words."""
+
+from __future__ import annotations
+
+import math
+
+from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE
+from bearing_explorer.explorer.state.field_values import (
+    SHOWN_FIELDS,
+    Values,
+    defects_of,
+    differ,
+    values_of,
+)
+from bearingcore import Scene
+from bearingcore.fields import Field
+
+MOST_NUMBERS = 3
+"""Numbers that are named one by one; more are said to be another bearing, or several at once."""
+WHOLE = 0.02
+"""Of a ball spacing: nearer to a whole number of them a change counts as one."""
+
+
+def difference(now: Scene, before: Scene, focus: int = 0) -> str:
+    """Changes from one scene to the other; `focus` is the selected defect."""
+    if not (now.defects and before.defects) and now.healthy() == before.healthy():
+        return "With the defect" if now.defects else "Without the defect"
+    own, earlier = defects_of(now), defects_of(before)
+    if len(own) != len(earlier):
+        return "A defect more" if len(own) > len(earlier) else "A defect less"
+    focus = min(focus, len(own) - 1)
+    changed = _numbers(values_of(now, focus), values_of(before, focus))
+    if len(changed) > MOST_NUMBERS:
+        return "Another bearing" if now.bearing != before.bearing else "Several changes at once"
+    words = [
+        f"{choice.label} ({choice.name_of(b)} → {choice.name_of(a)})"
+        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, own[focus], earlier[focus]))
+        for choice in choices
+        if choice.name_of(a) != choice.name_of(b)
+    ]
+    if now.dofs != before.dofs:
+        words.append("Other free directions")
+    words += [_from_to(field, *values, now) for field, values in changed]
+    if not words:
+        return "Another defect has changed" if own != earlier else "The scene has changed"
+    first, *others = words
+    return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
+
+
+def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, float]]]:
+    return [
+        (field, (before[field.key], now[field.key]))
+        for field in SHOWN_FIELDS
+        if field.part and differ(before[field.key], now[field.key])
+    ]
+
+
+def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
+    unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
+    digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
+    numbers = f"({_number(before, digits)} → {_number(now, digits)}{unit})"
+    if field.name != "extent":
+        return f"{field.label} {numbers}"
+    spacings = (now - before) * field.factor / scene.bearing.ball_spacing
+    count = round(abs(spacings))
+    if count and abs(abs(spacings) - count) < WHOLE:
+        many = "one ball spacing" if count == 1 else f"{count} ball spacings"
+        return f"Defect {'longer' if spacings > 0 else 'shorter'} by {many} {numbers}"
+    return f"{field.label} {numbers}"
+
+
+def _number(value: float, digits: int) -> str:
+    return "left empty" if math.isnan(value) else f"{value:.{digits}g}".replace("-", "−")

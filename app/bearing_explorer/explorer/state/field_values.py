@@ -1,0 +1,149 @@
+"""The numbers of a scene as the page has them: in the units of `bearingcore.fields`, by their keys.
+
+Degrees, micrometres and hertz live here and in the browser; behind this module all is SI.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+from bearing_explorer.kit.sentences import label_inside, with_unit
+from bearingcore import Defect, RoughFloor, Scene
+from bearingcore.fields import FIELDS, Field, Range
+from bearingcore.units import read_number
+
+SHOWN_FIELDS = tuple(field for field in FIELDS if field.group)
+"""Fields that can be set on the page, in its order."""
+
+FIELD_BY_KEY: Mapping[str, Field] = {field.key: field for field in SHOWN_FIELDS}
+"""The same by their keys."""
+
+CAGE_ANGLE = "cage_angle_deg"
+
+SCENE_GROUPS = ("Defect", "Turning", "Load")
+BEARING_GROUPS = ("Balls", "Rows", "Second row", "Drawing", "Contact", "Races")
+MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
+
+Values = dict[str, float]
+"""A value for each key, in the shown unit of the field; NaN for an optional one left open."""
+
+FIRST_ROUGHNESS = RoughFloor(rms_height=2e-6, correlation_length=200e-6)
+"""A rough floor to begin with."""
+
+
+def defects_of(scene: Scene) -> tuple[Defect, ...]:
+    """All defects of a scene, also those without extent or depth; at least one."""
+    several = (scene.defect,) if isinstance(scene.defect, Defect) else scene.defect
+    return several or (Defect.none(),)
+
+
+def values_of(scene: Scene, selected: int = 0) -> Values:
+    """The numbers of a scene as the page shows them, at cage angle 0; `selected` is a defect."""
+    return {
+        field.key: in_shown_unit(field, number_of(scene, field, selected)) if field.part else 0.0
+        for field in SHOWN_FIELDS
+    }
+
+
+def number_of(scene: Scene, field: Field, selected: int = 0) -> float | None:
+    """A number of a scene [SI]; None where it is left open, or the scene has it not.
+
+    Of a defect it is that of the `selected` one; of a floor that is not rough, what a rough one
+    would begin with.
+    """
+    if field.part == "scene":
+        part: Any = scene
+    elif field.part in ("defect", "floor"):
+        part = defects_of(scene)[selected]
+        if field.part == "floor":
+            part = part.floor if isinstance(part.floor, RoughFloor) else FIRST_ROUGHNESS
+    else:
+        part = getattr(scene, field.part, scene.bearing)
+        if field.part == "second":
+            part = part.rows[1] if len(part.rows) == 2 else None
+        elif field.name == "inner_groove_radius":
+            return scene.bearing.groove_radius("inner")
+    value: float | None = getattr(part, field.name, None)
+    return value
+
+
+def in_shown_unit(field: Field, si: float | None) -> float:
+    """A number in SI as the page shows it; NaN for one left open."""
+    return math.nan if si is None else _divided(si, field.factor)
+
+
+@lru_cache(4096)  # every change of a slider asks for all numbers of the page
+def _divided(si: float, factor: float) -> float:
+    # The last digits of π have no business on a page.
+    return float(f"{si / factor:.12g}")
+
+
+def in_si(field: Field, value: float) -> float | None:
+    """The other way round."""
+    return None if math.isnan(value) else value * field.factor
+
+
+def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:
+    """`scene` with fields changed by their names, those of a defect in the `selected` one."""
+    own = {name: fields[name] for name in fields if name in Defect.__dataclass_fields__}
+    others = {name: fields[name] for name in fields if name not in own}
+    defects = list(defects_of(scene))
+    if own:
+        single = Scene.replace(scene, defect=defects[selected]).replace(**own)
+        assert isinstance(single.defect, Defect)
+        defects[selected] = single.defect
+        others["defect"] = defects[0] if len(defects) == 1 else tuple(defects)
+    return scene.replace(**others) if others else scene
+
+
+def differ(a: float, b: float) -> bool:
+    """Whether two numbers of fields differ; NaN, left open, equals itself."""
+    return a != b and not (math.isnan(a) and math.isnan(b))
+
+
+def limits_of(base: Scene) -> dict[str, Range]:
+    """Ranges that fit a preset, by key: loads up to a few times its own, for example."""
+    values = values_of(base)
+    return {field.key: field.range_for(base, values[field.key]) for field in SHOWN_FIELDS}
+
+
+def groove_limits(scene: Scene) -> dict[str, Range]:
+    """The ranges that change with the ball of a scene, by key."""
+    names = ("inner_groove_radius_mm", "outer_groove_radius_mm")
+    return {name: FIELD_BY_KEY[name].range_for(scene, math.nan) for name in names}
+
+
+def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
+    """The number a person gave for a field; ValueError with a sentence for the page."""
+    if key not in FIELD_BY_KEY:
+        raise ValueError("There is no such quantity.")
+    field = FIELD_BY_KEY[key]
+    least, most = limits[key].allowed
+    text = str(given)[:80].strip()[:40]
+    if field.optional and text in ("", "None"):
+        return math.nan
+    try:
+        value = given if isinstance(given, float) else read_number(text, field.shown_unit)
+    except ValueError:
+        value = math.nan
+    span = f"{with_unit(least, '')} to {with_unit(most, field.shown_unit)}"
+    if not math.isfinite(value):
+        shown = f"“{text}” is not a number" if text else "A number is missing"
+        raise ValueError(f"{shown}: {label_inside(field)} goes from {span}.")
+    if not least <= value <= most:
+        shown = with_unit(value, field.shown_unit)
+        raise ValueError(f"{shown} is out of range: {label_inside(field)} goes from {span}.")
+    return value
+
+
+def check_values(values: Mapping[str, float], limits: Mapping[str, Range]) -> None:
+    """ValueError with a sentence where a number is one that could not be typed on the page.
+
+    NaN stands for what a scene does not have.
+    """
+    for key, value in values.items():
+        if not math.isnan(value):
+            read(key, repr(value), limits)

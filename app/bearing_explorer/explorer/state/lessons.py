@@ -1,0 +1,568 @@
+"""Lessons: text files that ask, set a scene, say what to drag and what to look at, and answer.
+
+A lesson is a text file in Markdown with a head in TOML::
+
+    +++
+    title = "What a ball carries"
+    tab = "load"                       # what is on screen: a tab of the page
+    preset = "fan-rig"                 # the scene to begin with ...
+    drag = ["fy_n", "cage_angle_deg"]  # the controls shown with the words
+    watch = ["load-distribution"]      # the figures to look at; they are marked
+
+    [scene]                            # ... and what is changed in it
+    extent_deg = 0
+    edge = "chord"
+
+    [predict]                          # before the answer; may be left out
+    ask = "Which ball carries most?"
+    choose = ["the first", "the lowest", "all the same"]
+    right = 2                          # counted from 1
+    +++
+    ## Question
+    Which ball carries most?
+    ## Answer
+    The last part is hidden behind a button.
+
+A prediction can be a number instead: ``unit``, ``right`` and ``within`` in place of ``choose``.
+
+Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
+``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
+that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
+says how, and simulates a measurement of it. Files are read in the order of their names; without
+its leading number the name of a file is the lesson's own, by which the page's address calls it.
+
+Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
+loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
+name and line.
+"""
+
+from __future__ import annotations
+
+import difflib
+import html
+import json
+import re
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cache, cached_property, lru_cache
+from itertools import islice
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+from urllib.parse import parse_qsl, unquote, urlencode
+
+import msgspec
+import tomli
+from latex2mathml.converter import convert_to_element
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+from msgspec import Meta
+from msgspec.structs import fields
+
+from bearing_explorer.explorer.state.address import FORMER_TABS
+from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
+from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
+from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
+from bearing_explorer.kit.assets import asset_path
+from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearingcore import presets
+
+_Entries = TypeVar("_Entries", bound=msgspec.Struct)
+
+Tabs = tuple[tuple[str, tuple[str, ...]], ...]
+"""Names of the tabs, each with the names of its views."""
+
+LONGEST_FILE = 20_000  # bytes
+LONGEST_FORMULA = 400  # characters
+MOST_LESSONS = 60
+MOST_FILES = 5_000
+"""Names that are looked at in a folder."""
+LONGEST_NAME = 60  # characters
+_MOST_LISTED = 16
+
+CHOICES: Mapping[str, Sequence[str]] = {
+    choice.name: choice.in_lessons for choice in CHOICE_LIST if choice.in_lessons
+}
+"""Choices that a lesson may make, and their options."""
+
+DRAGGED = (
+    *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
+    *(choice.name for choice in CHOICE_LIST if choice.lesson_control),
+)
+"""Controls that can be shown with the words."""
+
+_FENCE = "+++"
+_MATHML_ELEMENTS = (
+    "math mrow mi mn mo mtext mspace msub msup msubsup mfrac msqrt mroot mover munder munderover "
+    "mtable mtr mtd mstyle mpadded mphantom"
+)
+_MATHML_ATTRIBUTES = (
+    "xmlns display mathvariant stretchy fence separator form lspace rspace width height depth "
+    "minsize maxsize linethickness columnalign rowspacing columnspacing displaystyle scriptlevel "
+    "accent accentunder movablelimits largeop symmetric voffset"
+)
+
+
+class LessonError(ValueError):
+    """A fault of a lesson in a sentence; `line` counts from 1."""
+
+    def __init__(self, line: int, words: str) -> None:
+        super().__init__(words)
+        self.line = line
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a lesson: its heading, and its words as safe HTML."""
+
+    heading: str
+    html: str
+
+
+Text = Annotated[str, Meta(min_length=1, max_length=200)]
+Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
+
+
+class Prediction(msgspec.Struct, frozen=True):
+    """A question before the answer is shown, as the head of a lesson has it.
+
+    Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
+    number of `unit`, right from `right` − `within` to `right` + `within`.
+    """
+
+    ask: Text
+    right: Number
+    choose: Annotated[tuple[Text, ...], Meta(min_length=2, max_length=6)] = ()
+    unit: Annotated[str, Meta(max_length=20)] = ""
+    within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
+
+
+class _Head(msgspec.Struct):
+    """The head of a lesson, as it is in the file."""
+
+    title: Annotated[str, Meta(min_length=1, max_length=90)]
+    tab: str
+    preset: str
+    drag: tuple[str, ...] = ()
+    watch: tuple[str, ...] = ()
+    scene: dict[str, str | int | float] = {}
+    predict: dict[str, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One lesson. `values` and `choices` change the scene of `preset`, by names of the page.
+
+    `name` is what the page's address calls it.
+    """
+
+    title: str
+    tab: str
+    preset: str
+    values: Mapping[str, float]
+    choices: Mapping[str, str]
+    drag: tuple[str, ...]
+    watch: tuple[str, ...]
+    parts: tuple[Part, ...]
+    predict: Prediction | None = None
+    name: str = ""
+
+    def begin(self, editor: SceneEditor) -> None:
+        """Set the scene that it begins with."""
+        editor.take_preset(self.preset)
+        editor.choose(self.choices)
+        editor.set(self.values)
+
+    def for_browser(self, number: int) -> dict[str, Any]:
+        """The lesson as the page's script takes it; `number` counts from 0."""
+        return {
+            "number": number,
+            "title": self.title,
+            "drag": list(self.drag),
+            "watch": list(self.watch),
+            "parts": [asdict(part) for part in self.parts],
+            "predict": msgspec.to_builtins(self.predict),
+            "name": self.name,
+        }
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A file that is no lesson, and why: a sentence with its name and line."""
+
+    title: str
+    sentence: str
+
+
+def own_folder() -> Path:
+    """The folder of the lessons that come with the program."""
+    return asset_path("lessons")
+
+
+def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
+    """All lessons of a folder, in the order of their files' names; files that changed are reread.
+
+    A folder that cannot be read, or holds none, is one fault.
+    """
+    try:
+        names = islice(folder.iterdir(), MOST_FILES)
+        files = sorted(path for path in names if path.suffix == ".md")
+    except OSError as error:
+        return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
+    if not files:
+        return [_no_lessons(folder, "holds no file that ends in .md")]
+    found: list[Lesson | Fault] = []
+    for path in files[:MOST_LESSONS]:
+        try:
+            about = path.stat()
+            found.append(_from_file(path, about.st_mtime_ns, about.st_size, tabs))
+        except OSError as error:
+            found.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
+    if len(files) > MOST_LESSONS:
+        found.append(_fault(folder.name, f"holds {len(files)} lessons; allowed: {MOST_LESSONS}"))
+    return found
+
+
+def faults_in(folder: Path, tabs: Tabs) -> list[str]:
+    """Faults of the lessons of a folder, a sentence for each file."""
+    return [found.sentence for found in lessons_in(folder, tabs) if isinstance(found, Fault)]
+
+
+def _no_lessons(folder: Path, why: str) -> Fault:
+    return _fault(str(folder), f"the folder {why}")
+
+
+def _fault(name: str, why: str) -> Fault:
+    return Fault(name, f"{name}: {why}.")
+
+
+@lru_cache(maxsize=4 * MOST_LESSONS)
+def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
+    """The lesson in a file; the time and size of its last change are part of the cache's key."""
+    try:
+        lesson = read_lesson(_text(path, size), tabs)
+        return replace(lesson, name=_name_of(path))
+    except LessonError as error:
+        return Fault(path.name, f"{path.name}, line {error.line}: {error}.")
+
+
+def _name_of(path: Path) -> str:
+    """The name of a lesson: that of its file without a leading number, in plain signs."""
+    plain = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-")
+    return (re.sub(r"^\d+-", "", plain) or plain)[:LONGEST_NAME]
+
+
+def text_for_teachers(tabs: Tabs) -> str:
+    """The page for teachers as safe HTML."""
+    tokens = _markdown().parse(asset_path("docs/TEACHING.md").read_text(encoding="utf-8"))
+    preset = next(iter(presets))
+    checks = _Checks(['title = "-"', 'tab = "load"', f'preset = "{preset}"'], tabs)
+    for token in tokens:
+        if token.type in ("heading_open", "heading_close"):
+            _lower(token, by=2)  # below the title of the list of lessons
+        if token.children:
+            _without_links_to_files(token.children)
+            _mend(token.children, 1, checks)
+    return str(_markdown().renderer.render(tokens, _markdown().options, {}))
+
+
+def _without_links_to_files(tokens: list[Token]) -> None:
+    """Links that lead somewhere in the repository only become their words."""
+    inside = False
+    for token in tokens:
+        opens = token.type == "link_open" and ":" not in str(token.attrGet("href") or "")
+        if opens or (token.type == "link_close" and inside):
+            inside = opens
+            token.type, token.content, token.nesting = "text", "", 0
+
+
+def _text(path: Path, size: int) -> str:
+    if not path.is_file():
+        raise LessonError(1, "this is not a regular file")
+    if size > LONGEST_FILE:
+        raise LessonError(1, f"the file is longer than {LONGEST_FILE} bytes")
+    content = path.read_bytes()
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise LessonError(line, "this is not text in UTF-8") from None
+
+
+def read_lesson(text: str, tabs: Tabs) -> Lesson:
+    """The lesson that `text` is; LessonError where it is none."""
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if lines[0].strip() != _FENCE:
+        raise LessonError(1, f"a lesson begins with a line {_FENCE}")
+    ends = [i for i, line in enumerate(lines) if i and line.strip() == _FENCE]
+    if not ends:
+        raise LessonError(len(lines), f"the head has no end: a second line {_FENCE} is missing")
+    checks = _Checks(lines[1 : ends[0]], tabs)
+    values, choices = checks.scene()
+    return Lesson(
+        title=checks.head.title,
+        tab=checks.head.tab,
+        preset=checks.head.preset,
+        values=values,
+        choices=choices,
+        drag=checks.head.drag,
+        watch=checks.head.watch,
+        parts=_parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, checks),
+        predict=checks.prediction(),
+    )
+
+
+class _Checks:
+    """The head of a lesson, and what its words are checked against.
+
+    Parameters
+    ----------
+    lines
+        of the head.
+    tabs
+        of the page.
+    """
+
+    def __init__(self, lines: list[str], tabs: Tabs) -> None:
+        self._lines = lines
+        self.tabs = dict(tabs)
+        self.head = head = self._decoded()
+        head.title = " ".join(head.title.split())
+        head.tab = FORMER_TABS.get(head.tab, head.tab)
+        self._on_list("tab", [head.tab], list(self.tabs), "a tab")
+        self._on_list("preset", [head.preset], list(presets), "a preset")
+        self._on_list("drag", head.drag, DRAGGED, "a control of the page")
+        self._on_list("watch", head.watch, self.tabs[head.tab], "a figure of this tab")
+
+    def _decoded(self) -> _Head:
+        try:
+            given = tomli.loads("\n".join(self._lines))
+        except tomli.TOMLDecodeError as error:
+            raise LessonError(error.lineno + 1, f"the head is not TOML: {error.msg}") from None
+        except RecursionError:
+            raise LessonError(1, "the head is not TOML: its lists are too deep") from None
+        return self._entries(given, _Head)
+
+    def _entries(self, given: dict[str, Any], kind: type[_Entries]) -> _Entries:
+        """A table of the head as `kind`; LessonError naming the entry that is wrong."""
+        known = {field.name: field for field in fields(kind)}
+        for name, field in known.items():
+            if field.required and name not in given:
+                raise self.error("", f"{name} is missing")
+        values = {}
+        for name, value in given.items():
+            if name not in known:
+                raise self.error(
+                    name, f"“{name[:40]}” is no entry here; {_near(name, list(known))}"
+                )
+            try:
+                values[name] = msgspec.convert(value, known[name].type)
+            except msgspec.ValidationError as error:
+                raise self.error(name, f"{name} cannot be read: {error}") from None
+        return kind(**values)
+
+    def error(self, name: str, words: str) -> LessonError:
+        """A fault of the entry `name`, with its line."""
+        begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
+        at = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
+        return LessonError(at if name else 1, words)
+
+    def _on_list(self, entry: str, names: Sequence[str], known: Sequence[str], what: str) -> None:
+        for name in names:
+            if name not in known:
+                raise self.error(entry, f"“{name[:40]}” is not {what}; {_near(name, known)}")
+
+    def scene(self) -> tuple[dict[str, float], dict[str, str]]:
+        """The numbers and the choices that the scene is changed by."""
+        changes = {name: str(value) for name, value in self.head.scene.items()}
+        return _changes(SceneEditor(self.head.preset), changes, self.error)
+
+    def prediction(self) -> Prediction | None:
+        """The prediction; LessonError where none of its choices is right."""
+        if self.head.predict is None:
+            return None
+        given = self._entries(self.head.predict, Prediction)
+        if given.choose and given.right not in range(1, len(given.choose) + 1):
+            raise self.error("right", "right counts the choices from 1")
+        return given
+
+    @cached_property
+    def _begun(self) -> tuple[SceneEditor, Snapshot]:
+        editor = SceneEditor(self.head.preset)
+        values, choices = self.scene()
+        editor.choose(choices)
+        editor.set(values)
+        return editor, editor.snapshot()
+
+    def editor(self) -> SceneEditor:
+        """The scene that the lesson begins with; the same editor each time, set back."""
+        editor, at_first = self._begun
+        editor.restore(at_first)
+        return editor
+
+
+def _near(name: str, known: Sequence[str]) -> str:
+    """The nearest known name, or all of them where there are few."""
+    if len(known) <= _MOST_LISTED:
+        return f"there are {', '.join(known)}"
+    close = difflib.get_close_matches(name, known, 1, 0.3)
+    return f"was {close[0]} meant?" if close else f"there are {len(known)}, as {known[0]}"
+
+
+def _changes(
+    editor: SceneEditor, changes: Mapping[str, str], error: Callable[[str, str], LessonError]
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Changes of a scene as numbers and choices, tried on `editor`.
+
+    Where one fails, what `error` makes of its name and a sentence is raised.
+    """
+    choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
+    for name, value in choices.items():
+        options = CHOICES.get(name, list(presets))
+        if value not in options:
+            raise error(name, f"{name} is “{value[:40]}”; {_near(value, options)}")
+    numbers = {name: value for name, value in changes.items() if name not in choices}
+    for name in numbers:
+        if name not in FIELD_BY_KEY:
+            known = _near(name, [*FIELD_BY_KEY, *CHOICES])
+            raise error(name, f"“{name[:40]}” is no number or choice of the page; {known}")
+    refused = editor.choose(choices) or editor.set(numbers)[0]
+    for name, sentence in refused.items():
+        raise error(name, sentence.rstrip("."))
+    return {name: editor.values[name] for name in numbers}, choices
+
+
+# Words: Markdown to safe HTML.
+
+
+@cache
+def _markdown() -> MarkdownIt:
+    parser = MarkdownIt("commonmark", {"html": False, "maxNesting": 20})
+    parser.enable(["table"]).disable(["image", "html_block", "html_inline", "lheading"])
+    return parser.use(dollarmath_plugin, allow_space=False, double_inline=True)
+
+
+def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
+    """The parts of a body whose first line is line `offset` + 1 of the file."""
+    parser = _markdown()
+    tokens = parser.parse(text)
+    begins = [i for i, t in enumerate(tokens) if t.type == "heading_open" and t.tag == "h2"]
+    if not begins or begins[0] > 0:
+        raise LessonError(offset + 1, "words before the first part: parts begin with “## ”")
+    if len(begins) < 2:
+        raise LessonError(offset + 1, "a lesson has two parts at least, the last is the answer")
+    line = offset + 1
+    for token in tokens:
+        line = offset + 1 + token.map[0] if token.map else line
+        if token.type in ("heading_open", "heading_close"):
+            _lower(token)
+        if token.type in ("math_block", "math_block_label"):
+            token.type, token.content = "html_block", _formula(token.content, True, line)
+        if token.children:
+            _mend(token.children, line, checks)
+    found = []
+    for begin, end in zip(begins, [*begins[1:], len(tokens)], strict=True):
+        words = tokens[begin + 1]
+        rendered = parser.renderer.render(tokens[begin + 3 : end], parser.options, {})
+        if not rendered.strip():
+            raise LessonError(offset + 1 + (words.map or [0])[0], "this part is empty")
+        found.append(Part(words.content.strip(), rendered))
+    return tuple(found)
+
+
+def _lower(token: Token, by: int = 1) -> None:
+    """Lower a heading: the lesson's own title is above it."""
+    token.tag = f"h{min(max(int(token.tag[1]) + by, 3), 6)}"
+
+
+def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
+    """Formulas to MathML, and links to buttons or to what may be linked to."""
+    closing = ""
+    for token in tokens:
+        if token.type == "softbreak":
+            line += 1
+        if token.type in ("math_inline", "math_inline_double"):
+            double = token.type == "math_inline_double"
+            token.type, token.content = "html_inline", _formula(token.content, double, line)
+        elif token.type == "link_open":
+            address = str(token.attrGet("href") or "")
+            scheme, _, rest = address.partition(":")
+            if scheme in _BUTTONS:
+                message = html.escape(json.dumps(_BUTTONS[scheme](rest, line, checks)))
+                token.type, closing = "html_inline", "</button>"
+                token.content = f'<button type="button" class="do" data-ask="{message}">'
+            elif scheme in ("http", "https"):
+                token.attrSet("target", "_blank")
+                token.attrSet("rel", "noopener noreferrer")
+            else:
+                known = "links go to set:, show:, simulate:, lesson: or https:"
+                raise LessonError(line, f"a link goes to “{address[:60]}”; {known}")
+        elif token.type == "link_close" and closing:
+            token.type, token.content, closing = "html_inline", closing, ""
+
+
+def _set(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that changes the scene."""
+    if not rest:
+        raise LessonError(line, "set: is followed by changes, as in set:extent_deg=64")
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    values, choices = _changes(checks.editor(), changes, lambda _, words: LessonError(line, words))
+    return {"choose": choices, "typed": values}
+
+
+def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that simulates a measurement."""
+    changes = dict(parse_qsl(rest, keep_blank_values=True))
+    wish = {}
+    for name, known, usual in (
+        ("noise", list(NOISES), "20"),
+        ("machine", list(MACHINES), MACHINES[0]),
+        ("pit", list(PITS), "scene"),
+    ):
+        wish[name] = word = changes.pop(name, usual)
+        if word not in known:
+            raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
+    scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
+    return {**scene, "simulate": wish}
+
+
+def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
+    """The message of a button that opens a tab."""
+    name = FORMER_TABS.get(unquote(rest), unquote(rest))
+    if name not in checks.tabs:
+        raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(checks.tabs))}")
+    return {"show": name}
+
+
+def _lesson(rest: str, _: int, __: _Checks) -> dict[str, Any]:
+    """The message of a button that opens a lesson."""
+    return {"lesson": unquote(rest)[:LONGEST_NAME]}
+
+
+_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show, "lesson": _lesson}
+"""The message of a button for what is behind the colon of a link, by what is before it."""
+
+
+def _formula(latex: str, display: bool, line: int) -> str:
+    """A formula in LaTeX as MathML, which browsers set themselves, of known elements only."""
+    latex = latex.strip()
+    if len(latex) > LONGEST_FORMULA:
+        raise LessonError(line, f"a formula is longer than {LONGEST_FORMULA} characters")
+    wrong = f"“{latex[:60]}” is not a formula that can be set"
+    braces = re.findall(r"(?<!\\)[{}]", latex)
+    if braces.count("{") != braces.count("}"):  # the converter would fill in what is missing
+        raise LessonError(line, f"{wrong}: its braces do not match")
+    try:
+        root = convert_to_element(latex, display="block" if display else "inline")
+    except (Exception, RecursionError):
+        raise LessonError(line, wrong) from None
+    for element in root.iter():
+        odd = [key for key in element.attrib if key not in _MATHML_ATTRIBUTES.split()]
+        if element.tag not in _MATHML_ELEMENTS.split() or odd:
+            raise LessonError(line, f"“{latex[:60]}” holds what a formula may not: {element.tag}")
+        if element.text:  # the converter writes letters as references, the tree holds letters
+            element.text = re.sub(
+                r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text
+            )
+    return ElementTree.tostring(root, encoding="unicode")

@@ -1,0 +1,93 @@
+"""Scenes that are drawn too, each under a name: the references of the scene on screen."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bearing_explorer.explorer.state.field_values import defects_of
+from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT
+from bearingcore import Scene
+from bearingcore.common.numbers import with_prefix
+from bearingcore.scene.scene import MASSLESS, WITH_MASS
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A scene that is drawn too, under a name.
+
+    Parameters
+    ----------
+    scene
+        that is drawn.
+    name
+        of its curves on the page.
+    label
+        before its numbers in sentences: "without the defect".
+    """
+
+    scene: Scene
+    name: str
+    label: str = ""
+
+
+BEFORE = "the scene before the last change"
+"""Name of that reference."""
+
+HEALTHY, OTHER_BALLS = "healthy", "other-balls"
+"""Kinds of the scene that is drawn in grey."""
+
+
+def without_defect(scene: Scene) -> Reference:
+    """The bearing without its defect; no label where the scene is the same."""
+    label = "without the defect" if scene.defects else ""
+    return Reference(scene.healthy(), WITHOUT_DEFECT, label)
+
+
+def with_other_balls(scene: Scene) -> Reference:
+    """The same scene with the mass of its balls; of a scene with that, with massless balls.
+
+    Raises
+    ------
+    ValueError
+        where the model has no mass of the bearing's elements.
+    """
+    if kind := scene.bearing.kind.mass_unknown:
+        raise ValueError(f"the model has no mass of {kind}")
+    if scene.balls == WITH_MASS:
+        return massless(scene)
+    return Reference(
+        scene.replace(balls=WITH_MASS), "the same with the mass of its balls", "with mass"
+    )
+
+
+def massless(scene: Scene) -> Reference:
+    """The same with massless balls, as maps have it."""
+    return Reference(scene.replace(balls=MASSLESS), "the same with massless balls", "massless")
+
+
+def grey_reference(scene: Scene, kind: str) -> Reference:
+    """The scene that is drawn in grey, of one of the kinds."""
+    return with_other_balls(scene) if kind == OTHER_BALLS else without_defect(scene)
+
+
+def scene_line(bearing: str, scene: Scene) -> str:
+    """The scene in a line: "Fan rig: defect 12.9°, 50 µm; load 100 N at 270°; shaft 7 Hz"."""
+    defects = [f"defect {usual_name(scene, focus)}" for focus in range(len(scene.defects))]
+    load = scene.load
+    radial = with_prefix(math.hypot(load.fx, load.fy), "N")
+    parts = [
+        *(defects or ["no defect"]),
+        f"load {radial} at {math.degrees(math.atan2(load.fy, load.fx)) % 360.0:.4g}°",
+        *([f"axial {with_prefix(load.fz, 'N')}"] if load.fz else []),
+        f"shaft {scene.shaft_speed / (2.0 * math.pi):.4g} Hz",
+    ]
+    return f"{bearing}: {'; '.join(parts)}"
+
+
+def usual_name(scene: Scene, focus: int = 0) -> str:
+    """A name by the size of the defect `focus`: "12.9°, 50 µm"."""
+    if not scene.defects:
+        return "no defect"
+    defect = defects_of(scene)[focus]
+    return f"{math.degrees(defect.extent):.4g}°, {defect.depth * 1e6:.4g} µm"

@@ -1,0 +1,666 @@
+"""Editor of the scene: the scene, the numbers as they were typed, the selected defect.
+
+Holds no Panel and draws nothing. Requests come from the browser and are not trusted: they are
+checked here, and a refused one leaves all as it was, with a sentence.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from bearing_explorer.explorer.state.bearing_draft import OF_BEARING, faults_of, words_of
+from bearing_explorer.explorer.state.bearing_kinds import (
+    MOST_SHOWN_ROWS,
+    as_kind,
+    held,
+    hidden_of,
+    scene_with,
+)
+from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, Choice, chosen_of
+from bearing_explorer.explorer.state.field_values import (
+    CAGE_ANGLE,
+    FIELD_BY_KEY,
+    FIRST_ROUGHNESS,
+    SHOWN_FIELDS,
+    Values,
+    check_values,
+    defects_of,
+    differ,
+    groove_limits,
+    in_shown_unit,
+    in_si,
+    limits_of,
+    read,
+    scene_with_fields,
+    values_of,
+)
+from bearing_explorer.explorer.state.second_units import second_units
+from bearing_explorer.kit.bearing_list import BearingTable, origin_words
+from bearing_explorer.kit.sentences import one_line, sentence_of
+from bearingcore import (
+    DOF_NAMES,
+    Bearing,
+    Defect,
+    MeasuredFloor,
+    RoughFloor,
+    Scene,
+    preset_notes,
+    presets,
+    read_floor,
+)
+from bearingcore.bearings.ball import USUAL_GROOVES, drawn
+from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
+from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.common import checks
+from bearingcore.common.numbers import number
+from bearingcore.fields import Range
+from bearingcore.scene.presets import preset_labels
+
+MOST_DEFECTS = 6
+LONGEST_NAME = 60
+"""Characters of the name of a bearing."""
+ESTIMATED = "inside estimated"
+"""Behind the name of a bearing whose inside dimensions are estimates."""
+LARGEST_FILE = 1_000_000
+"""Characters of a file with a measured floor."""
+
+_FIRST_DEFECT = (math.radians(10.0), 50e-6)
+_NO_FILE = "No file yet: the floor is flat."
+_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
+
+Refused = dict[str, str]
+"""Sentences by the names of the controls that they belong to."""
+
+
+@dataclass
+class FloorChoice:
+    """The floor of one defect, and what it goes back to when another kind was looked at."""
+
+    kind: str = "flat"
+    rough: RoughFloor = FIRST_ROUGHNESS
+    measured: MeasuredFloor | None = None
+    words: str = _NO_FILE
+    bad: bool = False
+
+    @property
+    def floor(self) -> RoughFloor | MeasuredFloor | None:
+        """The floor of the defect; None for a flat one."""
+        return {"rough": self.rough, "measured": self.measured}.get(self.kind)
+
+
+@dataclass(frozen=True)
+class CatalogueOrigin:
+    """The bearing of a list that was taken into the scene: its name, and where it comes from."""
+
+    name: str
+    words: str
+    bearing: Bearing
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
+
+    scene: Scene
+    preset: str
+    cage_angle: float
+    kinds: tuple[str, ...]
+    own_name: str
+    origin: CatalogueOrigin | None
+    selected: int = field(compare=False)
+    values: Values = field(compare=False)
+    limits: dict[str, Range] = field(compare=False)
+    usual: dict[str, Range] = field(compare=False)
+    floors: tuple[FloorChoice, ...] = field(compare=False)
+
+
+@dataclass
+class SceneEditor:
+    """The state of the controls, and the scene that they stand for."""
+
+    preset: str
+    listed: BearingTable = field(default_factory=BearingTable)
+    """Bearings to choose from."""
+    scene: Scene = field(init=False)
+    values: Values = field(init=False)
+    limits: dict[str, Range] = field(init=False)
+    usual: dict[str, Range] = field(init=False)
+    """The limits while no number lies outside of its slider."""
+    selected: int = field(init=False)
+    floors: list[FloorChoice] = field(init=False)
+    own_name: str = field(init=False, default="")
+    """The name that a person gave the bearing; may be empty."""
+    origin: CatalogueOrigin | None = field(init=False, default=None)
+    """The entry of a list that the bearing was taken from."""
+    draft: Values = field(init=False, default_factory=dict)
+    """Dimensions that were entered and wait until they fit together."""
+    faults: Refused = field(init=False, default_factory=dict)
+    effects: dict[str, str] = field(init=False, default_factory=dict)
+    """Sentences on the effect of the last choices, by their names, where it is not plain."""
+
+    def __post_init__(self) -> None:
+        self.take_preset(self.preset)
+
+    def take_preset(self, name: str) -> None:
+        """Back to the numbers of a preset."""
+        self.take_scene(presets[name], name)
+
+    def take_scene(
+        self,
+        scene: Scene,
+        preset: str = "",
+        selected: int = 0,
+        cage_angle: float = 0.0,
+        name: str = "",
+    ) -> None:
+        """Show a scene that comes from a link or a file, at a cage angle in degrees.
+
+        Without a `preset` it counts as a change of the one that has its bearing, or of the one
+        chosen now. ValueError, and nothing changed, where the page could not hold the scene.
+        """
+        if preset not in presets:
+            alike = [name for name in presets if presets[name].bearing == scene.bearing]
+            preset = self.preset if self.preset in alike or not alike else alike[0]
+        defects = [_turned(defect) for defect in defects_of(scene)]
+        if len(defects) > MOST_DEFECTS:
+            raise checks.refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
+        if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
+            rows = len(scene.bearing.all_rows)
+            raise checks.refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
+        if not 0 <= selected < len(defects):
+            raise checks.refuse("selected defect", selected + 1, f"1 to {len(defects)}")
+        scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
+        limits = limits_of(presets[preset]) | groove_limits(scene)
+        for index in range(len(defects)):
+            check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
+        self.preset, self.scene, self.selected = preset, scene, selected
+        self.own_name, self.origin = one_line(name, LONGEST_NAME), None
+        self.drop_draft()
+        self.floors = [_choice_of(defect) for defect in defects]
+        self._begin_limits(limits)
+        self.values = {}
+        self._write_values(cage_angle)
+
+    def snapshot(self) -> Snapshot:
+        """The whole state, for `restore`."""
+        return Snapshot(
+            scene=self.scene,
+            preset=self.preset,
+            cage_angle=self.values[CAGE_ANGLE],
+            kinds=tuple(floor.kind for floor in self.floors),
+            own_name=self.own_name,
+            origin=self.origin,
+            selected=self.selected,
+            values=dict(self.values),
+            limits=dict(self.limits),
+            usual=dict(self.usual),
+            floors=tuple(dataclasses.replace(floor) for floor in self.floors),
+        )
+
+    def restore(self, kept: Snapshot) -> None:
+        """All as it was when the snapshot was taken."""
+        self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
+        self.own_name, self.origin = kept.own_name, kept.origin
+        self.drop_draft()
+        self.values, self.limits = dict(kept.values), dict(kept.limits)
+        self.usual = dict(kept.usual)
+        self.floors = [dataclasses.replace(floor) for floor in kept.floors]
+
+    @property
+    def defects(self) -> tuple[Defect, ...]:
+        """All defects on the list, also those without extent or depth."""
+        return defects_of(self.scene)
+
+    @property
+    def changed(self) -> bool:
+        """Whether the bearing is no longer that of the preset."""
+        return self.scene.bearing != presets[self.preset].bearing
+
+    @property
+    def name(self) -> str:
+        """Name of the bearing: the one given, else that of the preset it began from."""
+        label = preset_labels[self.preset]
+        changed = self.own_name == self._begun_from if self.own_name else self.changed
+        name = (self.own_name or label) + (", changed" if changed else "")
+        return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
+
+    @property
+    def note(self) -> str:
+        """Source of the bearing's numbers."""
+        if not self.changed:
+            return preset_notes.get(self.preset, "")
+        if self.origin is not None and not self._begun_from:
+            return self.origin.words
+        still = " Some numbers are still estimates." if self.scene.bearing.estimated else ""
+        begun = self._begun_from or self.preset
+        return f"Edited from “{begun}”; its sources no longer apply.{still}"
+
+    @property
+    def _begun_from(self) -> str:
+        """The bearing of a list whose numbers have been changed since; empty where none was."""
+        if self.origin is None or self.origin.bearing == self.scene.bearing:
+            return ""
+        return self.origin.name
+
+    def drop_draft(self) -> None:
+        """Forget the dimensions that wait."""
+        self.draft, self.faults = {}, {}
+
+    def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
+        """Put a bearing out of a list in the place of the one that is shown.
+
+        ValueError, and nothing changed, where the scene's defects do not go with it.
+        """
+        scene, effect = held(scene_with(self.scene, bearing))
+        self._take(scene)
+        self._begin_limits(limits_of(self.scene))
+        self._write_values()
+        if effect:
+            self.effects["preset"] = effect
+        self.own_name = one_line(name, LONGEST_NAME)
+        self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
+        self.drop_draft()
+
+    @property
+    def focus(self) -> int:
+        """Index in `scene.defects` of the one that sliders move; 0 where that one is none."""
+        defect = self.defects[self.selected]
+        before = [d for d in self.defects[: self.selected] if not d.is_none]
+        return 0 if defect.is_none else len(before)
+
+    # Numbers
+
+    def set(self, given: Mapping[Any, Any]) -> tuple[Refused, Values]:
+        """Take numbers, dragged or typed; returns what was refused and all that changed."""
+        refused: Refused = {}
+        taken: Values = {}
+        for name, value in list(given.items())[: len(FIELD_BY_KEY)]:
+            try:
+                taken[str(name)] = read(str(name), value, self.limits)
+            except ValueError as error:
+                refused[str(name)[:60]] = str(error)
+        whole = dict(taken)
+        if any(name in OF_BEARING for name in taken):
+            whole = {**{n: v for n, v in self.draft.items() if n not in taken}, **taken}
+        try:
+            scene = self._scene_with(whole)
+        except ValueError as error:
+            waiting = {n: v for n, v in whole.items() if n in OF_BEARING}
+            if not waiting:
+                return refused | {name: sentence_of(error) for name in taken}, {}
+            self.draft = waiting
+            self.faults = faults_of(self.scene.bearing, waiting, error)
+            return refused | self.faults, {}
+        if whole is not taken and any(name in OF_BEARING for name in taken):
+            taken = whole
+            self.drop_draft()
+        before = self.values
+        self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
+        self.values |= taken
+        for name, value in taken.items():
+            self.limits[name] = self.limits[name].around(value)
+        changed = {
+            name: value for name, value in self.values.items() if differ(before[name], value)
+        }
+        return refused, changed
+
+    def narrow(self) -> list[str]:
+        """Give sliders that a number had widened their usual length where it is back on it.
+
+        Returns their names. Not while one is dragged: it would move under the pointer.
+        """
+        names = [
+            name
+            for name, limit in self.limits.items()
+            if limit != (usual := self.usual[name]) and usual.holds(self.values[name])
+        ]
+        self.limits |= {name: self.usual[name] for name in names}
+        return names
+
+    def _begin_limits(self, usual: dict[str, Range]) -> None:
+        self.limits, self.usual = dict(usual), dict(usual)
+
+    def _scene_with(self, taken: Values) -> Scene:
+        fields: dict[str, Any] = {}
+        parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
+        for name, value in taken.items():
+            one = FIELD_BY_KEY[name]
+            if one.part:
+                parts.get(one.part, fields)[one.name] = in_si(one, value)
+        rough, bearing = parts["floor"], self.scene.bearing
+        if "ball_diameter" in fields:
+            # grooves are made for their ball: they keep what they are to it
+            ratio = fields["ball_diameter"] / bearing.ball_diameter
+            given = bearing.kind.inputs(bearing)
+            for race in ("inner", "outer"):
+                radius, name = bearing.groove_radius(race), f"{race}_groove_radius"
+                if name in given and radius is not None:
+                    fields.setdefault(name, radius * ratio)
+        if rough:
+            choice = self.floors[self.selected]
+            floor = dataclasses.replace(choice.rough, **rough)
+            if choice.kind == "rough":
+                fields["floor"] = floor
+        scene = scene_with_fields(self.scene, fields, self.selected)
+        if parts["pair"] or parts["second"]:
+            scene = scene.replace(bearing=_with_rows(scene.bearing, **parts))
+        if rough:
+            choice.rough = floor
+        return scene
+
+    def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
+        """Make `scene` the one that is shown."""
+        if scene.bearing != self.scene.bearing:
+            grooves = groove_limits(scene)
+            self.limits, self.usual = self.limits | grooves, self.usual | grooves
+        self.scene = scene
+        self._write_values(cage_angle)
+
+    def _write_values(self, cage_angle: float | None = None) -> None:
+        turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
+        rough = self.floors[self.selected].rough
+        fresh = {
+            **values_of(self.scene, self.selected),
+            **{one.key: in_shown_unit(one, getattr(rough, one.name)) for one in _OF_FLOOR},
+            CAGE_ANGLE: turned,
+        }
+        # a typed number stays as typed, whatever its last digit is in SI
+        self.values = {
+            name: self.values[name]
+            if name in self.values and _close(self.values[name], fresh[name])
+            else fresh[name]
+            for name in FIELD_BY_KEY
+        }
+        for name, value in self.values.items():
+            self.limits[name] = self.limits[name].around(value)
+
+    # Choices
+
+    def choose(self, choice: Mapping[str, str]) -> Refused:
+        """Take choices out of lists; what is not on a list is passed over."""
+        refused: Refused = {}
+        self.effects = {}
+        own = {
+            "floor": self._take_floor_kind,
+            "numbers": self._take_numbers,
+            "ball_material": self._take_ball_material,
+            "kind": self._take_kind,
+        }
+        if (preset := choice.get("preset", "")) in presets:
+            self.take_preset(preset)
+        for known in CHOICE_LIST:
+            name = choice.get(known.name, "")
+            if name in known.names:
+                act = own.get(known.name, partial(self._take_option, known))
+                refused |= self._tried(known.name, act, name)
+        if "name" in choice:
+            self.own_name = one_line(choice["name"], LONGEST_NAME)
+        if choice.get("draft") == "discard":
+            self.drop_draft()
+        for one, act in (
+            ("defect", self._take_defect),
+            ("bearing", self._take_listed),
+            ("dofs", self._take_dofs),
+        ):
+            if one in choice:
+                refused |= self._tried(one, act, choice[one])
+        return refused
+
+    def _tried(self, name: str, act: Callable[[str], None], value: str) -> Refused:
+        try:
+            act(value)
+        except ValueError as error:
+            return {name: sentence_of(error)}
+        return {}
+
+    def _change(self, **fields: Any) -> None:
+        self._take(scene_with_fields(self.scene, fields, self.selected))
+
+    def _take_option(self, choice: Choice, name: str) -> None:
+        """Take an option of a choice that is a field of the scene or of its defects."""
+        fields = {choice.field: choice.value_of(name)}
+        if not choice.all_alike:
+            self._change(**fields)
+            return
+        self._with_defects(
+            [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
+        )
+
+    def _take_listed(self, name: str) -> None:
+        found = self.listed.find(name)
+        origin = origin_words(found, found.name in self.listed.own)
+        self.take_bearing(found.bearing, found.name, origin)
+
+    def _take_kind(self, kind: str) -> None:
+        self._take(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
+        self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
+        self._write_values()
+        self.drop_draft()
+
+    def _take_floor_kind(self, kind: str) -> None:
+        floors = self.floors[self.selected]
+        new = dataclasses.replace(floors, kind=kind)
+        self._change(floor=new.floor)
+        self.floors[self.selected] = new
+
+    def _take_dofs(self, dofs: str) -> None:
+        free = None if dofs == "auto" else tuple(name for name in DOF_NAMES if name in dofs.split())
+        if free == ():
+            raise ValueError("Choose at least one direction that can move.")
+        self._change(dofs=free)
+
+    def _take_defect(self, which: str) -> None:
+        if which == "add":
+            self._add_defect()
+        elif which == "remove":
+            self._remove_defect()
+        elif which.isdecimal() and int(which[:3]) < len(self.defects):
+            self.selected = int(which[:3])
+            self._write_values()
+
+    def _add_defect(self) -> None:
+        if len(self.defects) >= MOST_DEFECTS:
+            raise ValueError(f"There are {MOST_DEFECTS} defects already, the most there can be.")
+        last = self.defects[-1]
+        extent, depth = _FIRST_DEFECT if last.is_none else (last.extent, last.depth)
+        center = _freest(self.defects)
+        new = dataclasses.replace(last, center=center, floor=None, extent=extent, depth=depth)
+        gap = _room(self.defects, new.center)
+        new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
+        if new.is_none:
+            raise ValueError("The defects leave no room on the race: make one shorter first.")
+        self._with_defects([*self.defects, new], len(self.defects))
+
+    def _remove_defect(self) -> None:
+        if len(self.defects) > 1:
+            rest = [d for i, d in enumerate(self.defects) if i != self.selected]
+            self._with_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+
+    def _with_defects(
+        self, defects: list[Defect], selected: int, removed: int | None = None
+    ) -> None:
+        scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
+        floors = [floor for i, floor in enumerate(self.floors) if i != removed]
+        floors += [FloorChoice() for _ in range(len(defects) - len(floors))]
+        self.floors, self.selected = floors, selected
+        self._take(scene)
+
+    def _take_numbers(self, how: str) -> None:
+        bearing = self.scene.bearing
+        if how == "drawing" and not bearing.is_drawn:
+            made = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
+            self._take(self.scene.replace(bearing=made))
+            self.effects["numbers"] = (
+                f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
+                f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
+                "them where the drawing says otherwise. The load-deflection factor was "
+                f"{number(bearing.load_deflection_factor / 1e6)} MN/m¹·⁵ and is now "
+                f"{number(made.load_deflection_factor / 1e6)}."
+            )
+        elif how == "direct" and bearing.is_drawn:
+            fields: dict[str, Any] = dict.fromkeys((*OPTIONAL_FIELDS, *BALL_MATERIAL))
+            self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
+
+    def _take_ball_material(self, name: str) -> None:
+        bearing = self.scene.bearing
+        self._take(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
+
+    # A floor from a file
+
+    def take_floor(
+        self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
+    ) -> None:
+        """Give the selected defect a measured floor, as `read_file` found it.
+
+        What is wrong with it stands in the words of the floor.
+        """
+        shown = " ".join(name.split())[:40] or "The file"
+        stays = math.degrees(self.defects[self.selected].center) % 360.0
+        change: dict[str, Any]
+        try:
+            if found is None:
+                raise ValueError(wrong)
+            floor, extent, depth, center = found
+            self._change(floor=floor, extent=extent, depth=depth)
+        except ValueError as error:
+            change = {"words": f"{shown}: {sentence_of(error)}", "bad": True}
+        else:
+            of_file = math.degrees(center) % 360.0
+            words = f"{shown}: {len(floor.places)} points"
+            if abs(math.remainder(of_file - stays, 360.0)) > 0.05:
+                words += (
+                    f". Its middle is at {of_file:.4g}° in the file; the defect stays at "
+                    f"{stays:.4g}°, where Centre moves it"
+                )
+            change = {"measured": floor, "words": words, "bad": False}
+        self.floors[self.selected] = dataclasses.replace(
+            self.floors[self.selected], kind="measured", **change
+        )
+
+    # State for the browser
+
+    def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
+        """State for the browser, of all fields or of `values` alone."""
+        wanted = self.values if values is None else {name: self.values[name] for name in values}
+        shown = {name: self.draft.get(name, v) for name, v in wanted.items()}
+        state: dict[str, Any] = {
+            "values": {name: None if math.isnan(v) else v for name, v in shown.items()},
+            "limits": {
+                name: {"least": limit.least, "most": limit.most, "step": limit.step}
+                for name, limit in self.limits.items()
+                if name in wanted
+            },
+            "changed": self.changed,
+            "second_units": second_units(self.scene, self.selected, self.draft),
+            "draft": {
+                "waiting": list(self.draft),
+                "faults": self.faults,
+                "words": words_of(self.draft),
+            },
+            "bearing": {
+                "name": self.name,
+                "own": self.own_name,
+                "note": self.note,
+                "element": self.scene.bearing.kind.element,
+            },
+        }
+        return state if values is not None else state | self._choices_state()
+
+    def _choices_state(self) -> dict[str, Any]:
+        scene, floor = self.scene, self.floors[self.selected]
+        usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
+        hidden = [] if floor.kind == "rough" else [one.key for one in _OF_FLOOR]
+        hidden += hidden_of(scene.bearing)
+        return {
+            "usual": {**usual, **chosen_of(presets[self.preset])},
+            "choices": {
+                **chosen_of(scene, self.selected),
+                "preset": self.preset,
+                "floor": floor.kind,  # of a file that could not be read there is no floor
+                "dofs": "auto" if scene.dofs is None else " ".join(scene.dofs),
+            },
+            "defects": {
+                "names": [
+                    f"{d.race} race at {math.degrees(d.center) % 360.0:.0f}°" for d in self.defects
+                ],
+                "selected": self.selected,
+                "most": MOST_DEFECTS,
+            },
+            "floor": {
+                "shown": floor.kind == "measured",
+                "words": floor.words,
+                "bad": floor.bad,
+            },
+            "hidden": hidden,
+            "effects": self.effects,
+            "table": {"words": self.listed.words, "bad": self.listed.bad},
+        }
+
+
+def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | None, str]:
+    """The floor of a file by `read_floor`, or None and a sentence. For any thread."""
+    if len(text) > LARGEST_FILE:
+        return None, f"it is longer than {LARGEST_FILE:,} characters.".replace(",", " ")
+    try:
+        return read_floor(text), ""
+    except ValueError as error:
+        return None, f"{error}."
+
+
+def _with_rows(
+    bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
+) -> Bearing:
+    """A bearing of two rows with numbers of both, and of the second row alone, changed."""
+    if pair:
+        bearing = bearing.respaced(pair.get("row_distance"), pair.get("preload"))
+    if not second:
+        return bearing
+    if len(bearing.rows) != 2:
+        raise checks.refuse("rows of balls", len(bearing.all_rows), "two of them")
+    low, high = bearing.rows
+    return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
+
+
+def _choice_of(defect: Defect) -> FloorChoice:
+    if isinstance(defect.floor, RoughFloor):
+        return FloorChoice("rough", defect.floor)
+    if isinstance(defect.floor, MeasuredFloor):
+        points = f"{len(defect.floor.places)} points"
+        return FloorChoice("measured", measured=defect.floor, words=points)
+    return FloorChoice()
+
+
+def _turned(defect: Defect) -> Defect:
+    """The same defect with its centre within one turn, as the page shows it."""
+    if 0.0 <= defect.center <= 2.0 * math.pi:
+        return defect
+    return dataclasses.replace(defect, center=defect.center % (2.0 * math.pi))
+
+
+def _gap_to(defects: Iterable[Defect], angle: float) -> float:
+    """Angle [rad] from `angle` to the nearest defect; negative inside one."""
+    return min(
+        abs(math.remainder(angle - defect.center, 2.0 * math.pi)) - 0.5 * defect.extent
+        for defect in defects
+    )
+
+
+def _room(defects: Iterable[Defect], angle: float) -> float:
+    """Longest extent [rad] of a defect around `angle` that touches no other."""
+    return max(2.0 * _gap_to(defects, angle), 0.0)
+
+
+def _freest(defects: Iterable[Defect]) -> float:
+    """The whole number of degrees farthest from all defects [rad]."""
+    known = tuple(defects)
+    return max((math.radians(d) for d in range(360)), key=lambda angle: _gap_to(known, angle))
+
+
+def _close(a: float, b: float) -> bool:
+    """Whether two numbers are the same up to the rounding of units."""
+    return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-10, abs_tol=1e-12)

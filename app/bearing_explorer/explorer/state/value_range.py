@@ -1,0 +1,104 @@
+"""Values that a field runs through, for maps and speed runs.
+
+What a person asked for is judged here; behind it all is SI.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.state.field_values import (
+    SHOWN_FIELDS,
+    defects_of,
+    in_shown_unit,
+    in_si,
+    number_of,
+    read,
+)
+from bearingcore import Scene
+from bearingcore.fields import SCENE_PARTS, Field, Range
+
+SWEEPABLE: Mapping[str, Field] = {
+    field.key: field for field in SHOWN_FIELDS if field.part in SCENE_PARTS
+}
+"""Fields that `Scene.replace` changes, by key."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Evenly spaced values of one field, in its shown unit."""
+
+    field: Field
+    values: NDArray[np.float64]
+
+    @property
+    def in_si(self) -> tuple[str, NDArray[np.float64]]:
+        """The field of the scene and its values [SI], as the core takes them."""
+        return self.field.name, np.array([in_si(self.field, v) for v in self.values])
+
+    def every(self, stride: int) -> Sweep:
+        """The same with every `stride`-th value, first and last among them, where that is even."""
+        count = self.values.size - 1
+        if count % stride or count // stride < 2:
+            return self
+        return Sweep(self.field, self.values[::stride])
+
+
+def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Range]) -> Sweep:
+    """`count` values from `first` to `last` as a person typed them; ValueError with a sentence."""
+    if name not in SWEEPABLE:
+        raise ValueError("There is no such quantity.")
+    field = SWEEPABLE[name]
+    low, high = (read(name, text, limits) for text in (first, last))
+    if math.isnan(low) or math.isnan(high) or not low < high:
+        raise ValueError(f"{field.label}: “to” must be greater than “from”.")
+    if name == "shaft_speed_hz" and low == 0.0:
+        raise ValueError("The shaft must turn: begin above 0 Hz.")
+    if field.whole:
+        step = max(1, math.ceil((high - low) / (count - 1)))
+        values = np.arange(math.ceil(low), high + 0.5, step)
+        if values.size < 2:
+            raise ValueError(f"{field.label}: two whole numbers at least.")
+        return Sweep(field, values)
+    return Sweep(field, np.linspace(low, high, count))
+
+
+def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
+    """Where a sweep goes unless it is said: as far as the slider, or where it shows most."""
+    low, high = limits[name].least, limits[name].most
+    first, last = SWEEPABLE[name].sweep_range or (low, high)
+    return (first, last) if low <= first and last <= high else (low, high)
+
+
+def focused(scene: Scene, selected: int) -> Scene:
+    """`scene` with the `selected` one of its defects first: sweeps change the first."""
+    defects = list(defects_of(scene))
+    if len(defects) == 1:
+        return scene
+    first = defects.pop(min(selected, len(defects) - 1))
+    return scene.replace(defect=(first, *defects))
+
+
+def value_of(scene: Scene, field: Field) -> float:
+    """The number of a field in its shown unit, of the first defect where it is one's."""
+    return in_shown_unit(field, number_of(scene, field))
+
+
+def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:
+    """Whether two scenes differ at most in the quantities of `sweeps`."""
+    first = {field: float(values[0]) for field, values in (s.in_si for s in sweeps)}
+    try:
+        return scene.replace(**first) == other.replace(**first)
+    except ValueError:
+        return False
+
+
+def table_of_places(x: Sweep, y: Sweep) -> dict[str, NDArray[np.float64]]:
+    """Both values at each point of a map, row by row, by the keys of the fields."""
+    up, across = np.meshgrid(y.values, x.values, indexing="ij")
+    return {x.field.key: across.ravel(), y.field.key: up.ravel()}

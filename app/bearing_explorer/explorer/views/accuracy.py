@@ -1,0 +1,401 @@
+"""Speed against accuracy: a chart for each reference, and where steps and orbits are unstable."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
+from bokeh.plotting import figure
+
+from bearing_explorer.explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
+from bearing_explorer.explorer.views.work_precision import (
+    REST,
+    WorkPrecision,
+    column_source,
+    columns_of,
+    paragraph,
+    prose,
+)
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import by_number
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
+from bearingcore import presets
+from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
+from bearingcore.experiments.balls import ERRORS as BALL_ERRORS
+from bearingcore.experiments.models import EXACT, FULL, MODEL_ERRORS, SETTLED
+from bearingcore.experiments.references import MOTION_ERRORS
+from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
+from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
+from bearingcore.scene.presets import preset_labels
+from bearingcore.scene.scene import WITH_MASS
+
+
+class Chart(NamedTuple):
+    """A chart: its experiment, its reference in that, and its heading."""
+
+    experiment: str
+    reference: str
+    title: str
+    wide: bool = False
+
+
+CHARTS = {
+    "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
+    "Models": (
+        Chart("models", FULL, "Fewer directions, against all five"),
+        Chart("models", EXACT, "Models of edges, against the exact edge"),
+        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
+        Chart("models", SETTLED, "Periodic orbit and time integration, against the settled motion"),
+    ),
+    "Statics": (
+        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
+        *(Chart("statics", case, f"The same, {case}") for case in CASES),
+        Chart("angles", "", "Cage angles of curves, against 16 001 and those of edges"),
+    ),
+}
+"""The charts by the heading above them: each has one reference."""
+ERRORS = {
+    "motion": MOTION_ERRORS,
+    "balls": BALL_ERRORS,
+    "models": MODEL_ERRORS,
+    "statics": STATIC_ERRORS,
+    "angles": ANGLE_ERRORS,
+}
+"""Errors that can be drawn, by experiment."""
+
+COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
+VERDICT_LOOKS = dict(
+    zip(
+        VERDICTS,
+        (("#0072B2", "square"), ("#56B4E9", "inverted_triangle"), ("#E69F00", "diamond"),
+         ("#D55E00", "x")),
+        strict=True,
+    )
+)  # fmt: skip
+LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#AA3377",
+               "fold": "#E69F00"}  # fmt: skip
+"""Colour of an orbit by its loss of stability; none is stable."""
+
+_SIGNS = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
+_VERDICT_LEGEND = style.legend([(c, _SIGNS[m], name) for name, (c, m) in VERDICT_LOOKS.items()])
+_LOSS_LEGEND = style.legend([(c, "●", loss or "stable") for loss, c in LOSS_COLORS.items()])
+
+
+def _grid(least: int) -> str:
+    """Style of charts side by side, each at least that many pixels wide."""
+    columns = f"repeat(auto-fit, minmax(min(100%, {least}px), 1fr))"
+    return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
+
+
+class Accuracy(SceneJobView[Found]):
+    """Error against cost, where steps are too long, and where the orbit is unstable."""
+
+    name = "accuracy"
+    title = "Speed against accuracy"
+    about = (
+        "Run time against error, one reference to a chart. Low is exact, left is cheap. Grey line: "
+        "points that no other beats in both. Dashed: an error of 0.1 dB or 1 %. Ring: in use. "
+        "Crosses on the upper edge failed; point at one for the reason. Dotted: the order of "
+        "convergence that theory gives. Letters at the points: steps a second, tolerance, or "
+        "number of cage angles."
+    )
+    start = "Measure on this machine"
+    bounds = (
+        "Points come one by one. SciPy's DOP853, Radau and BDF are shown as shipped only: they "
+        "take longer than all others together."
+    )
+    computes = False
+    sentence_looks = ("unseen",)
+
+    @property
+    def is_empty(self) -> bool:
+        return False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._cost = Fields(lambda _: self._redraw())
+        self._cost.add("cost", select("Cost as", COSTS))
+        self._origin, self._foot = prose("", REST), prose()
+        self._charts: list[tuple[Chart, WorkPrecision]] = []
+        sections: list[Any] = []
+        for heading, charts in CHARTS.items():
+            made = [
+                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw, one.wide))
+                for one in charts
+            ]
+            self._charts += made
+            parts = [chart.panel for _, chart in made]
+            sections += [
+                prose(f"<h3>{heading}</h3>"),
+                stack(*parts, stylesheets=[_grid(360)]),
+            ]
+        self._stability = Stability()
+        return [
+            self.job,
+            row(self._cost.widgets["cost"], self._origin),
+            *sections,
+            prose("<h3>Stability</h3>"),
+            self._stability.panel,
+            self._foot,
+        ]
+
+    # The job
+
+    def fields(self) -> list[FieldSpec]:
+        options = [[name, words] for name, words in TRIALS.items()]
+        return [{"name": "experiment", "label": "What to measure", "options": options}]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        return {"experiment": next(iter(TRIALS))}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        name, scene = given["experiment"], editor.scene
+        if name not in TRIALS:
+            raise ValueError("There is no such experiment.")
+        return lambda job: compute(job, scene, name)
+
+    # The picture
+
+    def _shown(self, results: Results) -> Mapping[str, Experiment]:
+        """The experiments shown: of this machine, and shipped where there are none of it."""
+        base = shipped(preset_like(results.scene))
+        own = {} if self.found is None else self.found.result.experiments
+        return {**base.experiments, **own}
+
+    def sentence(self, results: Results) -> str:
+        found, scene = self.found, results.scene
+        preset = preset_like(scene)
+        words = f"Shipped: {preset_labels[preset]}."
+        if presets[preset] != scene:
+            words = (
+                f"Nothing is shipped for this scene. Shipped points are those of "
+                f"{preset_labels[preset]} as it comes; “Measure on this machine” takes this scene."
+            )
+        if found is not None:
+            words = f"Measured on this machine: {found.result.count} points. {words}"
+            if self._same:
+                words += " Pale: shipped."
+            if found.scene != scene:
+                words += " The scene has changed since it was measured."
+        if scene.balls == WITH_MASS:
+            words += " Balls are massless in all charts but that of their mass."
+        return words
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        base = shipped(preset_like(results.scene))
+        shown = base if self.found is None else self.found.result
+        return shown.table().named()
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        self._origin.object = paragraph(sentence)
+        if self._results is not None:
+            self._show(self._results)
+
+    @property
+    def _same(self) -> bool:
+        """Whether the scene that was measured here is a preset as it comes."""
+        scene = None if self.found is None else self.found.scene
+        return scene is not None and presets.get(preset_like(scene)) == scene
+
+    def _redraw(self) -> None:
+        if self._results is not None:
+            self._show(self._results)
+
+    def _show(self, results: Results) -> None:
+        preset = preset_like(results.scene)
+        base = shipped(preset)
+        own = None if self.found is None else self.found.result
+        reasons = {
+            **(base.refused if presets[preset] == results.scene else {}),
+            **(own.refused if own is not None else {}),
+        }
+        cost, steps = self._cost.values["cost"], results.settings.step_rate
+        for one, chart in self._charts:
+            part, pale = _part(own, one), _part(base, one)
+            if part is not None and not self._same:
+                pale = None  # of another scene
+            chart.draw(part, pale, cost, steps, reasons.get(one.experiment, ""))
+        self._stability.draw(own, base, results.scene.shaft_speed)
+        self._foot.object = foot(own, base, self._shown(results))
+
+
+def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
+    """The part of measurements that a chart shows."""
+    one = None if found is None else found.experiments.get(chart.experiment)
+    part = None if one is None else one.per_reference().get(chart.reference)
+    return part if part is not None and part.points else None
+
+
+def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]) -> str:
+    """Methods left out and the reasons; versions and machines."""
+    left = "".join(
+        f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"
+        for name, one in shown.items()
+        if one.left_out
+    )
+    words = f"<h4>What was left out, and why</h4><ul>{left}</ul>" if left else ""
+    for kind, found in (("Shipped", base), ("This machine", own)):
+        if found is not None:
+            words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
+    return words
+
+
+class Stability:
+    """Steps that are too long, and Floquet multipliers over the shaft speed."""
+
+    def __init__(self) -> None:
+        self._drawn: object = None
+        self._steps, self._step_words = self._step_figure(), prose()
+        self._speeds, self._circle = self._speed_figure(), self._circle_figure()
+        self._orbit_words = prose()
+        self.panel = stack(
+            stack(self._steps, self._step_words),
+            stack(self._speeds, self._orbit_words),
+            self._circle,
+            stylesheets=[_grid(280)],
+        )
+
+    def _step_figure(self) -> figure:
+        """Methods down, steps across."""
+        plot = _figure("Steps a period", "", x_axis_type="log")
+        plot.x_range.update(start=0.8, end=80.0)
+        plot.y_range.update(start=-0.6, end=len(FIXED_STEP) - 0.4)
+        style.fixed_ticks(plot.xaxis[0], [1, 2, 5, 10, 20, 50])
+        style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
+        names = list(FIXED_STEP)
+        plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
+        colors = by_number("which", [color for color, _ in VERDICT_LOOKS.values()])
+        self._trials = column_source("x", "y", "which", "marker")
+        plot.scatter(
+            "x", "y", source=self._trials, marker="marker", size=13, color=colors, line_width=2.0
+        )
+        limits = plot.segment([], [], [], [], line_color=style.INK, line_width=2.5)
+        self._limits = limits.data_source
+        return plot
+
+    def _speed_figure(self) -> figure:
+        plot = _figure("Shaft speed (Hz)", "Largest multiplier |μ|")
+        plot.add_layout(Span(location=1.0, dimension="width", line_color=style.INK))
+        self._now = Span(dimension="height", line_color=style.INK, line_dash=[4, 4])
+        plot.add_layout(self._now)
+        self._path = plot.line([], [], line_color=style.STEEL_EDGE).data_source
+        self._orbits = column_source("x", "y", "which", "loss")
+        colors = by_number("which", list(LOSS_COLORS.values()))
+        dots = plot.scatter("x", "y", source=self._orbits, size=8, color=colors)
+        tips = [("speed", "@x{0.0} Hz"), ("|μ|", "@y{0.000}"), ("loss", "@loss")]
+        plot.add_tools(HoverTool(renderers=[dots], visible=False, tooltips=tips))
+        return plot
+
+    def _circle_figure(self) -> figure:
+        plot = _figure("Multipliers at all speeds, real part", "Imaginary part", height=300)
+        plot.sizing_mode, plot.width = "fixed", 310
+        plot.circle([0.0], [0.0], radius=1.0, fill_color="#E6F3EE", line_color="#00704F")
+        self._multipliers = column_source("x", "y", "which")
+        colors = by_number("which", list(LOSS_COLORS.values()))
+        plot.scatter("x", "y", source=self._multipliers, size=7, color=colors)
+        return plot
+
+    def draw(self, own: Measurements | None, base: Measurements | None, speed: float) -> None:
+        """Show what was measured on this machine, or else what is shipped; speed [rad/s]."""
+        known = [found for found in (own, base) if found is not None]
+        chart = next((found.stability for found in known if found.stability is not None), None)
+        orbits = next((found.orbits for found in known if found.orbits), ())
+        if self._drawn == (chart, orbits, speed):
+            return
+        self._drawn = chart, orbits, speed
+        self._steps.visible = chart is not None
+        self._speeds.visible = self._circle.visible = any(one.multipliers for one in orbits)
+        if chart is not None:
+            self._draw_steps(chart)
+        self._step_words.object = _VERDICT_LEGEND + paragraph(steps_sentence(chart))
+        self._draw_orbits(orbits, speed)
+        self._orbit_words.object = _LOSS_LEGEND + paragraph(orbits_sentence(orbits))
+
+    def _draw_steps(self, chart: StabilityChart) -> None:
+        verdicts = list(VERDICT_LOOKS)
+        self._trials.data = {
+            "x": [t.step_rate / chart.highest_frequency for t in chart.trials],
+            "y": [FIXED_STEP.index(t.method) for t in chart.trials],
+            "which": [verdicts.index(t.verdict) for t in chart.trials],
+            "marker": [VERDICT_LOOKS[t.verdict][1] for t in chart.trials],
+        }
+        limits = {k: chart.linear_limit[name] for k, name in enumerate(FIXED_STEP)}
+        rows = [k for k, limit in limits.items() if 0.0 < limit < math.inf]
+        steps = [limits[k] / chart.highest_frequency for k in rows]
+        below, above = [k - 0.4 for k in rows], [k + 0.4 for k in rows]
+        self._limits.data = {"x0": steps, "y0": below, "x1": steps, "y1": above}
+
+    def _draw_orbits(self, orbits: tuple[OrbitAtSpeed, ...], speed: float) -> None:
+        found = [one for one in orbits if one.multipliers]
+        self._now.location = speed / (2.0 * math.pi)
+        losses = list(LOSS_COLORS)
+        speeds = [one.shaft_speed / (2.0 * math.pi) for one in found]
+        self._path.data = path = {"x": speeds, "y": [one.size for one in found]}
+        self._orbits.data = {
+            **path,
+            "which": [losses.index(one.loss) for one in found],
+            "loss": [one.loss or "none" for one in found],
+        }
+        multipliers = [(*at, losses.index(one.loss)) for one in found for at in one.multipliers]
+        self._multipliers.data = columns_of(("x", "y", "which"), multipliers)
+        if found:
+            self._speeds.x_range.update(start=0.95 * speeds[0], end=1.02 * speeds[-1])
+            top = max(1.2, *(min(one.size, 3.0) for one in found))
+            self._speeds.y_range.update(start=0.0, end=1.1 * top)
+            for side in (self._circle.x_range, self._circle.y_range):
+                side.update(start=-1.1 * top, end=1.1 * top)
+
+
+def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
+    sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
+    ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
+    return style.make_figure(*sides, *ranges, height=height, sizing_mode="stretch_width", **more)
+
+
+def steps_sentence(chart: StabilityChart | None) -> str:
+    """Step rates at which each method diverges, found and expected."""
+    if chart is None:
+        return "Stability of the steps is not measured yet."
+    words = []
+    for name in dict.fromkeys(t.method for t in chart.trials):
+        found, limit = (v / chart.highest_frequency
+                        for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
+        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
+        expected = style.number(limit, 2) if limit else "none"
+        words.append(f"{name} {met} (linear theory: {expected})")
+    frequency = style.with_prefix(chart.highest_frequency, "Hz")
+    return (
+        f"Vertical: linear limit. Steps per period of the highest frequency, {frequency}, below "
+        f"which the motion diverges: {', '.join(words)}."
+    )
+
+
+def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
+    """Where the periodic motion loses its stability, and how."""
+    found = [one for one in orbits if one.multipliers]
+    if not found:
+        why = orbits[0].status if orbits else "not measured yet"
+        return f"No periodic motion over the shaft speed: {why}."
+
+    def at(one: OrbitAtSpeed) -> str:
+        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
+
+    changes = [
+        f"{b.loss or 'stable again'} from {at(b)}" for a, b in pairwise(found) if a.loss != b.loss
+    ]
+    first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
+    missing = len(orbits) - len(found)
+    rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
+    changes = changes or [f"and so to {at(found[-1])}"]
+    words = ", ".join([first, *changes])
+    return f"{words}. The factor by which a ball pass changes a small disturbance.{rest}"

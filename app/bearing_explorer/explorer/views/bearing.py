@@ -1,0 +1,587 @@
+"""Drawing of the bearing: rings, balls coloured by their loads, defect, load."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+import numpy as np
+from bokeh.models import Circle, CustomJS, LinearColorMapper, Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots.element_words import element_name, elements
+from bearing_explorer.kit.plots.heat_map import color_bar
+from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearingcore import Bearing, Load, Scene
+from bearingcore.common.table import table_of
+from bearingcore.scene.packing import ball_angles
+
+# The drawing measures lengths in outer raceway radii: its ranges never move.
+HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
+HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
+BAR_START = 0.05  # beyond the outer ring
+BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+ROW_NAMES = 1.5  # below the middle of the rows: their names
+SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
+NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
+MOST_NAMED = 4  # balls in a defect; more are counted
+LINE_PIXELS = 16.0
+KEYWAY = 0.09  # [rad] half its width
+DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
+
+PLACE_AND_SIZE = ("x", "y", "radius")
+POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
+
+# pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
+IDLE_BALL = style.PAPER
+NO_VALUE = "#C9CED4"
+
+_LOAD_WORDS = """
+const {kind, value, angle} = row
+if (short) {
+  if (kind == 0) return value > 0 ? `${si(value, 'N')} at ${rounded(angle, 3)}°` : 'No radial load'
+  if (kind == 1) return `${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
+  if (kind == 4) return `Depth × ${value >= 1 ? value : rounded(value, 2)}`
+  return `M${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
+}
+if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(angle, 3)}°`
+                                : 'No radial load'
+if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
+                      (value > 0 ? '⊙ towards you' : '⊗ away from you')
+if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}`
+return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
+"""
+_BAR_WORDS = """
+const text = si(row.load, 'N', 2)
+let room = 0
+try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
+return row.most || room > 7*text.length ? text : ''
+"""
+_BALL_WORDS = """
+let wide = Infinity  // two digits and the ring need 16 pixels
+try { wide = 2*row.radius*plot.inner_width/(plot.x_range.end - plot.x_range.start) } catch {}
+return wide > 16*larger ? row.number : ''
+"""
+_ROW_WORDS = """
+return `Row ${row.row} at z = ${rounded(1000*row.place, 3)} mm`
+"""
+_EQUAL_ASPECT = f"""{style.LARGER}
+let w = 0, h = 0
+try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not laid out yet
+if (!(w > 0 && h > 0)) return
+// the names of several rows are below them
+const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
+const unit = Math.min(w/shown.end, h/half, of_rows), x = w/unit, y = h/unit
+plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
+plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
+"""
+
+
+_NO_HIGHER = """
+const high = Math.round(Math.min(most, Math.max(least, cb_obj.inner_width + scale)))
+if (cb_obj.min_height !== high) cb_obj.setv({min_height: high}, {sync: false})
+"""
+
+
+_EDGE = "#6B7480"
+_MIDDLE = {"text_align": "center"}
+_NUMBER = {**_MIDDLE, "text_font_size": style.SMALL_TEXT_SIZE}
+_LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
+_UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
+
+
+def layers(
+    prefix: str, colors: LinearColorMapper, inks: LinearColorMapper, *, short: bool = False
+) -> list[Layer]:
+    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours.
+
+    `short`: whether words about the load are short, as in a small drawing.
+    """
+    load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
+    end = Glyph(
+        Circle,
+        f"{prefix}_roller_ends",
+        PLACE_AND_SIZE,
+        {"fill_color": None, "line_color": _EDGE, "line_width": 1.0},
+    )
+    ball = Glyph(
+        Circle,
+        f"{prefix}_balls",
+        PLACE_AND_SIZE,
+        {"fill_color": load, "line_color": _EDGE, "line_width": 1.2},
+    )
+
+    def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> Words:
+        return Words(f"{prefix}_{name}", "x", "y", code, reads, look=look)
+
+    return [
+        filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
+        filled(f"{prefix}_rings", style.STEEL, line_color=style.STEEL_EDGE, line_width=1.2),
+        filled(f"{prefix}_defect", style.DEFECT, 0.55, line_color="#B87A00", line_width=1.2),
+        words(
+            "marks",
+            "return row.angle + '°'",
+            ("angle", "turn"),
+            {**_NUMBER, "text_color": style.FAINT_INK, "angle": "turn"},
+        ),
+        segments(f"{prefix}_bars", load, 8, reads=("load",)),
+        Words(
+            f"{prefix}_bars",
+            "x",
+            "y",
+            _BAR_WORDS,
+            ("load", "room", "most", "right", "down"),
+            fitting=style.NARROW,
+            look={
+                **_MIDDLE,
+                "x_offset": style.text_offset("right"),
+                "y_offset": style.text_offset("down"),
+            },
+        ),
+        ball,
+        end,
+        Words(
+            f"{prefix}_balls",
+            "x",
+            "y",
+            _BALL_WORDS,
+            ("load", "number", "radius"),
+            fitting=style.NARROW,
+            look={**_NUMBER, "text_color": number},
+        ),
+        filled(f"{prefix}_arrow", style.INK),
+        Words(
+            f"{prefix}_load_words",
+            0.0,
+            1.0,
+            f"const short = {str(short).lower()}{_LOAD_WORDS}",
+            ("kind", "value", "angle", "down"),
+            x_share=True,
+            y_share=True,
+            look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
+        ),
+        words("row_words", _ROW_WORDS, ("row", "place"), _UNDER_A_ROW),
+    ]
+
+
+class BearingDrawing(View):
+    """The bearing seen along the shaft, turning with the cage angle."""
+
+    name = "bearing"
+    title = "The bearing"
+    about = (
+        "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
+        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The keyway "
+        "turns with the shaft; z points towards you."
+    )
+    needs = frozenset({"equilibrium", "now", "drop"})
+    equal_aspect = True
+    #: of the names of its sources
+    prefix: ClassVar[str] = "bearing"
+    #: whether words about the load are short
+    short: ClassVar[bool] = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
+        half = HALF_WIDTH
+        plot = self._figure(
+            Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
+        )
+        shown = packed.range(f"{self.prefix}_width", -half, half)
+        aspect = CustomJS(args={"plot": plot, "half": half, "shown": shown}, code=_EQUAL_ASPECT)
+        shown.js_on_change("end", aspect)
+        plot.js_on_change("inner_width", aspect)
+        plot.js_on_change("inner_height", aspect)
+        colors = LinearColorMapper(
+            palette=color_scales.LOADS,
+            low=1e-9,
+            high=load.end,
+            low_color=IDLE_BALL,
+            nan_color=NO_VALUE,
+            syncable=False,
+        )
+        inks = LinearColorMapper(
+            palette=color_scales.INKS,
+            low=0.0,
+            high=load.end,
+            nan_color=style.INK,
+            syncable=False,
+        )
+        load.js_on_change(
+            "end",
+            CustomJS(
+                args={"load": load, "mappers": [colors, inks]},
+                code="for (const mapper of mappers) mapper.high = load.end",
+            ),
+        )
+        draw(plot, packed, layers(self.prefix, colors, inks, short=self.short))
+        self._add_scale(plot, colors, load)
+        return plot
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        plot = style.bare_figure(x, y, height=HEIGHT)
+        # on a phone no higher than it is wide, or half of it is empty
+        sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
+        plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))
+        return plot
+
+    def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
+        bar = color_bar(
+            colors,
+            orientation="horizontal",
+            width=210,
+            height=9,
+            location="bottom_center",
+            padding=2,
+            title_standoff=4,
+            bar_line_color=style.STEEL_EDGE,
+        )
+        style.write_units(bar, style.BALL_LOAD, load)
+        plot.add_layout(bar, "below")
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        scene, now = results.scene, results.now
+        load_range = self._load_range.fit(
+            results.equilibrium.ball_load, results.reference.equilibrium.ball_load
+        )
+        top = load_range[1]
+        rows = scene.bearing.all_rows
+        half = OF_A_ROW if len(rows) > 1 else HALF_WIDTH
+        wide = half * len(rows)
+        healthy = results.reference.load_curves
+        several: list[Sources] = []
+        for row in range(len(rows)):
+            own = scene.bearing.balls_of_rows[row]
+            drawn = Shapes(scene, results.cage_angle, row)
+            drop = {race: drops[own] for race, drops in results.drop.items()}
+            shapes = drawn.all(now.ball_load[0, own], drop, top)
+            shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
+            several.append(moved(shapes, (2 * row + 1) * half - wide))
+        sources = {
+            f"{self.prefix}_{name}": one_after_other(
+                [one[name] for one in several], gaps=name in POLYGONS
+            )
+            for name in several[0]
+        }
+        sources |= {
+            f"{self.prefix}_load_words": load_words(scene.load, drawn.depth_scale),
+            f"{self.prefix}_row_words": row_words(scene, wide),
+        }
+        return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
+
+    def sentence(self, results: Results) -> str:
+        now = results.now
+        where = f"With the cage at {style.in_degrees(results.cage_angle)}"
+        bearing = results.scene.bearing
+        total, names = bearing.total_balls, elements(bearing)
+        load = now.ball_load[0]
+        if not np.all(np.isfinite(load)):
+            return f"{where} there is no equilibrium to draw: {now.reason(0)}."
+        drop = results.drop["outer"] + results.drop["inner"]
+        inside = _inside_words(bearing, np.flatnonzero(drop > 0.0))
+        loaded = int(now.loaded_balls[0])
+        if loaded == 0:
+            return f"{where} none of the {total} {names} carries load{inside}."
+        most = int(np.argmax(load))
+        return (
+            f"{where}, {loaded} of {total} {names} {'carry' if loaded > 1 else 'carries'} load; "
+            f"{element_name(bearing, most)} carries the most, "
+            f"{style.with_prefix(load[most], 'N')} at "
+            f"{style.in_degrees(now.ball_angle[0, most])}{inside}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        bearing, now = results.scene.bearing, results.now
+        row, ball = np.array([bearing.row_of_ball(k) for k in range(bearing.total_balls)]).T
+        return (
+            table_of(
+                ("row", "", row + 1),
+                ("ball", "", ball + 1),
+                ("ball_angle", "rad", now.ball_angle[0]),
+                ("ball_load", "N", now.ball_load[0]),
+                ("contact_angle", "rad", now.contact_angle[0]),
+                ("drop_into_outer_race", "m", results.drop["outer"]),
+                ("drop_into_inner_race", "m", results.drop["inner"]),
+            )
+            .in_units()
+            .named()
+        )
+
+
+def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
+    """Which balls, counted from 0, are in a defect, row by row."""
+    if balls.size == 0:
+        return ""
+    words = []
+    for row, its in enumerate(bearing.balls_of_rows):
+        own = balls[(balls >= its.start) & (balls < its.stop)] - its.start + 1
+        if own.size:
+            of_row = f" of row {row + 1}" if bearing.rows else ""
+            kind, names = elements(bearing, own.size), style.list_words([str(ball) for ball in own])
+            which = f"{kind} {names}" if own.size <= MOST_NAMED else f"{own.size} {kind}"
+            words.append(which + of_row)
+    return f"; {style.list_words(words)} {'is' if balls.size == 1 else 'are'} in the defect"
+
+
+def moved(shapes: Sources, to_right: float) -> Sources:
+    """Shapes moved to the right, all their columns that say where."""
+    return {
+        name: {
+            column: values + to_right if column in ("x", "x0", "x1") else values
+            for column, values in columns.items()
+        }
+        for name, columns in shapes.items()
+    }
+
+
+def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
+    """Columns of several shapes as one, polygons with NaN between those that are not empty."""
+    if not gaps:
+        return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
+    return with_gaps(((part["x"], part["y"]) for part in parts if part["x"].size), "x", "y")
+
+
+def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The rim of a roller's end, which a ball has not."""
+    kept = slice(None) if scene.bearing.kind.picture.element == "roller" else slice(0)
+    return {"x": balls["x"][kept], "y": balls["y"][kept], "radius": 0.72 * balls["radius"][kept]}
+
+
+def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
+    """Which row is which and where on the shaft, below each; nothing of a single row."""
+    rows = scene.bearing.rows
+    number = np.arange(float(len(rows)))
+    return {
+        "x": (2.0 * number + 1.0) * OF_A_ROW - wide,
+        "y": np.full(number.size, -ROW_NAMES),
+        "row": number + 1.0,
+        "place": np.array([row.place for row in rows], dtype=float),
+    }
+
+
+def load_words(load: Load, depth_scale: float = 0.0) -> dict[str, np.ndarray]:
+    """Rows of text in the corner: the radial load always, the others where there are any.
+
+    Under them how many times as deep as they are defects are drawn, which is 0 without any.
+    """
+    radial = (math.hypot(load.fx, load.fy), math.degrees(math.atan2(load.fy, load.fx)) % 360.0)
+    rows = [(0, *radial)]
+    rows += [
+        (kind, value, 0.0)
+        for kind, value in ((1, load.fz), (2, load.mx), (3, load.my), (4, depth_scale))
+        if value != 0.0
+    ]
+    kind, value, angle = np.array(rows, dtype=float).T
+    return {
+        "down": LINE_PIXELS * np.arange(kind.size),
+        "kind": kind,
+        "value": value,
+        "angle": angle,
+    }
+
+
+class Shapes:
+    """Shapes of one row of a scene at one cage angle [rad], lengths in outer raceway radii.
+
+    Of rows that are not alike in that of the largest, so that they are to scale.
+
+    Shapes of several parts are one polygon with NaN between the parts; a part inside another is a
+    hole in it.
+    """
+
+    def __init__(self, scene: Scene, cage_angle: float, row: int = 0) -> None:
+        bearing = scene.bearing.of_row(row)
+        self.scene, self.cage_angle, self.row = scene, cage_angle, row
+        self.unit = max(own.outer_raceway_radius for own, _ in scene.bearing.unlike_rows)
+        self.ball = bearing.ball_radius / self.unit
+        self.outer_race = bearing.outer_raceway_radius / self.unit
+        self.inner_race = bearing.inner_raceway_radius / self.unit
+        # between the races, whatever radii the bearing says: the balls are to be seen between them
+        self.pitch = 0.5 * (self.outer_race + self.inner_race)
+        self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
+        self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
+        self.spans = spans(scene, cage_angle, row)
+        deepest = max((defect.depth for defect in scene.defects), default=0.0)
+        self.depth_scale = (
+            round_down(DRAWN_DEPTH * self.ball * self.unit / deepest) if deepest > 0.0 else 0.0
+        )
+
+    def all(
+        self, load: NDArray[np.float64], drop: dict[str, NDArray[np.float64]], top: float
+    ) -> Sources:
+        """The columns of all shapes by name, for loads [N] and drops [m] of the row's balls."""
+        balls = self.balls(drop, load)
+        return {
+            "rings": self.rings(),
+            "defect": self.defects(),
+            "marks": self.angle_marks(),
+            "balls": balls,
+            "roller_ends": roller_ends(self.scene, balls),
+            "bars": self.bars(load, top),
+            "arrow": self.load_arrow(),
+            "healthy_loads": polar(),
+        }
+
+    def _drawn(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self.depth_scale * depth / self.unit
+
+    def _race(self, race: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angle and radius along a race with its defects, exaggerated."""
+        angle = race_angles(self.spans, race)
+        depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle, self.row))
+        return angle, self.outer_race + depth if race == "outer" else self.inner_race - depth
+
+    def rings(self) -> dict[str, np.ndarray]:
+        """Both rings."""
+        turn = np.linspace(0.0, 2.0 * math.pi, 181)
+        return polar(
+            (turn, np.full_like(turn, self.rim)),
+            self._race("outer"),
+            self._race("inner"),
+            self._bore(),
+        )
+
+    def _bore(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bore with a keyway, which turns with the shaft."""
+        keyway = self.cage_angle / self.scene.bearing.cage_ratio + 0.5 * math.pi
+        angle = keyway + np.linspace(KEYWAY, 2.0 * math.pi - KEYWAY, 181)
+        radius = np.full_like(angle, self.bore)
+        radius[[0, -1]] += 0.35 * (self.inner_race - self.bore)
+        angle[[0, -1]] = angle[[1, -2]]  # upright walls
+        return angle, radius
+
+    def defects(self) -> dict[str, np.ndarray]:
+        """Material missing from the races."""
+        parts = []
+        for span in self.spans:
+            angle = np.linspace(span.start, span.start + span.extent, 121)
+            outer = span.race == "outer"
+            race, outwards = (self.outer_race, 1.0) if outer else (self.inner_race, -1.0)
+            inside = np.clip(angle, angle[0] + 1e-9, angle[-1] - 1e-9)
+            depth = race_depth(self.scene, self.cage_angle, span.race, inside, self.row)
+            floor = race + outwards * self._drawn(depth)
+            parts.append(
+                (
+                    np.concatenate([angle, angle[::-1]]),
+                    np.concatenate([np.full_like(angle, race), floor[::-1]]),
+                )
+            )
+        return polar(*parts)
+
+    def angle_marks(self) -> dict[str, np.ndarray]:
+        """0°, 90°, 180° and 270° on the outer ring."""
+        degrees = np.array([0.0, 90.0, 180.0, 270.0])
+        deepest = self._drawn(
+            race_depth(self.scene, self.cage_angle, "outer", np.radians(degrees), self.row)
+        )
+        radius = 0.5 * (self.outer_race + deepest + self.rim)
+        return {
+            "x": radius * np.cos(np.radians(degrees)),
+            "y": radius * np.sin(np.radians(degrees)),
+            "angle": degrees,
+            "turn": np.radians([90.0, 0.0, 90.0, 0.0]),  # along the ring, which can be thin
+        }
+
+    def ball_angles(self) -> NDArray[np.float64]:
+        """Angle of each ball [rad]."""
+        bearing = self.scene.bearing
+        return ball_angles(bearing, np.array([self.cage_angle]))[0, bearing.balls_of_rows[self.row]]
+
+    def ball_radii(self, drop: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Drawn distances of balls from the middle of the shaft, for drops [m] of any shape."""
+        return self.pitch + self._drawn(drop["outer"]) - self._drawn(drop["inner"])
+
+    def balls(
+        self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
+    ) -> dict[str, np.ndarray]:
+        """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
+        angle, radius = self.ball_angles(), self.ball_radii(drop)
+        return {
+            "x": radius * np.cos(angle),
+            "y": radius * np.sin(angle),
+            "radius": np.full(angle.size, self.ball),
+            "load": load,
+            "number": np.arange(1.0, angle.size + 1.0),
+        }
+
+    def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
+        """A bar outside the ring for each ball, as long as its load; `top` has full length.
+
+        With the place of its number, the room for that, and whether its load is the greatest. The
+        number lies above or below the end of the bar and above its beginning: there it needs
+        little more room to the side than the bar, and leaves the ring free.
+        """
+        angle = self.ball_angles()
+        start = self.rim + BAR_START
+        end = start + BAR_LENGTH * load / top
+        end[~(load > 0.0)] = np.nan  # a bar without length would still show its line's ends
+        return {
+            "x": np.where(load > 0.0, start, np.nan) * np.cos(angle),
+            "y": end * np.sin(angle),
+            "right": NUMBER_RIGHT * np.cos(angle),
+            "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
+            "room": np.full(angle.size, min(2.0 * math.pi * (start + 0.1) / angle.size, SIDE_ROOM)),
+            "most": load == np.max(load, initial=0.0, where=np.isfinite(load)),
+            "x0": start * np.cos(angle),
+            "y0": start * np.sin(angle),
+            "x1": end * np.cos(angle),
+            "y1": end * np.sin(angle),
+            "load": load,
+        }
+
+    def load_rim(
+        self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
+    ) -> dict[str, np.ndarray]:
+        """The area that the bars of a ball sweep as it goes round, at each half degree or more."""
+        every = max(1, angle.size // 720)
+        angle, load = angle[::every], load[::every]
+        start = self.rim + BAR_START
+        end = start + BAR_LENGTH * np.nan_to_num(load) / top
+        return polar(
+            (
+                np.concatenate([angle, angle[::-1]]),
+                np.concatenate([np.full_like(angle, start), end[::-1]]),
+            )
+        )
+
+    def load_arrow(self) -> dict[str, np.ndarray]:
+        """The radial load on the inner ring, from the shaft's middle; no arrow without one."""
+        load = self.scene.load
+        size = math.hypot(load.fx, load.fy)
+        if size == 0.0:
+            return polar()
+        along = np.array([load.fx, load.fy]) / size
+        across = np.array([-along[1], along[0]])
+        length, half, head = 0.82 * self.bore, 0.016, 0.11
+        shape = [
+            (0.0, -half),
+            (length - head, -half),
+            (length - head, -3.2 * half),
+            (length, 0.0),
+            (length - head, 3.2 * half),
+            (length - head, half),
+            (0.0, half),
+        ]
+        x, y = np.array([forth * along + aside * across for forth, aside in shape]).T
+        return {"x": x, "y": y}
+
+
+def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
+    """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
+    line = with_gaps(parts, "angle", "radius")
+    angle, radius = line["angle"], line["radius"]
+    return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
+
+
+def round_down(value: float) -> float:
+    """The greatest of 1, 2, 5 times a power of ten that is at most `value`."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
+    return max(factor for factor in (1.0, 2.0, 5.0) if factor * power <= value * (1 + 1e-9)) * power

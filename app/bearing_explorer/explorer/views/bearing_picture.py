@@ -1,0 +1,433 @@
+"""Cross-section of a bearing as SVG, drawn from its numbers; each dimension can be pointed at.
+
+A dimension is a group of the class ``dimension`` whose ``data-name`` is that of its control.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import NamedTuple
+
+from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS
+from bearingcore import Bearing
+
+Point = tuple[float, float]
+
+_CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group in BEARING_GROUPS}
+
+AXIS, MIDDLE = 372.0, 155.0
+"""Where the middle of the shaft is in the section, and the middle of the bearing along it."""
+SHOULDER = 0.42
+"""Length of rings drawn beyond the bottom of their grooves, in ball diameters."""
+CONTACT: Point = (440.0, 142.0)
+"""The centre of the element that is drawn large."""
+
+
+@lru_cache(maxsize=32)
+def bearing_picture(bearing: Bearing) -> str:
+    """The SVG: section to scale, enlarged contact, front view, and the law of the contact."""
+    enlarged = _line_contact if bearing.kind.picture.element == "roller" else _grooves
+    parts = [*_section(bearing), *enlarged(bearing), *_front(bearing), *_law(bearing)]
+    words = "Cross-section of the bearing with its dimensions"
+    return (
+        f'<svg viewBox="0 0 740 400" role="img" class="picture" aria-label="{words}">'
+        f"{''.join(parts)}</svg>"
+    )
+
+
+# Shapes
+
+
+def _shape(tag: str, content: str = "", **attributes: object) -> str:
+    """An element; ``cls`` stands for ``class``, and _ in a name for -."""
+    named = {"class" if name == "cls" else name.replace("_", "-"): value
+             for name, value in attributes.items()}  # fmt: skip
+    text = "".join(
+        f' {name}="{value:.2f}"' if isinstance(value, float) else f' {name}="{value}"'
+        for name, value in named.items()
+    )
+    return f"<{tag}{text}>{content}</{tag}>"
+
+
+def _path(cls: str, *commands: str | float) -> str:
+    """A path out of letters, lengths and flags (whole numbers)."""
+    d = " ".join(f"{one:.2f}" if isinstance(one, float) else str(one) for one in commands)
+    return _shape("path", d=d, cls=cls)
+
+
+def _line(cls: str, x1: float, y1: float, x2: float, y2: float) -> str:
+    return _path(cls, "M", x1, y1, "L", x2, y2)
+
+
+def _label(
+    x: float, y: float, text: str, below: str = "", after: str = "", anchor: str = "middle"
+) -> str:
+    """A symbol with an index `below`, and text `after` it on the line."""
+    parts = [_shape("tspan", text)]
+    if below:
+        parts.append(_shape("tspan", below, cls="below", dy=4))
+    if after:
+        parts.append(_shape("tspan", after, dy=-4 if below else 0))
+    return _shape("text", "".join(parts), x=x, y=y, text_anchor=anchor, cls="label")
+
+
+def _dimension(field: str, *parts: str) -> str:
+    """Everything of one dimension: it lights up together, and a click leads to its control."""
+    return _shape("g", "".join(parts), cls="dimension", data_name=_CONTROL[field])
+
+
+def _arrow(x1: float, y1: float, x2: float, y2: float, both: bool = True) -> str:
+    made = _line("line", x1, y1, x2, y2) + _line("grip", x1, y1, x2, y2)
+    length = math.hypot(x2 - x1, y2 - y1)
+    if length < 4.0:
+        return made
+    dx, dy = (x2 - x1) / length, (y2 - y1) / length
+    made += _head(x2, y2, dx, dy)
+    return made + (_head(x1, y1, -dx, -dy) if both else "")
+
+
+def _head(x: float, y: float, dx: float, dy: float) -> str:
+    side = (-7.0 * dx - 2.6 * dy, -7.0 * dy + 2.6 * dx)
+    return _path("head", "M", x, y, "l", *side, "l", 5.2 * dy, -5.2 * dx, "z")
+
+
+def _circle(cls: str, x: float, y: float, r: float) -> str:
+    return _shape("circle", cx=x, cy=y, r=r, cls=cls)
+
+
+def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 0.0) -> str:
+    return _shape("rect", x=x, y=y, width=width, height=height, rx=rx, cls=cls)
+
+
+# Half of the section through the shaft, to scale: radii are heights above its middle
+
+
+class _RowAt(NamedTuple):
+    """A row as it is drawn: place, element and heights of its centre and raceways."""
+
+    number: int
+    x: float
+    ball: float
+    centre: float
+    outer: float
+    inner: float
+    lean: float
+
+
+class _Section:
+    """The scale of a section, and its rows from the right to the left."""
+
+    def __init__(self, bearing: Bearing) -> None:
+        self.bearing = bearing
+        own = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
+        largest = max(one.ball_diameter for one in own)
+        rim = max(one.outer_raceway_radius + SHOULDER * one.ball_diameter for one in own)
+        hole = min(one.inner_raceway_radius - SHOULDER * one.ball_diameter for one in own)
+        places = [row.place for row in bearing.all_rows]
+        span = max(places) - min(places)
+        self.scale = min(325.0 / rim, 84.0 / largest, 150.0 / (span + 1.6 * largest))
+        self.is_roller = bearing.kind.picture.element == "roller"
+        self.ball = 0.5 * self.scale * bearing.ball_diameter
+        self.long = 0.5 * self.scale * (bearing.roller_length or bearing.ball_diameter)
+        wide = span + 1.6 * largest
+        if bearing.roller_length is not None:
+            wide = span + bearing.roller_length + 0.6 * largest
+        self.half = 0.5 * self.scale * wide
+        self.left, self.right = MIDDLE - self.half, MIDDLE + self.half
+        self.top, self.bore = self.up(rim), min(self.up(max(hole, 0.0)), AXIS - 6.0)
+        self.rows = sorted(
+            (
+                _RowAt(
+                    k,
+                    MIDDLE + self.scale * row.place,
+                    0.5 * self.scale * one.ball_diameter,
+                    self.up(0.5 * one.pitch_diameter),
+                    self.up(one.outer_raceway_radius),
+                    self.up(one.inner_raceway_radius),
+                    row.facing * math.tan(one.contact_angle),
+                )
+                for k, (row, one) in enumerate(zip(bearing.all_rows, own, strict=True))
+            ),
+            key=lambda row: -row.x,
+        )
+
+    def up(self, radius: float) -> float:
+        """Height of a radius [m]."""
+        return AXIS - self.scale * radius
+
+    def groove(self, row: _RowAt, level: float, side: float) -> list[str | float]:
+        """The race of a row: `side` 1 for the outer ring, −1 for the inner one."""
+        edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
+        if self.is_roller:
+            half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a race that leans as it does
+            rise = half * row.lean
+            edge += side * max(abs(rise) - SHOULDER * row.ball, 0.0)  # no race beyond its rib
+            return ["V", edge, "H", row.x + half, "V", level + rise,
+                    "L", row.x - half, level - rise, "V", edge]  # fmt: skip
+        deep = level - side * SHOULDER * row.ball
+        return ["V", edge, "H", row.x + wide, "Q", row.x, deep, row.x - wide, edge]
+
+    def outer_race(self) -> list[str | float]:
+        if self.bearing.kind.picture.outer == "sphere":  # about the middle of the shaft
+            radius = self.scale * self.bearing.outer_raceway_radius
+            edge = AXIS - math.sqrt(max(radius * radius - self.half * self.half, 0.0))
+            return ["V", edge, "A", radius, radius, 0, 0, 0, self.left, edge]
+        return [*(one for row in self.rows for one in self.groove(row, row.outer, 1.0)),
+                "H", self.left]  # fmt: skip
+
+    def inner_race(self) -> list[str | float]:
+        if self.bearing.kind.picture.inner == "flat":  # rollers run on a ring without shoulders
+            return ["V", self.rows[0].inner, "H", self.left]
+        return [*(one for row in self.rows for one in self.groove(row, row.inner, -1.0)),
+                "H", self.left]  # fmt: skip
+
+    def element(self, row: _RowAt) -> str:
+        if not self.is_roller:
+            return _circle("ball", row.x, row.centre, row.ball)
+        corner = row.x - self.long, row.centre - row.ball
+        box = _box("ball", *corner, 2.0 * self.long, 2.0 * row.ball, 2.0)
+        turn = math.degrees(math.atan(row.lean))
+        return _turned(box, turn, row.x, row.centre) if turn else box
+
+    def height(
+        self, field: str, x: float, start: float, level: float, text: str, below: str,
+        after: str = "",
+    ) -> str:  # fmt: skip
+        """A radius as an arrow from the middle of the shaft."""
+        before = x < MIDDLE
+        return _dimension(
+            field,
+            _line("witness", start, level, x - math.copysign(5.0, start - x), level),
+            _arrow(x, AXIS, x, level),
+            _label(x + (-5.0 if before else 5.0), AXIS - 0.45 * (AXIS - level), text, below, after,
+                   "end" if before else "start"),
+        )  # fmt: skip
+
+
+def _turned(content: str, degrees: float, x: float, y: float) -> str:
+    return _shape("g", content, transform=f"rotate({degrees:.2f} {x:.2f} {y:.2f})")
+
+
+def _section(bearing: Bearing) -> Iterable[str]:
+    at, look = _Section(bearing), bearing.kind.picture
+    yield _path("steel", "M", at.left, at.top, "H", at.right, *at.outer_race(), "Z")
+    yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
+    yield from map(at.element, at.rows)
+    if len(at.rows) > 1 and look.outer != "sphere" and any(row.lean for row in at.rows):
+        for row in at.rows:  # lines of contact, on to the middle of the shaft
+            over = 1.5 * row.ball
+            foot = row.x - (AXIS - row.centre) * row.lean
+            yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
+    yield _line("axis", 14.0, AXIS, 296.0, AXIS)
+    by_number = {row.number: row for row in at.rows}
+    own = bearing.rows[1].own if len(bearing.rows) > 1 else {}
+    unlike = bool({"ball_diameter", "pitch_diameter"} & own.keys())
+    first = by_number[0] if unlike else at.rows[0]
+    x, centre = first.x, at.up(0.5 * bearing.pitch_diameter)
+    if "roller_length" in look.dimensions:
+        level = centre + 0.45 * at.ball
+        yield _dimension("roller_length", _arrow(x - at.long, level, x + at.long, level),
+                         _label(x, level + 13.0, "l"))  # fmt: skip
+    if len(at.rows) > 1:
+        yield _distance(at)
+    if unlike:
+        yield from _second(by_number[1])
+    if "groove_center_radius" in look.dimensions:
+        level = at.up(bearing.groove_center_radius)
+        yield at.height("groove_center_radius", 26.0, at.left, level, "r", "d")
+    place = min(72.0, at.left - 6.0)
+    yield at.height("pitch_diameter", place, at.left, centre, "D", "p", "/2")
+    yield at.height("inner_raceway_radius", max(236.0, at.right + 8.0), at.right,
+                    at.up(bearing.inner_raceway_radius), "R", "i")  # fmt: skip
+    yield at.height("outer_raceway_radius", max(266.0, at.right + 38.0), at.right,
+                    at.up(bearing.outer_raceway_radius), "R", "o")  # fmt: skip
+    if at.is_roller:
+        x += 0.6 * at.long
+        yield _dimension("ball_diameter", _arrow(x, centre - at.ball, x, centre + at.ball),
+                         _label(x - 5.0, centre - 8.0, "D", "b", anchor="end"))  # fmt: skip
+    else:
+        yield _dimension("ball_diameter", _arrow(x - at.ball, centre, x + at.ball, centre),
+                         _label(x, centre - 5.0, "D", "b"))  # fmt: skip
+    yield from (_circle("centre", row.x, row.centre, 2.6) for row in at.rows)
+    yield _label(MIDDLE, 396.0, "to scale, above the middle of the shaft")
+
+
+def _distance(at: _Section) -> str:
+    """The distance of two rows, below the shaft."""
+    right, left = at.rows[:2]
+    level = AXIS + 6.0
+    return _dimension(
+        "row_distance",
+        *(_line("witness", row.x, row.centre, row.x, level + 2.0) for row in (left, right)),
+        _arrow(left.x, level, right.x, level),
+        _label(MIDDLE, level - 4.0, "a"),
+    )
+
+
+def _second(row: _RowAt) -> Iterable[str]:
+    """Of rows that are not alike the second has names of its own."""
+    x, away = row.x, row.x - 0.6 * row.ball
+    yield _dimension(
+        "second_ball_diameter",
+        _arrow(x - row.ball, row.centre, x + row.ball, row.centre),
+        _label(x, row.centre - 5.0, "D", "b2"),
+    )
+    yield _dimension(
+        "second_pitch_diameter",
+        _arrow(away, AXIS, away, row.centre),
+        _label(away - 5.0, AXIS - 0.3 * (AXIS - row.centre), "D", "p2", "/2", "end"),
+    )
+
+
+# An element between its races; small features are drawn large
+
+
+def _gap(bearing: Bearing) -> float:
+    clearance = bearing.radial_clearance
+    return 5.0 + 16.0 * (1.0 - math.exp(-clearance / 2e-5)) if clearance > 0.0 else 0.0
+
+
+def _clearance(x: float, low: float, gap: float, *witnesses: str) -> str:
+    return _dimension(
+        "radial_clearance",
+        *witnesses,
+        _arrow(x, low - 18.0, x, low, both=False),
+        _arrow(x, low + gap + 18.0, x, low + gap, both=False),
+        _label(x + 8.0, low + 4.0 + 0.5 * gap, "r", "L", anchor="start"),
+    )
+
+
+def _line_contact(bearing: Bearing) -> Iterable[str]:
+    """A roller lies on its races along its length."""
+    (x, y), high, gap = CONTACT, 60.0, _gap(bearing)
+    slender = (bearing.roller_length or 0.0) / bearing.ball_diameter
+    long = min(110.0, max(25.0, high * slender))
+    low, angle = y + high, bearing.contact_angle
+    races = _box("steel", x - 124.0, y - high - 30.0, 248.0, 30.0)
+    races += _box("steel", x - 124.0, low + gap, 248.0, 30.0)
+    races += _box("ball", x - long, y - high, 2.0 * long, 2.0 * high, 5.0)
+    yield _turned(races, math.degrees(angle), x, y) if angle else races
+    if angle:
+        yield _angle(angle, high)
+    if gap:
+        yield _clearance(x + long + 20.0, low, gap)
+    for number, note in enumerate(bearing.kind.picture.notes):
+        yield _label(x, 270.0 + 18.0 * number, note)
+
+
+class _Circle(NamedTuple):
+    x: float
+    y: float
+    r: float
+
+    def at(self, angle: float) -> Point:
+        """The point at an angle from above."""
+        return self.x + self.r * math.sin(angle), self.y - self.r * math.cos(angle)
+
+
+def _grooves(bearing: Bearing) -> Iterable[str]:
+    """A ball between its grooves."""
+    (x, y), ball, gap = CONTACT, 76.0, _gap(bearing)
+    angle = bearing.contact_angle
+    sine, cosine = math.sin(angle), math.cos(angle)
+    likely = 0.5 * (bearing.groove_center_distance + bearing.ball_diameter)
+    far = {}
+    for race in ("outer", "inner"):
+        wider = 2.0 * (bearing.groove_radius(race) or likely) / bearing.ball_diameter - 1.0
+        far[race] = ball * (0.16 + 2.4 * min(max(wider, 0.0), 0.2))
+    outer = _Circle(x - far["outer"] * sine, y + far["outer"] * cosine, ball + far["outer"])
+    inner = _Circle(x + far["inner"] * sine, y - far["inner"] * cosine + gap, ball + far["inner"])
+    yield _ring(outer, 1.0, y - ball - 34.0)
+    yield _ring(inner, -1.0, y + ball + 34.0 + gap)
+    yield _circle("ball", x, y, ball)
+    yield _angle(angle, ball)
+    if "groove_center_distance" in bearing.kind.picture.dimensions:
+        middle = 0.5 * (outer.x + inner.x), 0.5 * (outer.y + inner.y)
+        yield _dimension(
+            "groove_center_distance",
+            _arrow(outer.x, outer.y, inner.x, inner.y),
+            *(_circle("centre", one.x, one.y, 2.6) for one in (outer, inner)),
+            _label(middle[0] - 9.0, middle[1] + 4.0, "A", "0", anchor="end"),
+        )
+    if bearing.outer_groove_radius is not None:
+        ends = ("outer", "o", outer, -0.62, -6.0), ("inner", "i", inner, math.pi + 0.62, 14.0)
+        for race, index, circle, turn, lower in ends:
+            end = circle.at(turn)
+            yield _dimension(
+                f"{race}_groove_radius",
+                _arrow(circle.x, circle.y, *end, both=False),
+                _label(end[0] - 4.0, end[1] + lower, "r", index, anchor="end"),
+            )
+    if gap:
+        right, low = x + ball + 52.0, y + ball
+        yield _clearance(
+            right, low, gap,
+            _line("witness", x - 10.0, low, right + 6.0, low),
+            _line("witness", x + 10.0, low + gap, right + 6.0, low + gap),
+        )  # fmt: skip
+    for number, note in enumerate(bearing.kind.picture.notes):
+        yield _label(x, 300.0 + 18.0 * number, note)
+
+
+def _ring(circle: _Circle, side: float, back: float) -> str:
+    """Steel around a groove, down or up to `back`."""
+    ends = [circle.at(turn if side > 0.0 else math.pi - turn) for turn in (-0.9, 0.9)]
+    (left, level), end, sweep = ends[0], ends[1], 1 if side > 0.0 else 0
+    x = CONTACT[0]
+    return _path("steel", "M", x - 118.0, back, "V", level, "H", left, "A", circle.r, circle.r,
+                 0, 0, sweep, *end, "H", x + 118.0, "V", back, "Z")  # fmt: skip
+
+
+def _angle(angle: float, ball: float) -> str:
+    """The contact angle, between the plane of the balls and the line of contact."""
+    x, y = CONTACT
+    sine, cosine, far, arc = math.sin(angle), math.cos(angle), 1.5 * ball, 1.32 * ball
+    parts = [
+        _line("line dashed", x - ball * sine, y + ball * cosine, x + far * sine, y - far * cosine),
+        _line("witness", x, y, x, y - far),
+    ]
+    if angle > 0.0:
+        end = x + arc * sine, y - arc * cosine
+        parts.append(_path("line", "M", x, y - arc, "A", arc, arc, 0, 0, 1, *end))
+    half = 0.5 * angle
+    at = x + arc * math.sin(half) + 4.0, y - arc * math.cos(half) - 5.0
+    return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
+
+
+# All elements, seen along the shaft; load of one against its compression
+
+
+def _front(bearing: Bearing) -> Iterable[str]:
+    x, y = 660.0, 100.0
+    scale = 66.0 / (bearing.outer_raceway_radius + 0.3 * bearing.ball_diameter)
+    for radius in (bearing.outer_raceway_radius, bearing.inner_raceway_radius):
+        yield _circle("ring", x, y, scale * radius)
+    pitch, ball = 0.5 * scale * bearing.pitch_diameter, 0.5 * scale * bearing.ball_diameter
+    turns = (2.0 * math.pi * i / bearing.n_balls for i in range(bearing.n_balls))
+    balls = [_circle("ball", x + pitch * math.cos(t), y - pitch * math.sin(t), ball) for t in turns]
+    counts = [own.stop - own.start for own in bearing.balls_of_rows]
+    alike = len(set(counts)) == 1
+    several = f"{len(counts)} · {counts[0]}" if len(counts) > 1 else str(counts[0])
+    count = several if alike else " + ".join(map(str, counts))
+    yield _dimension("n_balls", *balls, _label(x, y + 5.0, "N", "b", f" = {count}"))
+
+
+def _law(bearing: Bearing) -> Iterable[str]:
+    """The curve that K stands for."""
+    x, y, width, height, most, greatest = 606.0, 300.0, 104.0, 74.0, 20e-6, 1.6e10
+    top = min(1.0, math.sqrt(bearing.load_deflection_factor / greatest))
+    curve: list[str | float] = []
+    for i in range(25):
+        level = y - height * top * (i / 24.0) ** bearing.kind.exponent
+        curve += ["L" if i else "M", x + width * i / 24.0, level]
+    yield _path("ring", "M", x, y - height - 8.0, "V", y, "H", x + width + 8.0)
+    law = f"Q = K δ{bearing.kind.exponent_text}"
+    yield _dimension(
+        "load_deflection_factor",
+        _path("line curve", *curve),
+        _path("grip", *curve),
+        _label(x + 8.0, y - height + 4.0, law, anchor="start"),
+    )
+    yield _label(x + width, y + 16.0, f"compression δ, to {1e6 * most:g} µm", anchor="end")

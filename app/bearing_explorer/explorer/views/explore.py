@@ -1,0 +1,275 @@
+"""Any output over the plane of any two quantities: coarse at once, refined while one waits.
+
+The first, coarse level follows the sliders like any other view. When the sliders rest, a job
+refines it level by level.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bearing_explorer.explorer.results.explore import (
+    BUDGET,
+    MAP_OUTPUTS,
+    SIZES,
+    MapOutput,
+    Plane,
+    Question,
+    coarse,
+    refine,
+)
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.state.value_range import (
+    SWEEPABLE,
+    Sweep,
+    focused,
+    table_of_places,
+    value_of,
+)
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView, editor_of
+from bearing_explorer.explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
+from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.heat_map import Side
+from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
+from bearing_explorer.kit.sentences import sentence_of, with_unit
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.job_view import last_shown
+from bearing_explorer.kit.widgets.form import FieldSpec, stack
+
+_FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
+_WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
+_BAND = ("band_from", "band_to")
+_FIRST_BAND = [f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()]
+_GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
+_FADED = 0.35
+
+
+@dataclass(frozen=True)
+class MapRequest:
+    """A map as the form has it."""
+
+    x: Sweep
+    y: Sweep
+    output: MapOutput
+    stride: int
+    given: Mapping[str, str] = field(default_factory=dict, compare=False)
+
+    def of(self, results: Results) -> Question:
+        """The question for the scene shown."""
+        return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
+
+
+class ExplorePlane(SceneJobView[Plane]):
+    """A map of one output over two quantities, with lines across it and a histogram."""
+
+    name = "explore"
+    title = "Explore a plane"
+    about = (
+        "Any output over any two quantities. All else is as the sliders are set. Point at the "
+        "map to move the curves, click to go there; select values in the histogram to find them "
+        "on it. Hatched: no answer. Ring: this scene."
+    )
+    start = "Compute the map"
+    at_once = True
+    bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
+
+    _request: MapRequest | None = None
+    _question: Question | None = None
+    _refining: tuple[Question, int] | None = None
+
+    def build(self, packed: PackedSource) -> Any:
+        sides = [Side.of(field) for field in SWEEPABLE.values()]
+        self._plane = PlaneFigures(packed, "explore", sides)
+        maps = stack(*self._plane.plots, stylesheets=[SIDE_BY_SIDE])
+        return [self.job, self.only_with_numbers(maps)]
+
+    @property
+    def is_empty(self) -> bool:
+        """Before the first map, or where no point of it has an answer."""
+        return self.found is None or self.found.missing == self.found.values.size
+
+    # The form
+
+    def fields(self) -> list[FieldSpec]:
+        outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
+        return [
+            {"name": "output", "label": "Map of", "options": outputs},
+            *plane_fields(headings=True),
+            {"name": "grid", "label": "Points", "options": _GRIDS},
+            {"name": "band_from", "label": "Band from (kHz)", "only": {"output": _WITH_BAND}},
+            {"name": "band_to", "label": "to (kHz)", "only": {"output": _WITH_BAND}},
+        ]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        fills = plane_fills(editor.limits)
+        values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
+        values |= dict(zip(_BAND, _FIRST_BAND, strict=True))
+        # loads that point down, as weights do: without a load there is nothing to map
+        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
+        if self._request is None:
+            self._request = self.request_of(values, editor)
+        return values, fills
+
+    def request_of(self, given: Mapping[str, str], editor: SceneEditor) -> MapRequest:
+        """The map of the form; ValueError with a sentence where there can be none."""
+        if given["output"] not in MAP_OUTPUTS:
+            raise ValueError("There is no such output.")
+        if given["grid"] not in [value for value, _ in _GRIDS]:
+            raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
+        x, y = plane_sweeps(given, SIZES[1], editor.limits)
+        output = MAP_OUTPUTS[given["output"]]
+        if output.band is not None:
+            ends = zip(_BAND, ("beginning", "end"), strict=True)
+            low, high = (
+                number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
+                for name, end in ends
+            )
+            output = output.in_band(1e3 * low, 1e3 * high)
+        return MapRequest(x, y, output, int(given["grid"]), given)
+
+    def start_job(self, given: Mapping[str, str]) -> None:
+        """Ask for the map of the form; the job begins when the sliders rest."""
+        try:
+            self._request = self.request_of(given, self._editor)
+        except ValueError as error:
+            self.job.show(JobState("failed", 0.0, str(error)))
+        else:
+            self._refining = None
+            self._draw()
+
+    # Outside of the page
+
+    def choices(self) -> dict[str, Any]:
+        return {} if self._request is None else dict(self._request.given)
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        editor = editor_of(results)
+        self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
+        question = request.of(results)
+        self.found = last_shown(lambda job: refine(job, question, request.stride))
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        plane = self._newest(results)[0]
+        shown = plane or self.found
+        if shown is None:
+            return {}, {}
+        scene = focused(results.scene, results.focus)
+        x, y = (value_of(scene, sweep.field) for sweep in (shown.x, shown.y))
+        return self._plane.data(field_of(shown), (x, y), _FADED if plane is None else 1.0)
+
+    def sentence(self, results: Results) -> str:
+        plane = self._newest(results)[0]
+        if plane is not None:
+            return summary(plane)
+        return "There is no map yet." if self.is_empty else "Faint: an earlier map."
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        if results is None or self._request is None:
+            super().say(results, sentence)
+            return
+        self._question = question = self._request.of(results)
+        plane, why = self._newest(results)
+        self.found = plane or self.found
+        super().say(results, sentence)
+        if self.found is not None:
+            self._plane.write(field_of(self.found))
+        if self._jobs is None or self._refining == (question, self._request.stride):
+            return
+        if self._refining is not None:
+            self._jobs.cancel()  # its map is no longer wanted
+        self._refining = None
+        if why:
+            self.job.show(JobState("failed", 0.0, why))
+        elif not results.moving:
+            self._refine(self._jobs, question, plane)
+
+    def columns(self, found: Plane) -> dict[str, np.ndarray]:
+        return {
+            **table_of_places(found.x, found.y),
+            found.question.output.column: found.values.ravel(),
+            "no_answer_because": found.reasons.ravel(),
+        }
+
+    def _newest(self, results: Results) -> tuple[Plane | None, str]:
+        """The map as far as it is computed, or the reason why there can be none."""
+        if self._request is None:
+            return None, ""
+        question = self._request.of(results)
+        if self.found is not None and self.found.question == question:
+            return self.found, ""
+        if not question.at_once:
+            return None, ""
+        try:
+            return coarse(question), ""
+        except ValueError as error:
+            return None, sentence_of(error)
+
+    # Refining
+
+    def _refine(self, jobs: Jobs, question: Question, start: Plane | None) -> None:
+        """Start the job of a map."""
+        assert self._request is not None
+        stride = self._request.stride
+        self._refining = question, stride
+
+        def work(job: Work) -> str:
+            return refine(job, question, stride, start)
+
+        jobs.start(work, self._take, self.job.show)
+
+    def _take(self, found: Plane) -> None:
+        if found.question == self._question:
+            self.found = found
+            self._draw()
+
+
+def field_of(plane: Plane) -> Field:
+    """A map as the figures take it."""
+    output = plane.question.output
+    words = output.label[0].upper() + output.label[1:] if output.label[:2] != "k " else output.label
+    x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))
+    return Field(x, y, words, output.unit, plane.values, plane.reasons)
+
+
+def summary(plane: Plane) -> str:
+    """A sentence on a map: least and greatest value, their places, and missing points."""
+    question, values = plane.question, plane.values
+    words, size = field_of(plane).words, question.size_words(plane.stride)
+    missing = ""
+    if plane.missing:
+        reasons = [str(why) for why in plane.reasons[np.isnan(values)]]
+        common = max(set(reasons), key=reasons.count)
+        points = "1 point has" if plane.missing == 1 else f"{plane.missing} points have"
+        why = f"no answer, most often: {common.rstrip('.')}."
+        if plane.missing == values.size:
+            return f"{words}: {points} {why}"
+        missing = f" {points} {why}"
+    least, most = (
+        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+    )
+    ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
+    words = re.sub("^k ", "k_", words)  # with its directions below
+    return f"{size}. {words}: {ends}.{missing}"
+
+
+def _place(plane: Plane, at: tuple[Any, ...]) -> str:
+    output = plane.question.output
+    value, unit = float(plane.values[at]), output.unit
+    prefixed = unit not in ("", "°")
+    shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
+    where = [
+        f"{sweep.field.label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
+        for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
+    ]
+    return f"{shown} at {' and '.join(where)}"

@@ -1,0 +1,88 @@
+"""The directions in which the rings are free to move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.widgets.facts import facts_pane
+from bearing_explorer.kit.widgets.form import Fields, button
+from bearingcore import DOF_NAMES
+from bearingcore.scene.scene import DOF_SYMBOLS
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+
+_WORDS = {
+    "x": "x, sideways",
+    "y": "y, up and down",
+    "z": "z, along the shaft",
+    "rx": "θx, tilt about x",
+    "ry": "θy, tilt about y",
+}
+
+
+class FreeDirections(View):
+    """A form for the free directions of the inner ring."""
+
+    name = "dofs"
+    title = "Degrees of freedom"
+    about = (
+        "Directions in which the rings can move. The scene takes the fewest that are exact; force "
+        "others on it. The Accuracy tab says what fewer would change."
+    )
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._fields = Fields(lambda _: self.force(self._fields.values["dofs"]))
+        boxes = pn.widgets.CheckBoxGroup(
+            options={words: name for name, words in _WORDS.items()},
+            css_classes=["dofs"],
+            margin=0,
+            stylesheets=[asset_text("form.css")],
+        )
+        self._fields.add("dofs", boxes)
+        self._automatic = button("As the scene needs", lambda: self._ask("auto"), align="start")
+        self._refusal = facts_pane("", visible=False)
+        return pn.Column(self._automatic, boxes, self._refusal, styles={"gap": "7px"}, margin=0)
+
+    def force(self, dofs: Sequence[str]) -> None:
+        """Force directions on the scene."""
+        free = [name for name in DOF_NAMES if name in dofs]
+        if free:
+            self._ask(" ".join(free))
+            return
+        words = "At least one direction has to be free."
+        self._refusal.param.update(object=f'<p role="alert">{words}</p>', visible=True)
+
+    def _ask(self, dofs: str) -> None:
+        self._refusal.visible = False
+        if self.parts is not None:
+            self.parts.ask({"choose": {"dofs": dofs}})
+
+    def sentence(self, results: Results) -> str:
+        scene = results.scene
+        free = style.list_words([DOF_SYMBOLS[dof] for dof in scene.active_dofs])
+        words = f"{free} {'is' if len(scene.active_dofs) == 1 else 'are'} free"
+        needed = scene.active_dofs == scene.needed_dofs
+        words += ", as the scene needs" if needed else ", which is forced on the scene"
+        why = scene.bearing.kind.left_out
+        return f"{words}: {why}." if why else f"{words}."
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            scene = results.scene
+            self._fields.put({"dofs": list(scene.active_dofs)})
+            self._automatic.disabled = scene.active_dofs == scene.needed_dofs
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        free = [float(dof in results.scene.active_dofs) for dof in DOF_NAMES]
+        return {"direction": np.array(DOF_NAMES), "free": np.array(free)}

@@ -1,0 +1,315 @@
+"""Life of the bearing, pressure on its races and the oil film, with the numbers they need."""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
+from bearing_explorer.kit.widgets.form import Fields, entry, row
+from bearingcore.common.numbers import percent
+from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+    from bearingcore import Life
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    """A number of the form: the field of `LifeInputs`, label, unit, and its range."""
+
+    name: str
+    label: str
+    unit: str
+    unit_si: float
+    least: float
+    most: float
+    about: str
+
+
+FIELDS = (
+    Field(
+        "dynamic_load_rating",
+        "Dynamic load rating of the catalogue",
+        "kN",
+        1e3,
+        1e-3,
+        1e5,
+        "Of the whole bearing, with all its rows. Left empty it is computed by ISO 281.",
+    ),
+    Field(
+        "viscosity",
+        "Viscosity of the oil",
+        "mPa·s",
+        1e-3,
+        0.1,
+        1e4,
+        "Of the oil, or a grease's base oil, at the temperature of the contact. Left empty, "
+        f"{ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by it.",
+    ),
+    Field(
+        "race_roughness",
+        "Roughness of the races",
+        "µm",
+        1e-6,
+        1e-3,
+        100.0,
+        "Root mean square; 0.1 µm is usual for honed races.",
+    ),
+    Field(
+        "ball_roughness",
+        "Roughness of the balls or rollers",
+        "µm",
+        1e-6,
+        0.0,
+        100.0,
+        "Root mean square; 0.05 µm is usual.",
+    ),
+)
+
+MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
+"""Fields of which the program takes a number of its own where none is given."""
+
+
+class LifeOfBearing(View):
+    """Fatigue life, contact pressure and oil film of a scene."""
+
+    name = "life"
+    title = "Life, pressure and oil film"
+    about = (
+        "Fatigue life, pressure on each race, and the oil film. Life by ISO 16281 from the loads "
+        "of all balls; the greatest pressure by Hertz; the film where a ball or roller carries "
+        "most, by Hamrock and Dowson."
+    )
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self.inputs = LifeInputs()
+        self._fields = Fields(self.take)
+        hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
+        self._refusal = facts_pane(visible=False)
+        parts: list[Any] = []
+        for field in FIELDS:
+            given = entry(
+                f"{field.label} ({field.unit})",
+                placeholder=hints.get(field.name, ""),
+                align="start",
+            )
+            parts += [self._fields.add(field.name, given), facts_pane(f"<p>{field.about}</p>")]
+        self._fields.put(self._values())
+        self._answers = facts_pane("", styles={"flex": "2 1 340px"})
+        form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
+        return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
+
+    def take(self, name: str) -> None:
+        """Take a number that was typed; a refused one changes nothing and gets a sentence."""
+        field = next(field for field in FIELDS if field.name == name)
+        try:
+            value: Any = read(field, self._fields.values[name])
+        except ValueError as error:
+            words = f'<p class="refused" role="alert">{html.escape(str(error))}</p>'
+            self._refusal.param.update(object=words, visible=True)
+            return
+        self._refusal.visible = False
+        self.inputs = dataclasses.replace(self.inputs, **{name: value})
+        if self.parts is not None:
+            self.parts.set_life_inputs(self.inputs)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        _ = results.endurance  # computed here, in a thread
+        return {}, {}
+
+    def sentence(self, results: Results) -> str:
+        found = results.endurance
+        if len(groups_of(results)) == 1:
+            return "Enter the groove radii (Machine tab, Bearing) for life, pressure and film."
+        if found.healthy is None:
+            return found.no_life
+        healthy = "Without the defect: " if results.scene.defects else ""
+        return f"{healthy}{found.healthy.sentence}"
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None:
+            return
+        self._answers.object = groups_html(groups_of(results))
+        if not self._refusal.visible:
+            self._fields.put(self._values())
+
+    def _values(self) -> dict[str, str]:
+        texts = {}
+        for field in FIELDS:
+            value = getattr(self.inputs, field.name)
+            texts[field.name] = "" if value is None else f"{value / field.unit_si:.6g}"
+        return texts
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        groups = groups_of(results)
+        rows = [
+            (group.title, fact.name, fact.value)
+            for group in groups
+            for fact in (*group.facts, Fact("in words", group.words))
+        ]
+        about, quantity, value = np.array(rows, dtype=str).reshape(-1, 3).T
+        return {"about": about, "quantity": quantity, "value": value}
+
+
+def read(field: Field, given: object) -> float | None:
+    """The number [SI] a person gave; ValueError with a sentence for the page."""
+    text = str(given)[:40].strip()
+    if not text and field.name in MAY_BE_EMPTY:
+        return None
+    words = f"The {field.label.lower()}"
+    return number_of(text, words, field.unit, field.least, field.most) * field.unit_si
+
+
+def groups_of(results: Results) -> list[FactGroup]:
+    """The answers; a reason that none of them is known is given once."""
+    found = results.endurance
+    groups = [_life(results, found), _pressures(results, found), _film(results, found)]
+    words = groups[0].words
+    if all(not group.facts and group.words == words for group in groups):
+        return [FactGroup("Life, greatest contact pressure and oil film", words, [])]
+    return groups
+
+
+PROFILE = "Rollers are taken to have the profile of ISO 16281, and not to tilt."
+
+
+def _life(results: Results, found: Endurance) -> FactGroup:
+    title = "Life of the healthy bearing" if results.scene.defects else "Life"
+    if found.life is None or found.healthy is None or found.rating is None:
+        return FactGroup(title, found.no_life, [])
+    lasts, known = found.healthy, found.healthy.known
+    facts = [
+        Fact(
+            "Dynamic load rating C<sub>r</sub>",
+            f"{style.with_prefix(found.rating, 'N', 4)}, {found.rating_words}",
+            "The load under which nine of ten bearings reach a million turns.",
+        ),
+        Fact(
+            "Life L<sub>10</sub>",
+            turns_in_words(lasts.million_revolutions) if known else "not known",
+            "Turns that nine of ten bearings reach.",
+        ),
+        Fact(
+            "at the speed of the scene",
+            _hours(lasts),
+            "This life in hours.",
+        ),
+        Fact(
+            "Equivalent load P",
+            style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
+            "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
+            "rollers.",
+        ),
+    ]
+    if len(lasts.rows) > 1 and known:
+        each = " and ".join(map(turns_in_words, lasts.rows))
+        facts.append(
+            Fact(
+                f"of rows 1 to {len(lasts.rows)} on their own",
+                each,
+                "Of each row under what it carries: the bearing fails with the first.",
+            )
+        )
+    words = _damaged_words(found.life) if results.scene.defects else ""
+    profile = PROFILE if results.scene.bearing.kind.line_contact else ""
+    if not known and not words:
+        words = lasts.sentence
+    return FactGroup(title, " ".join(filter(None, (words, profile, found.assumed))), facts)
+
+
+def _hours(lasts: Life) -> str:
+    if math.isfinite(lasts.hours):
+        return hours_in_words(lasts.hours)
+    if lasts.scene.shaft_speed == 0.0:
+        return "no hours: the shaft is at rest"
+    return "no hours: unlimited" if lasts.known else "not known"
+
+
+def _damaged_words(damaged: Life) -> str:
+    """The effect of the loads that a defect changes, and why it is no life of a damaged bearing."""
+    if not damaged.known:
+        return damaged.sentence
+    share = damaged.share_of_healthy
+    why = ", as the defect takes load off the balls that carry most" if share > 1.0 else ""
+    return (
+        f"With the loads as the defect changes them the same formula gives {percent(share)} of "
+        f"that{why}. {LEFT_OUT}"
+    )
+
+
+def _pressures(results: Results, found: Endurance) -> FactGroup:
+    title = "Greatest contact pressure"
+    if found.pressures is None:
+        return FactGroup(title, found.no_pressures, [])
+    bearing = results.scene.bearing
+    if math.isnan(found.pressures.ball.load):
+        return FactGroup(title, f"Not known: {found.pressures.reason}.", [])
+    facts = []
+    for contact in (found.pressures.inner, found.pressures.outer):
+        across = "half the length" if bearing.kind.line_contact else "across"
+        facts.append(
+            Fact(
+                f"{contact.race.capitalize()} race",
+                style.with_prefix(contact.greatest_pressure, "Pa"),
+                "In the middle of the contact of the heaviest loaded ball or roller.",
+            )
+        )
+        facts.append(
+            Fact(
+                "contact, half its size",
+                f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
+                f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
+                "Semi-axes of the contact ellipse; of a roller half its length and half the width.",
+            )
+        )
+    allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
+    words = (
+        f"At {style.with_prefix(found.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
+        f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: "
+        "Hertz theory does not hold at an edge."
+    )
+    return FactGroup(title, words, facts)
+
+
+def _film(results: Results, found: Endurance) -> FactGroup:
+    title = "Oil film"
+    if found.film is None:
+        return FactGroup(title, found.no_film, [])
+    facts = []
+    for film in (found.film.inner, found.film.outer):
+        parameter = style.number(film.film_parameter) if film.lubrication else "not known"
+        facts.append(
+            Fact(
+                f"{film.race.capitalize()} race, thickness",
+                style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
+                "Where it is least.",
+            )
+        )
+        facts.append(
+            Fact(
+                "film parameter Λ",
+                f"{parameter} ({film.lubrication or 'no film'})",
+                "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
+                "above 3 hardly ever.",
+            )
+        )
+    words = found.film.sentence
+    if results.life_inputs.viscosity is None:
+        viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
+        words = words[0].lower() + words[1:]
+        words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
+    return FactGroup(title, words, facts)

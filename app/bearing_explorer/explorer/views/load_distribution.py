@@ -1,0 +1,228 @@
+"""Load distribution: load of a ball against angular position (Fig. 3)."""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import or_
+from typing import Any
+
+import numpy as np
+from bokeh.models import HoverTool, Range1d
+
+from bearing_explorer.explorer.results.defect_shape import pieces, spans
+from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import elements
+from bearing_explorer.kit.plots.layers import (
+    Layer,
+    Words,
+    ball_dots,
+    curve,
+    draw,
+    strips,
+    with_gaps,
+)
+from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearingcore import Equilibrium, Scene
+from bearingcore.common.table import ResultTable, table_of
+from bearingcore.statics.ball_positions import EquilibriumWithMass
+
+OTHER_ROWS = style.DIRECTION_COLORS[1]
+"""Colour of the rows after the first."""
+
+
+CURVES = (
+    curve("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
+    curve("load_distribution_curve", "angle", "load", style.DEFECTIVE),
+)
+LAYERS: tuple[Layer, ...] = (
+    strips("load_distribution_defect", style.DEFECT, 0.16, low="start", high="end"),
+    curve("load_distribution_healthy", "angle", "load", style.HEALTHY),
+    curve("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
+    *compared_curves.curves("load_distribution", "angle", "load"),
+    curve("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
+    *CURVES,
+    ball_dots("load_distribution_balls", "angle", "load"),
+    Words(
+        "load_distribution_rows",
+        "angle",
+        "load",
+        "return `row ${row.row}`",
+        reads=("row",),
+        look={"y_offset": -5, "text_align": "center", "text_baseline": "bottom"},
+    ),
+)
+"""From the lowest to the highest."""
+
+
+class LoadDistribution(View):
+    """Load of a ball over its angle, the balls of this cage angle on the curve."""
+
+    name = "load-distribution"
+    title = "Load distribution"
+    about = (
+        "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
+        "defect. Dots: balls now. With a defect of the inner race the curve is the most in "
+        "all turns of the shaft. A second row is orange, and in grey dashed. Of balls with mass "
+        "the full line is the load at the outer race, where their centrifugal load comes on top, "
+        "the dashed one that at the inner race."
+    )
+    needs = frozenset({"equilibrium", "now", "ranges"})
+
+    def build(self, packed: PackedSource) -> Any:
+        self._range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3, room=ROOM)
+        plot = style.make_figure(
+            style.BALL_ANGLE,
+            style.BALL_LOAD,
+            Range1d(0.0, 360.0, syncable=False),
+            packed.range("load_distribution_load", 0.0, 100.0),
+            height=280,
+        )
+        style.fixed_ticks(plot.xaxis[0], range(0, 361, 45))
+        plot.xgrid.ticker = plot.xaxis[0].ticker
+        drawn = draw(plot, packed, LAYERS)
+        curves = [glyph for layer, glyph in zip(LAYERS, drawn, strict=True) if layer in CURVES]
+        plot.add_tools(
+            HoverTool(
+                renderers=curves,
+                visible=False,  # no button: it is always on
+                mode="vline",
+                line_policy="nearest",
+                tooltips=[("Position", "@angle{0.0}°"), ("Load", "@load{0,0.0} N")],
+            )
+        )
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        (angle, load), *others = results.load_curves
+        (healthy_angle, healthy_load), *healthy_others = results.reference.load_curves
+        now = results.now
+        compared = compared_curves.sources(
+            "load_distribution",
+            ("angle", "load"),
+            results.compared_results,
+            lambda other: _one_line(other.load_curves),
+        )
+        sources = {
+            **compared,
+            "load_distribution_other_rows": _one_line(others),
+            "load_distribution_other_healthy": _one_line(healthy_others),
+            "load_distribution_inner": _one_line(results.inner_load_curves),
+            "load_distribution_rows": _names(results.load_curves),
+            "load_distribution_defect": shaded(results.scene, results.cage_angle),
+            "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
+            "load_distribution_healthy": {"angle": np.degrees(healthy_angle), "load": healthy_load},
+            "load_distribution_balls": {
+                "angle": np.degrees(now.ball_angle[0]) % 360.0,
+                "load": now.ball_load[0],
+            },
+        }
+        room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
+        loads = [room * one for _, one in (*results.load_curves, *results.reference.load_curves)]
+        loads.append(compared_curves.numbers(compared, "load"))
+        return sources, {"load_distribution_load": self._range.fit(*loads)}
+
+    def sentence(self, results: Results) -> str:
+        bearing = results.scene.bearing
+        if not results.equilibrium.converged.any():
+            return f"There is no load distribution: {results.equilibrium.reason(0)}."
+        parts: list[str] = []
+        curves = zip(results.load_curves, results.reference.load_curves, strict=False)
+        for row, ((angle, load), (_, healthy)) in enumerate(curves):
+            most = int(np.nanargmax(load))
+            which = f" of row {row + 1}" if bearing.rows else ""
+            part = (
+                f"{'the' if parts else 'The'} greatest load of a {bearing.kind.element}{which} is "
+                f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
+            )
+            if results.reference_label and np.isfinite(healthy).any():
+                part += f"; {results.reference_label} {style.with_prefix(np.nanmax(healthy), 'N')}"
+            parts.append(part)
+        words = ", ".join(parts)
+        if results.over_shaft:
+            words += " (the most at each angle in all turns of the shaft)"
+        now = results.now
+        if now.converged[0]:
+            count = int(now.loaded_balls[0])
+            words += (
+                f". At this cage angle {count} of {bearing.total_balls} {elements(bearing)} "
+                f"{'carries' if count == 1 else 'carry'} load"
+            )
+            if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
+                words += f". {_both_races(now)}"
+        return words + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        tables = [curves_table(results.load_curves)]
+        if results.inner_load_curves:
+            rows = range(len(results.load_curves))
+            tables += [_at_both_races(results.ranges.state, row) for row in rows]
+        tables.append(curves_table(results.reference.load_curves).prefixed("healthy"))
+        return reduce(or_, tables).in_units().named()
+
+
+def _both_races(now: EquilibriumWithMass) -> str:
+    """Load of the most loaded ball at each race over the cage angles, and its positions."""
+    most = int(np.argmax(now.ball_load[0]))
+    inner, outer = now.inner_load[0, most], now.ball_load[0, most]
+    angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]
+    words = (
+        f"Centrifugal load is {style.with_prefix(now.positions.centrifugal_load, 'N')} for each: "
+        f"the heaviest loaded one carries {style.with_prefix(inner, 'N', 4)} at the inner race and "
+        f"{style.with_prefix(outer, 'N', 4)} at the outer"
+    )
+    if np.abs(angles).max() > 1e-3:
+        words += f", at contact angles of {style.in_degrees(angles[0])} and "
+        words += style.in_degrees(angles[1])
+    return words
+
+
+def _at_both_races(found: Equilibrium, row: int) -> ResultTable:
+    """Loads and contact angles of a row's balls with mass, along its curve."""
+    assert isinstance(found, EquilibriumWithMass)
+    own = row_name(row)
+    columns = (
+        ("inner_race_load", "N", found.inner_load),
+        ("inner_contact_angle", "rad", found.inner_contact_angle),
+        ("outer_contact_angle", "rad", found.contact_angle),
+    )
+    return table_of(
+        *(
+            (f"{own}{name}", unit, load_curve(found, row, values)[1][1:-1])
+            for name, unit, values in columns
+        )
+    )
+
+
+def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
+    """Curves as one line with gaps, angles in degrees."""
+    return with_gaps(((np.degrees(angle), load) for angle, load in curves), "angle", "load")
+
+
+NAMES_APART = 40.0
+"""[degrees] between the names of two rows that carry their most at about one place."""
+
+
+def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
+    """Where the name of each row stands, at the top of its curve; none of a single row."""
+    rows = [
+        (float(np.degrees(angle[np.nanargmax(load)])), float(np.nanmax(load)), row + 1.0)
+        for row, (angle, load) in enumerate(curves)
+        if len(curves) > 1 and np.isfinite(load).any()
+    ]
+    angle, load, row = np.array(rows, dtype=float).reshape(-1, 3).T
+    at = np.clip(angle % 360.0, 12.0, 348.0)
+    if at.size == 2 and abs(at[1] - at[0]) < NAMES_APART and np.ptp(load) < 0.1 * load.max():
+        middle = np.clip(at.mean(), NAMES_APART, 360.0 - NAMES_APART)
+        at[np.argsort(at, kind="stable")] = middle + np.array([-0.5, 0.5]) * NAMES_APART
+    return {"angle": at, "load": load, "row": row}
+
+
+def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
+    """The defects as intervals of ball angle [deg]: two where one lies across 0°."""
+    found = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
+    start, end = np.degrees(np.array(found).reshape(-1, 2)).T
+    return {"start": start, "end": end}

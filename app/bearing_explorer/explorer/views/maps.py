@@ -1,0 +1,486 @@
+"""The 15 stiffness terms and the loaded balls over extent and cage angle (Figs. 5 and 6).
+
+One canvas for all sixteen maps. To the browser go whole numbers of 16 bits, two to a float of the
+packed source; there they are coloured, read under the pointer, and a click asks for the extent and
+the cage angle clicked at.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from bokeh.models import ColumnDataSource, CustomJS
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.plots import matrix_cells
+from bearing_explorer.explorer.plots.matrix_cells import (
+    NEGLIGIBLE,
+    PLACES,
+    SIDES,
+    UNITS,
+    Cell,
+    write,
+)
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
+from bearing_explorer.explorer.state.references import massless
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots.element_words import elements
+from bearing_explorer.kit.plots.heat_map import Places, Side, ends, goes_there, reading
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix, words_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearingcore import STIFFNESS_TERMS
+from bearingcore.statics.equilibrium import TERM_UNITS
+
+#: kinds of colour scales, as the browser knows them
+ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
+
+_TOOLTIP = (
+    '<div style="font: 12px system-ui, sans-serif; line-height: 1.45">'
+    "<b>@name: @left{custom}</b><br>@right{custom}<br>@top{custom}</div>"
+)
+
+NO_ANSWER = 65535
+"""The whole number of a point without an answer."""
+GREATEST = 65534
+"""That of the upper end of a map's scale; the lower end is 0."""
+MOST_LEVELS_NAMED = 14
+"""Steps of the scale of loaded balls up to which each gets its number."""
+HEIGHT = 760
+NARROWEST = 700
+"""[px] width below which the maps have no room for their values at the cross."""
+
+_TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
+"""The smaller sign's part of the greater one above which a map has two signs, below which one."""
+
+
+def _cell(row: int, column: int) -> Cell:
+    return Cell(column + 0.15, column + 0.785, -row - 0.885, -row - 0.2)
+
+
+_BALLS = Cell(0.26, 2.42, -4.8, -3.3)
+_CELLS = [*(_cell(i, j) for i, j in PLACES), _BALLS]
+_N = len(_CELLS)
+
+
+def _bar(cell: Cell) -> Cell:
+    """The colour scale right of a map."""
+    width = 0.036 if cell is not _BALLS else 0.06
+    return Cell(cell.right + 0.02, cell.right + 0.02 + width, cell.bottom, cell.top)
+
+
+BAR_NUMBERS = 0.1
+"""Room for the numbers of a scale of colours, right of it."""
+_BARS = [_bar(cell) for cell in _CELLS]
+
+_SCALE_OF = """
+const [{data}] = sources
+const words = data.of_shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
+const ends = (side) => ({first: data[side + '_first'][0], last: data[side + '_last'][0]})
+return {
+  x: {...ends('x'), factor: 1, unit: '°', words},
+  y: {...ends('y'), factor: 1, unit: '°', words: 'Extent Δφf'},
+}
+"""
+
+
+class StiffnessMaps(View):
+    """All stiffness terms and the loaded balls over extent and cage angle."""
+
+    name = "maps"
+    title = "Maps over extent and cage angle"
+    about = (
+        "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
+        "the cage angle. The large map counts the balls that carry load. Lines that slope are "
+        "balls that enter and leave the defect. Click in a map to go there."
+    )
+    needs = frozenset({"maps", "now"})
+    cells = matrix_cells.named_cells(
+        [Cell(c.left, _bar(c).right + BAR_NUMBERS, c.bottom, c.top) for c in _CELLS]
+    )
+
+    def build(self, packed: PackedSource) -> Any:
+        """One canvas for all maps."""
+        self._one_sign = [StickyRange(0.0, 1.0) for _ in PLACES]
+        self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
+        self._two = [False] * len(PLACES)
+        self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
+        looks = (
+            ".bk-events.bk-events { cursor: crosshair; }"
+            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+        )
+        plot = matrix_cells.matrix_figure(
+            (-0.12, 5.23), (-5.1, 0.0), looks, height=HEIGHT, name="maps_drawing"
+        )
+        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
+        grid = packed.source("maps_grid", *_GRID)
+        ticks = packed.source("maps_ticks", "x", "y", "value", "at")
+        now = packed.source("maps_now", "x", "y", *SIDES)
+        points = packed.source("maps_points", "bits")
+        frames = _frames(plot)
+        images = _images(plot, points)
+        places = Places(images, _SIDES_OF, stands=grid, count=_N, digits=1)
+        _names(plot, grid)
+        _scales(plot, cells)
+        _ticks(plot, ticks)
+        _crosshair(plot, now)
+        _hover(plot, frames, cells, places, points)
+        goes_there(plot, places)
+        matrix_cells.axes_when_zoomed(plot, _CELLS, _SCALE_OF, [grid])
+        return matrix_cells.scrolled(plot)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """Points as whole numbers, their scales, and where the sliders stand."""
+        maps, now = results.maps, results.against(massless(results.scene)).now
+        sizes = matrix_cells.term_sizes(maps.term)
+        cells: list[tuple[float, ...]] = []
+        points = [np.empty(0, np.uint16)]
+        for i, term in enumerate(STIFFNESS_TERMS):
+            values = maps.term(term)
+            at_now = float(now.term(term)[0])
+            low, high, flat = self._limits(i, values, sizes[i])
+            points.append(whole_numbers(values, low, high))
+            at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
+            kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
+            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[term])))
+        counts = np.where(maps.converged, maps.loaded_balls, np.nan)
+        low, high = self._balls.fit(counts)
+        low, high = math.floor(low), math.ceil(high)
+        points.append(whole_numbers(counts, low - 0.5, high + 0.5))
+        at_now = float(now.loaded_balls[0]) if now.converged[0] else math.nan
+        cells.append((low - 0.5, high + 0.5, COUNT, at_now, len(UNITS)))
+
+        columns = dict(zip(("low", "high", "kind", "now", "unit"), np.array(cells).T,
+                           strict=True))  # fmt: skip
+        grid = _grid(results)
+        levels = high - low + 1
+        sources: Sources = {
+            "maps_cells": {**columns, **_PLACES_OF_CELLS},
+            "maps_grid": {name: np.array([value]) for name, value in grid.items()},
+            "maps_ticks": _tick_rows(grid, low, high),
+            "maps_now": {**_marks(results, grid), **_SIDE_COLUMNS},
+            "maps_points": {"bits": as_bits(maps.status.shape, columns["kind"], levels, points)},
+        }
+        return sources, {}
+
+    def _limits(
+        self, i: int, values: NDArray[np.float64], size: float
+    ) -> tuple[float, float, bool]:
+        """Ends of a term's colour scale, and whether it is zero everywhere."""
+        known = values[np.isfinite(values)]
+        if not known.size:
+            return math.nan, math.nan, False
+        least, most = float(known.min()), float(known.max())
+        if max(-least, most) < NEGLIGIBLE * size:
+            return -size, size, True
+        lesser, greater = sorted((max(-least, 0.0), max(most, 0.0)))
+        two = lesser > (_TO_ONE_SIGN if self._two[i] else _TO_TWO_SIGNS) * greater
+        self._two[i] = two
+        middle = 0.5 * (least + most)
+        room = np.array([middle - 0.005 * size, middle + 0.005 * size])  # rounding is no picture
+        low, high = (self._two_signs if two else self._one_sign)[i].fit(least, most, room)
+        return low, high, False
+
+    def sentence(self, results: Results) -> str:
+        """The extent at which fewest balls carry load, and the state at the sliders' place."""
+        maps = results.maps
+        if not maps.converged.any():
+            first = np.unravel_index(0, maps.status.shape)
+            return f"There is nothing to map: {maps.reason(int(first[0]), int(first[1]))}."
+        mean = maps.mean_loaded_balls
+        bearing = results.scene.bearing
+        n_balls, names = bearing.total_balls, elements(bearing)
+        least, most = np.nanmin(mean), np.nanmax(mean)
+        if most - least < 0.05:
+            words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
+        else:
+            at = int(np.nanargmin(mean))
+            where = (
+                f"at an extent of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
+            )
+            if at == mean.size - 1:
+                where += ", the longest of the map"
+            words = (
+                f"Fewest {names} carry load {where}: "
+                f"{least:.1f} of {n_balls} on average over "
+                f"{'the turn of the shaft shown' if results.over_shaft else 'the cage angle'}"
+            )
+            if at and np.isfinite(mean[0]):
+                words += f", against {mean[0]:.1f} without the defect"
+        words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
+        words += in_degrees(results.cage_angle)
+        now = results.against(massless(results.scene)).now
+        if now.converged[0]:
+            count = int(now.loaded_balls[0])
+            carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"
+            words += f", where {count} {carries} load"
+            words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
+        missing = float(np.mean(~maps.converged))
+        if missing:
+            words += f". {number(100.0 * missing, 2)} % of the points have no answer"
+        return words + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """Every point of every map in SI."""
+        columns = results.maps.table().in_units().named()
+        shape = results.maps.status.shape
+        return {name: column.reshape(shape) for name, column in columns.items()}
+
+
+def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.uint16]:
+    """Values between the ends of a scale as 0 to GREATEST, NO_ANSWER where there is none."""
+    if not low < high:
+        return np.full(values.size, NO_ANSWER, np.uint16)
+    shares = ((values - low) * (GREATEST / (high - low))).ravel()
+    known = np.isfinite(shares)
+    return np.where(known, np.clip(np.rint(shares), 0, GREATEST), NO_ANSWER).astype(np.uint16)
+
+
+def as_bits(
+    shape: tuple[int, int],
+    kinds: NDArray[np.float64],
+    levels: int,
+    points: list[NDArray[np.uint16]],
+) -> NDArray[np.float32]:
+    """Rows and columns of the maps, their kinds, levels of the last, and all points, as floats.
+
+    The packed source carries floats; two whole numbers lie in the bits of each and are never read
+    as one.
+    """
+    head = np.array([*shape, *kinds, levels], np.uint16)
+    numbers = np.concatenate([head, np.zeros(_HEAD - head.size, np.uint16), *points])
+    if numbers.size % 2:
+        numbers = np.append(numbers, np.uint16(0))
+    return numbers.view(np.float32)
+
+
+_HEAD = 20  # numbers in front of the points
+
+_GRID = ("across", "up", "x_first", "x_last", "y_first", "y_last", "turn", "start", "of_shaft")
+_SIDES_OF = (
+    Side(CAGE_ANGLE, "Cage angle", "", "°"),
+    Side("extent_deg", "Extent", "", "°"),
+    Side(CAGE_ANGLE, "Shaft angle", "", "°"),
+)
+_ACROSS, _UP = (0, 2), 1
+_SIDE_COLUMNS = matrix_cells.sides_of(_CELLS)
+_MIDDLES = 0.5 * (_SIDE_COLUMNS["bottom"] + _SIDE_COLUMNS["top"])
+_PLACES_OF_CELLS = {
+    **_SIDE_COLUMNS,
+    "middle": _MIDDLES,
+    "bar": np.array([bar.right for bar in _BARS]),
+}
+
+
+def _grid(results: Results) -> dict[str, float]:
+    """Ends of the sides of a map [deg]: half a point past the first and the last.
+
+    `turn`: degrees of the angle that the map shows for a degree of cage angle; it is the
+    shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
+    """
+    maps = results.maps
+
+    angles = results.along(np.array([maps.cage_angles[0], maps.cage_angles[-1]]))
+    first, last = ends(np.linspace(float(angles[0]), float(angles[1]), maps.cage_angles.size))
+    low, high = ends(np.degrees(maps.extents))
+    turn = 1.0 / results.scene.bearing.cage_ratio if results.over_shaft else 1.0
+    return {
+        "across": float(_ACROSS[results.over_shaft]),
+        "up": float(_UP),
+        "x_first": first,
+        "x_last": last,
+        "y_first": low,
+        "y_last": high,
+        "turn": turn,
+        "start": math.degrees(maps.cage_angles[0]),
+        "of_shaft": float(results.over_shaft),
+    }
+
+
+def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
+    """Where the sliders stand, in each map."""
+    angle, extent = float(results.along(results.cage_angle)), math.degrees(results.extent)
+    x = (angle - grid["x_first"]) / (grid["x_last"] - grid["x_first"])
+    y = (extent - grid["y_first"]) / (grid["y_last"] - grid["y_first"])
+    return {
+        "x": np.array([cell.x(np.array(x)) for cell in _CELLS]),
+        "y": np.array([cell.y(np.array(y), (0.0, 1.0)) for cell in _CELLS]),
+    }
+
+
+#: places of numbers: at the left of a map, at its foot, at a colour scale
+_LEFT, _FOOT, _SCALE = 0, 1, 2
+
+
+def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.ndarray]:
+    """Numbers on the axes of the maps on the diagonal and of the large one, and on its scale."""
+    rows = []
+    for at, cell in enumerate(_CELLS):
+        large = cell is _BALLS
+        if not large and len(set(PLACES[at])) > 1:
+            continue
+        for at_side, first, last in (
+            (_LEFT, grid["y_first"], grid["y_last"]),
+            (_FOOT, grid["x_first"], grid["x_last"]),
+        ):
+            for value in _round_numbers(first, last, 6 if large else 2):
+                share = np.array((value - first) / (last - first))
+                x = cell.left if at_side == _LEFT else float(cell.x(share))
+                y = cell.bottom if at_side == _FOOT else float(cell.y(share, (0.0, 1.0)))
+                rows.append((x, y, value, at_side))
+    every = -(-(most - least + 1) // MOST_LEVELS_NAMED)
+    for count in range(least, most + 1, every):
+        share = np.array((count - least + 0.5) / (most - least + 1))
+        y = float(_BARS[-1].y(share, (0.0, 1.0)))
+        rows.append((_BARS[-1].right, y, count, _SCALE))
+    return dict(zip(("x", "y", "value", "at"), np.array(rows).T, strict=True))
+
+
+def _round_numbers(first: float, last: float, parts: int) -> list[float]:
+    """From zero to about `parts` equal round steps further, within the ends [deg]."""
+    span = last - max(first, 0.0)
+    steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
+    step = steps[0] if steps else span / parts
+    return [step * k for k in range(int(last / step + 1e-6) + 1)]
+
+
+# ------------------------------------------------------------------------ the drawing, made once
+
+
+def _frames(plot: figure) -> Any:
+    """Hatching, seen where a map has no answer."""
+    return plot.quad(
+        **{side: side for side in SIDES},
+        source=ColumnDataSource({**_SIDE_COLUMNS, "name": matrix_cells.NAMES}),
+        fill_color="#F3F4F6",
+        hatch_pattern="right_diagonal_line",
+        hatch_color="#D5DAE0",
+        hatch_scale=7,
+        hatch_weight=1,
+        line_color=style.STEEL_EDGE,
+    )
+
+
+def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
+    """The maps and their colour scales, coloured in the browser."""
+    places = [*_CELLS, *_BARS]
+    left, right, bottom, top = matrix_cells.sides_of(places).values()
+    blank = [np.zeros((1, 1), np.uint32) for _ in places]
+    images = ColumnDataSource(
+        {"image": blank, "x": left, "y": bottom, "dw": right - left, "dh": top - bottom},
+        syncable=False,
+    )
+    plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
+    kinds = (color_scales.SEQUENTIAL, color_scales.DIVERGING, color_scales.DIVERGING_DARK)
+    one, *both = map(color_scales.packed_colors, kinds)
+    scales = {
+        theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
+    }
+    color = CustomJS(
+        args={"images": images, "scales": scales, "n": _N, "head": _HEAD, "none": NO_ANSWER},
+        code=asset_text("maps_color.js"),
+    )
+    points.js_on_change("data", color)
+    return images
+
+
+_LEGEND = (
+    "Stiffness k of each displacement",
+    "(column) against each load (row).",
+    "Cross: current extent, cage angle.",
+    "Hatched: no answer.",
+)
+
+
+def _names(plot: figure, grid: ColumnDataSource) -> None:
+    """Symbols over the maps, words on the axes, and the legend."""
+    matrix_cells.write_names(plot, _CELLS)
+    centered = {"text_align": "center", "text_color": style.INK}
+    up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
+    extent = {"value": "Extent Δφf (°)"}
+    write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
+    words = words_of(grid, "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'")
+    at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
+    write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
+    lines = range(len(_LEGEND))
+    legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
+    write(plot, ColumnDataSource(legend), "text")
+
+
+_UNIT = f"""
+const unit = {[*UNITS, ""]}[row.unit]
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+"""
+_END = f"""{_UNIT}
+if (!unit || row.kind == 3 || isNaN(row.low)) return ''
+return minus(String(Number((row.%s/10**e).toPrecision(4))))
+"""
+_NOW = f"""{_UNIT}
+if (narrow && unit) return ''  // it would lie on the symbol
+if (isNaN(row.now)) return 'no value'
+if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'
+return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
+"""
+_ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
+_FLAT = f"return row.kind == 3 ? '{matrix_cells.ZERO}' : ''"
+_ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
+
+
+def _scales(plot: figure, cells: ColumnDataSource) -> None:
+    """Numbers at the colour scales, the value at the crosshair, zero where all is zero."""
+    for code, y, baseline in (
+        (_END % "low", "bottom", "bottom"),
+        (_END % "high", "top", "top"),
+        (_ZERO, "middle", "middle"),
+    ):
+        at = {"x": "bar", "y": y, "x_offset": 4}
+        write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
+    above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
+    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
+    write(plot, cells, now, text_align="right", **above)
+    inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
+    write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)
+
+
+def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
+    """Numbers of the axes and of the scale of loaded balls."""
+    for side, unit, look in (
+        (_LEFT, "°", {"x_offset": -5, "text_align": "right", "text_baseline": "middle"}),
+        (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
+        (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
+    ):
+        write(plot, ticks, words_of(ticks, _ONLY % (side, unit)), **look)
+
+
+def _crosshair(plot: figure, now: ColumnDataSource) -> None:
+    """Where the sliders stand: dark on light, so that it shows on every colour."""
+    for color, width, alpha in ((style.LIGHT, 3.0, 0.75), (style.SHADE, 1.0, 0.9)):
+        look = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
+        plot.segment("x", "bottom", "x", "top", **look)
+        plot.segment("left", "y", "right", "y", **look)
+    plot.scatter("x", "y", source=now, size=8, fill_color=style.DEFECT, line_color=style.SHADE)
+
+
+def _hover(plot: figure, frames: Any, cells: ColumnDataSource, places: Places, points: Any) -> None:
+    """The value under the pointer, its extent and cage angle, without a word to the server."""
+    plot.add_tools(
+        reading(
+            places,
+            [frames],
+            asset_text("maps_value.js"),
+            tooltip=_TOOLTIP,
+            fields={"@left": "value", "@right": "y", "@top": "x"},
+            cells=cells,
+            points=points,
+            units=list(UNITS),
+            head=_HEAD,
+            none=NO_ANSWER,
+            greatest=GREATEST,
+        )
+    )

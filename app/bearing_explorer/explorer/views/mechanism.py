@@ -1,0 +1,151 @@
+"""Which of two mechanisms shakes the housing: varying stiffness, or the mass of the balls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from bokeh.models import Quad, Segment, Span
+
+from bearing_explorer.explorer.results.ball_mass import BallMass
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.wide_spectrum import FREQUENCY, in_hertz
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.folded_view import FoldedView
+
+SHARE = style.AxisQuantity("Share that mass adds", "", "%")
+ROOM = 1.06
+"""Between bars, as a ratio of frequencies."""
+LEAST = -1.0
+"""Share below which a bar is cut: next to nothing is left of the power with massless balls."""
+HALF = 0.5
+"""Share from which on most of the power comes from the balls' mass."""
+
+_BAR_WORDS = """
+if (!row.known) return narrow ? '?' : 'not known'
+return narrow ? minus(`${(100*row.share).toFixed(0)}%`) : `${rounded(100*row.share, 2)} %`
+"""
+_BAR_LOOK = {"fill_color": style.DEFECTIVE, "fill_alpha": "alpha", "line_color": None}
+_WORDS_LOOK = {"text_align": "center", "text_baseline": "bottom"}
+_SPREAD = ("middle", "low", "middle", "high")
+LAYERS: tuple[Layer, ...] = (
+    Glyph(Quad, "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
+    Glyph(Segment, "mechanism_bars", _SPREAD, {"line_color": style.INK}),
+    Words(
+        "mechanism_bars",
+        "middle",
+        "label_at",
+        _BAR_WORDS,
+        ("share", "known"),
+        fitting=style.NARROW,
+        look=_WORDS_LOOK,
+    ),
+)
+"""Bars, their standard errors and their numbers."""
+
+
+class WhichMechanism(FoldedView[Results]):
+    """Share of the housing's power that the mass of the balls adds, octave by octave."""
+
+    name = "mechanism"
+    title = "Which mechanism"
+    about = (
+        "Vibration power from the mass of the balls. Its share of the housing's power "
+        "along x and y together, by octaves; the rest comes from the stiffness that varies as "
+        "balls pass. Thin lines: its standard error. Faint bars: 40 dB and more below the "
+        "loudest octave. Below zero mass takes power away."
+    )
+    needs = frozenset({"ball_mass"})
+
+    def build(self, packed: PackedSource) -> Any:
+        plot = style.make_figure(
+            FREQUENCY,
+            SHARE,
+            packed.range("mechanism_frequency", 125.0, 32000.0),
+            packed.range("mechanism_share", -20.0, 115.0),
+            height=290,
+            x_axis_type="log",
+            name="mechanism",
+        )
+        in_hertz(plot)
+        draw(plot, packed, LAYERS)
+        plot.add_layout(Span(location=0.0, dimension="width", line_color=style.STEEL_EDGE))
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        found = results.ball_mass
+        known = np.isfinite(found.share)
+        share = np.clip(np.where(known, found.share, 0.0), LEAST, 1.0)
+        spread = np.nan_to_num(found.spread)
+        low, high = found.octaves[:-1], found.octaves[1:]
+        top = 100.0 * share
+        ends = 100.0 * np.clip(share + np.array([[-1.0], [1.0]]) * spread, LEAST, 1.0)
+        least = min(-12.0, 1.25 * float(ends[0].min(initial=0.0)))
+        return {
+            "mechanism_bars": {
+                "left": low * ROOM,
+                "right": high / ROOM,
+                "middle": np.sqrt(low * high),
+                "share": np.where(known, found.share, 0.0),
+                "top": top,
+                "known": known.astype(float),
+                "low": ends[0],
+                "high": ends[1],
+                "label_at": np.maximum(ends[1], 0.0) + 1.5,
+                "alpha": np.where(found.quiet, 0.2, 0.75),
+            }
+        }, {
+            "mechanism_frequency": (float(low[0]), float(high[-1])),
+            "mechanism_share": (least, 115.0),
+        }
+
+    def words(self, results: Results) -> str:
+        found = results.ball_mass
+        if not np.isfinite(found.share).any():
+            return "There is no settled motion to compute the power from."
+        words = in_words(found)
+        if found.comparison is None:
+            return f"{words} The motion is too short to show where massless balls will do."
+        sentence = found.comparison.sentence
+        return f"{words} {sentence[0].upper()}{sentence[1:]}."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        return results.ball_mass.share_table().named()
+
+
+def in_words(found: BallMass) -> str:
+    """In words: in which octaves which mechanism gives most of the power."""
+    loud = np.isfinite(found.share) & ~found.quiet
+    low, high, share = found.octaves[:-1][loud], found.octaves[1:][loud], found.share[loud]
+    struck = np.flatnonzero(share > HALF)
+    if not struck.size:
+        at = int(np.argmax(share))
+        most = f"{_percent(share[at])} from {_hertz(low[at])} to {_hertz(high[at])}"
+        adds = f"mass adds at most {most}" if share[at] > 0.0 else "mass adds nothing"
+        return f"Stiffness that varies gives most of the power in every octave; {adds}."
+    most = _percent(share[struck].max())
+    if struck.size < low.size - struck[0]:  # others lie between
+        named = style.list_words([_hertz(low[i]) for i in struck])
+        return (
+            f"The mass of the balls gives most of the power in the octaves that begin at {named}, "
+            f"up to {most}; in the others stiffness that varies does."
+        )
+    words = f"From {_hertz(low[struck[0]])} up the mass of the balls gives most of the power"
+    below = share[: struck[0]]
+    if not below.size:
+        return f"{words}, up to {most}."
+    return (
+        f"{words}, up to {most}; below, stiffness that varies does, and mass adds at most "
+        f"{_percent(max(below.max(), 0.0))}."
+    )
+
+
+def _hertz(frequency: float) -> str:
+    return style.with_prefix(float(frequency), "Hz")
+
+
+def _percent(share: float) -> str:
+    return f"{style.number(100.0 * float(share), 2)} %"

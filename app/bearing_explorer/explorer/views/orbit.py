@@ -1,0 +1,345 @@
+"""The steady orbit of the scene: its existence, its stability and its path."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from bokeh.models import ColumnDataSource, Range1d, Scatter
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import of_orbit
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.layers import Glyph, curve, draw, filled
+from bearing_explorer.kit.plots.levels import (
+    FREQUENCY,
+    HIGHEST,
+    SHOWN,
+    decibels,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
+from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.widgets.form import stack
+from bearing_explorer.kit.widgets.status import StatusLine
+from bearingcore.common.numbers import count, scientific
+from bearingcore.common.table import table_of
+from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.scene.scene import MASSLESS
+
+HEIGHT = 280
+ORBIT_POINTS = 600
+MARCHED_POINTS = 3000
+MARCHED_PASSES = 8
+"""Ball passes that are drawn of the motion integrated in time."""
+
+FAR_APART = 3.0
+"""[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
+
+_DOTS = {"size": 10, "fill_alpha": 0.85, "line_color": "white", "line_width": 1.0}
+MULTIPLIERS = [
+    Glyph(Scatter, name, ("x", "y"), {"fill_color": color, **_DOTS})
+    for name, color in (("orbit_inside", style.DEFECTIVE), ("orbit_outside", "#D55E00"))
+]
+PATHS = [
+    curve("orbit_marched", "x", "y", style.HEALTHY, 3.0),
+    *compared_curves.curves("orbit_path", *SHOWN),
+    curve("orbit_path", "x", "y", style.DEFECTIVE, 1.4),
+]
+SPECTRA = [
+    *(curve("orbit_marched_levels", "frequency", dof, style.HEALTHY, 4.0) for dof in SHOWN),
+    *compared_curves.curves("orbit_levels", "frequency", *SHOWN),
+    *(curve("orbit_levels", "frequency", dof, style.color_along(dof), 1.6) for dof in SHOWN),
+]
+"""Layers of the three figures, from the lowest to the highest."""
+
+_LOST_LONG = {
+    "-1": (
+        "The motion that repeats with each ball pass is unstable (period doubling): the machine "
+        "settles to one that repeats after two passes or more, with lines at half the ball-pass "
+        "frequency"
+    ),
+    "pair": (
+        "The motion that repeats with each ball pass is unstable (Neimark–Sacker): a second "
+        "frequency appears, and every line of the spectrum gets sidebands"
+    ),
+    "+1": (
+        "The motion that repeats with each ball pass is unstable (fold): the machine jumps to "
+        "another orbit, which depends on the state it comes from"
+    ),
+}
+
+
+class SteadyOrbit(View):
+    """Multipliers, path of the inner ring, and spectrum of the periodic steady state."""
+
+    name = "orbit"
+    title = "Steady orbit"
+    about = (
+        "The motion that repeats with every ball pass. It is found by Newton's method, "
+        "not by a long simulation. Its Floquet multipliers: factors by which a pass changes a "
+        "small disturbance; inside the unit circle it dies out. Then the path of the inner "
+        "ring, and the spectrum of the housing, blue along x, orange along y. Grey: the motion "
+        "integrated in time from rest."
+    )
+    needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
+
+    def build(self, packed: PackedSource) -> Any:
+        self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
+        self.status = StatusLine()
+        self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
+        # a row that wraps: Panel's own asks for the width of all its parts together
+        plots = stack(
+            self._multipliers(packed),
+            self._path(packed),
+            self._spectrum(packed),
+            stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
+        )
+        return [self.status, plots]
+
+    def _multipliers(self, packed: PackedSource) -> figure:
+        plot = _square(
+            style.AxisQuantity("Multipliers, real part", "", ""),
+            style.AxisQuantity("Imaginary part", "", ""),
+            packed.range("orbit_multipliers", -1.2, 1.2),
+            packed.range("orbit_multipliers_up", -1.2, 1.2),
+        )
+        turn = np.linspace(0.0, 2.0 * math.pi, 121)
+        circle = ColumnDataSource({"x": np.cos(turn), "y": np.sin(turn)})
+        filled("", "#E6F3EE", line_color="#00704F", line_width=1.5).add(plot, circle)
+        draw(plot, packed, MULTIPLIERS)
+        return plot
+
+    def _path(self, packed: PackedSource) -> figure:
+        plot = _square(
+            style.AxisQuantity("Inner ring along x", "", "µm"),
+            style.AxisQuantity("Along y", "", "µm"),
+            packed.range("orbit_x", -1.0, 1.0),
+            packed.range("orbit_y", -1.0, 1.0),
+        )
+        draw(plot, packed, PATHS)
+        return plot
+
+    def _spectrum(self, packed: PackedSource) -> figure:
+        plot = style.make_figure(
+            FREQUENCY,
+            density_axis("S"),
+            Range1d(0.0, HIGHEST, syncable=False),
+            packed.range("orbit_level", -80.0, -20.0),
+            height=HEIGHT + 40,
+            sizing_mode="stretch_width",
+        )
+        # right of the squares where there is room, else as wide as the card
+        plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
+        draw(plot, packed, SPECTRA)
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        orbit = results.orbit
+        multipliers = orbit.multipliers if orbit is not None else np.zeros(0, complex)
+        reach = np.abs(np.concatenate([multipliers.real, multipliers.imag, [1.2]])).max()
+        round_about = self._multiplier_range.fit(-1.05 * reach, 1.05 * reach)
+        outside = np.abs(multipliers) >= 1.0
+        path, marched = orbit_path(results), marched_path(results)
+        paths = compared_curves.sources(
+            "orbit_path",
+            SHOWN,
+            results.compared_results,
+            orbit_path,
+        )
+        levels = compared_curves.sources(
+            "orbit_levels",
+            ("frequency", *SHOWN),
+            results.compared_results,
+            lambda other: drawn_levels(other.orbit_spectra, HIGHEST),
+        )
+        x_range, y_range = (
+            fit.fit(path[dof], np.append(marched[dof], compared_curves.numbers(paths, dof)))
+            for fit, dof in zip(self._displacement, SHOWN, strict=True)
+        )
+        found = drawn_levels(results.orbit_spectra, HIGHEST)
+        late = drawn_levels(results.late_spectra, HIGHEST)
+        return {
+            **paths,
+            **levels,
+            "orbit_inside": _points(multipliers[~outside]),
+            "orbit_outside": _points(multipliers[outside]),
+            "orbit_path": path,
+            "orbit_marched": marched,
+            "orbit_levels": found,
+            "orbit_marched_levels": late,
+        }, {
+            "orbit_multipliers": round_about,
+            "orbit_multipliers_up": round_about,
+            "orbit_x": x_range,
+            "orbit_y": y_range,
+            "orbit_level": self._levels.fit(*seen_levels(3.0, found, late, *levels.values())),
+        }
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        none = {"mood": "bad", "words": "No orbit", "details": []}
+        self.status.put(line=none if results is None else orbit_status(results))
+
+    def sentence(self, results: Results) -> str:
+        words = self._orbit_words(results)
+        if results.scene.balls == MASSLESS:
+            return words
+        return f"{words} Orbits are computed with massless balls; grey includes their mass."
+
+    def _orbit_words(self, results: Results) -> str:
+        orbit = results.orbit
+        if orbit is None:
+            return (
+                f"With {_turning_part(results)} the motion repeats only after "
+                f"{results.ball_passes} ball passes, too many to search. Grey: the motion "
+                "integrated in time."
+            )
+        if orbit.status is OrbitStatus.NO_PERIOD and not results.scene.bearing.has_one_cage_speed:
+            return (
+                "The cages of the rows turn at different speeds and have no common period: no "
+                "motion repeats itself. Grey: the motion integrated in time."
+            )
+        if orbit.status is OrbitStatus.NO_PERIOD:
+            return (
+                f"With {_turning_part(results)} no motion repeats itself: shaft and cage have no "
+                "common period. Grey: the motion integrated in time."
+            )
+        if orbit.status is OrbitStatus.NO_START:
+            return (
+                f"There is no static state to start from, so no orbit was searched: {orbit.cost}."
+            )
+        if orbit.status is OrbitStatus.TOO_MANY_STEPS:
+            return f"The search would take too long: {orbit.cost}."
+        if orbit.status is OrbitStatus.NOT_CONVERGED and results.moving:
+            return (
+                "A short search found no motion that repeats with every ball pass; it continues "
+                "when the slider rests. Grey: the motion integrated in time."
+            )
+        if orbit.status is OrbitStatus.NOT_CONVERGED:
+            return (
+                "Newton's method found no motion that repeats with every ball pass. Grey: the "
+                "motion integrated in time."
+            )
+        size = style.number(orbit.largest_multiplier, 3)
+        if orbit.status is OrbitStatus.UNSTABLE:
+            return f"{_LOST_LONG[orbit.through]}; disturbances grow {size} times per pass."
+        percent = style.number(100.0 * orbit.largest_multiplier, 3)
+        text = f"Periodic with each ball pass; disturbances shrink to {percent} % per pass"
+        gap = level_gap(results)
+        if gap > FAR_APART:
+            text += (
+                ". The motion integrated in time, in grey, has not reached it: the spectra are up "
+                f"to {style.number(gap, 2)} dB apart"
+            )
+        elif math.isfinite(gap):
+            text += (
+                f". Its spectrum is within {style.number(gap, 2)} dB of that of the motion "
+                "integrated in time"
+            )
+        return text + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        orbit, path = results.orbit, orbit_path(results)
+        table = {} if orbit is None else orbit.table().named()
+        table |= table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
+        for name, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
+            for dof in SHOWN:
+                if dof in spectra:
+                    frequency, density = spectra[dof].table([dof]).named().items()
+                    if len(frequency[1]) > len(table.get(frequency[0], ())):
+                        table[frequency[0]] = frequency[1]  # each is known so far
+                    table[f"{name}_{density[0]}"] = density[1]
+        return table
+
+
+def orbit_status(results: Results) -> dict[str, Any]:
+    """The orbit's status in words and colour, with the effort of the search."""
+    orbit, (mood, words) = results.orbit, of_orbit(results)
+    if orbit is None or not orbit.multipliers.size:
+        return {"mood": mood, "words": words, "details": []}
+    passes = count(orbit.ball_passes, "ball pass", "ball passes")
+    return {
+        "mood": mood,
+        "words": words,
+        "details": [
+            f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
+            f"period {style.with_prefix(orbit.period, 's')}: {passes}",
+            count(orbit.iterations, "Newton step"),
+            f"closure error {scientific(orbit.residual)}",
+        ],
+    }
+
+
+def orbit_path(results: Results) -> dict[str, NDArray[np.float64]]:
+    """Path of the inner ring [µm] over the period, closed; empty where there is none."""
+    orbit = results.orbit
+    if orbit is None or not orbit.multipliers.size:
+        return {dof: np.zeros(0) for dof in SHOWN}
+    time = np.linspace(0.0, orbit.period, ORBIT_POINTS)
+    return _along(orbit.dofs, orbit.inner_displacement(time))
+
+
+def marched_path(results: Results) -> dict[str, NDArray[np.float64]]:
+    """The last ball passes of the marched motion [µm]."""
+    motion, scene = results.motion, results.scene
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    wanted = MARCHED_PASSES / passing if passing > 0.0 else math.inf
+    count = int(min(0.5 * motion.time.size, wanted * motion.sample_rate))
+    path = motion.inner_displacement[-max(count, 2) :]
+    return _along(motion.dofs, path[:: max(1, len(path) // MARCHED_POINTS)])
+
+
+def _along(dofs: tuple[str, ...], path: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Columns [µm] of the directions shown; one that cannot move stays at zero."""
+    return {
+        dof: 1e6 * path[:, dofs.index(dof)] if dof in dofs else np.zeros(len(path)) for dof in SHOWN
+    }
+
+
+def level_gap(results: Results) -> float:
+    """Greatest difference [dB] of the two spectra where they are loud; NaN without both.
+
+    Loud: less than 40 dB below the loudest line.
+    """
+    gaps = []
+    for dof in SHOWN:
+        if dof in results.orbit_spectra and dof in results.late_spectra:
+            both = results.orbit_spectra[dof], results.late_spectra[dof]
+            known = min(len(one.frequency) for one in both)
+            frequency = both[0].frequency[:known]
+            found, marched = (one.density[:known] for one in both)
+            in_view = (frequency >= 100.0) & (frequency <= HIGHEST)
+            heard = in_view & (marched > 1e-4 * marched[in_view].max(initial=0.0))
+            gaps.append(np.abs(decibels(found[heard]) - decibels(marched[heard])).max(initial=0.0))
+    return float(max(gaps)) if gaps else math.nan
+
+
+def _points(numbers: NDArray[np.complex128]) -> dict[str, np.ndarray]:
+    return {"x": numbers.real, "y": numbers.imag}
+
+
+def _square(
+    x: style.AxisQuantity, y: style.AxisQuantity, x_range: Range1d, y_range: Range1d
+) -> figure:
+    sizes: dict[str, Any] = {"height": HEIGHT + 40, "width": HEIGHT + 70, "min_width": HEIGHT + 70}
+    plot = style.make_figure(x, y, x_range, y_range, sizing_mode="fixed", **sizes)
+    plot.min_border_right = 8
+    return plot
+
+
+def _turning_part(results: Results) -> str:
+    """The cause why a motion repeats later than with every ball pass, or never."""
+    if results.over_shaft:
+        return "a defect on the inner race, which turns with the shaft,"
+    if results.scene.unbalance > 0.0:
+        return "an unbalance, which turns with the shaft,"
+    return "rows of unlike balls"

@@ -1,0 +1,29 @@
+"""The bearing with the loads of its balls, small."""
+
+from __future__ import annotations
+
+from bokeh.models import LinearColorMapper, Range1d
+from bokeh.plotting import figure
+
+from bearing_explorer.explorer.views.bearing import BearingDrawing
+from bearing_explorer.kit.plots import style
+
+
+class OverviewBearing(BearingDrawing):
+    """The drawing of the bearing, without its scale of colours."""
+
+    name = "overview-bearing"
+    prefix = "overview_bearing"
+    title = "Load of the balls"
+    compact = short = True
+    sentence_looks = ("unseen",)
+    leads_to = "load"
+    in_report = False
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        plot = style.bare_figure(x, y, height=200, min_width=240)
+        plot.min_border_top = 8  # for the words about the load
+        return plot
+
+    def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
+        """The bars say it; a scale would take a tenth of the height."""

@@ -1,0 +1,76 @@
+"""Effect of the last change along the chain, in one sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import panel as pn
+
+from bearing_explorer.explorer.state.difference import difference
+from bearing_explorer.explorer.views.overview.words import story
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+    from bearingcore import Scene
+
+_NOTHING = (
+    "There is no defect, and nothing has been changed yet: move a slider to see its effect here, "
+    "from the loads to the vibration."
+)
+
+
+class LastChange(View):
+    """The sentence; its numbers, before and now, are the table."""
+
+    name = "last-change"
+    title = "Effect of your last change"
+    about = (
+        "Computed for each change, against the scene before it. Means are over all cage angles. "
+        "Outwards: to balls further from the line of the radial load. Small changes are not "
+        "named: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
+        "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
+        "is compared with the bearing without its defect."
+    )
+    needs = frozenset({"chain", "before", "late_spectra", "reference"})
+    compact = True
+    sentence_looks = ("large",)
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        return pn.Spacer(height=0, margin=0)
+
+    def sentence(self, results: Results) -> str:
+        before = results.before
+        if before is not None:
+            cause = difference(results.scene, before.scene, results.focus)
+        elif results.scene.defects:
+            cause = "With the defect"
+        else:
+            return _NOTHING
+        why = "" if before is None else why_not(results.scene, before.scene)
+        return story(cause, results.chain, results.chain_of(before or results.grey), why)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        now = results.chain.table().in_units().named()
+        before = results.chain_of(results.before or results.grey).table().in_units().named()
+        return {
+            "number": np.array(list(now)),
+            "before": np.array([_only(before.get(name)) for name in now]),
+            "now": np.array([_only(column) for column in now.values()]),
+        }
+
+
+def why_not(now: Scene, before: Scene) -> str:
+    """Reason why a change may leave all loads as they are; empty where it is not known."""
+    if len(now.defects) != 1 or len(before.defects) != 1:
+        return ""
+    if now.defects[0].floor is None and now == before.replace(depth=now.defects[0].depth):
+        return "no ball is pressed against the floor of the defect at either depth"
+    return ""
+
+
+def _only(column: np.ndarray | None) -> float:
+    return float(column[0]) if column is not None and column.size else np.nan

@@ -1,0 +1,216 @@
+"""The spectrum of the housing with the bands of the natural frequencies in it, small."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra, loudest_words
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.frequency_bands import (
+    BAND_NAME,
+    BAND_SPAN,
+    band_rows,
+    highest,
+    spread,
+)
+from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
+from bearing_explorer.kit.plots.levels import (
+    FREQUENCY,
+    HIGHEST,
+    SHOWN,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearingcore.sweep.outputs import mode_symbol
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
+
+LEFT = 68
+"""[px] left of the frame: the widest numbers fit, so that no drag moves it."""
+TOP_ROOM = 16.0
+"""[dB] above the loudest line, for the names of the bands."""
+NAME_ROOM = 0.06
+"""Of the height of the frame: what the name of a curve needs."""
+NAME_WIDTH = 0.16
+"""Of the width of the frame."""
+BAND_NAME_WIDTH = 0.05
+"""Of the width of the frame: what the short name of a band needs."""
+END = 0.8
+"""Of the frequencies: beyond, a curve makes room for its name."""
+
+_BAND_WORDS = f"""
+const name = (() => {{ {BAND_NAME} return name }})()
+const whole = (() => {{ {BAND_SPAN} }})()
+let pixels = 0  // of a hertz
+try {{ pixels = plot.inner_width/(plot.x_range.end - plot.x_range.start) }} catch {{}}
+const room = row.room*pixels/(6.5*larger)
+return whole.length < room ? whole : name.length < room ? name : ''
+"""
+_CURVE_WORDS = "return ['horizontal', 'vertical', 'without defect'][row.which]"
+_OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK)
+
+
+def layers() -> list[Layer]:
+    """From the lowest to the highest: bands, grey, curves, names."""
+    blue, orange = style.DIRECTION_COLORS[:2]
+    of_band = by_number("direction", style.DIRECTION_COLORS)
+    of_curve = by_number("which", _OF_CURVES)
+    return [
+        strips("overview_bands", of_band, 0.13, reads=("direction",)),
+        *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
+        *compared_curves.curves("overview_spectrum", "frequency", *SHOWN, width=1.2),
+        curve("overview_lines", "frequency", "x", blue),
+        curve("overview_lines", "frequency", "y", orange),
+        Words(
+            "overview_bands",
+            "name_at",
+            1.0,
+            _BAND_WORDS,
+            ("direction", "number", "low", "high", "room", "line"),
+            y_share=True,
+            fitting=style.NARROW,
+            look={"text_color": of_band, "y_offset": style.text_offset("line")},
+        ),
+        Words(
+            "overview_names",
+            "x",
+            "y",
+            _CURVE_WORDS,
+            ("which",),
+            look={"text_color": of_curve, "text_align": "right", **ON_PAPER},
+        ),
+    ]
+
+
+class OverviewSpectrum(View):
+    """Along x and y in one figure, with the bands in which the natural frequencies move."""
+
+    name = "overview-spectrum"
+    title = "Vibration and natural frequencies"
+    about = (
+        "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
+        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
+        "of the natural frequencies."
+    )
+    needs = VibrationSpectra.needs | {"bands"}
+    compact = True
+    sentence_looks = ("unseen",)
+    leads_to = "vibration"
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        plot = style.make_figure(
+            FREQUENCY,
+            density_axis(""),
+            packed.range("overview_frequency", 0.0, HIGHEST),
+            packed.range("overview_level", -80.0, -20.0),
+            height=120,
+        )
+        plot.min_border_left = LEFT
+        draw(plot, packed, layers())
+        return plot
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
+        drawn = drawn_levels(results.late_spectra, top)
+        healthy = drawn_levels(results.reference.late_spectra, top)
+        compared = levels_of_compared("overview_spectrum", results, top)
+        shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
+        names = end_names(drawn, shown, top)
+        if results.reference_label:
+            names += grey_name(healthy, drawn, shown)
+        x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
+        return {
+            **compared,
+            "overview_lines": drawn,
+            "overview_healthy_lines": healthy,
+            "overview_bands": named_bands(results, top),
+            "overview_names": {"x": x, "y": y, "which": which},
+        }, {"overview_frequency": (0.0, top), "overview_level": shown}
+
+    def sentence(self, results: Results) -> str:
+        moving = [
+            f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
+            for label, (low, high) in results.bands.items()
+            if low == low
+        ]
+        words = style.list_words(moving)
+        bands = f" The natural frequencies move within: {words}." if words else ""
+        return loudest_words(results) + bands
+
+    table = VibrationSpectra.table
+
+
+def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
+    """Bands by their frequency, in two lines of names, with the room [Hz] up to the next name."""
+    bands = band_rows(results.bands)
+    order = np.argsort(bands["low"], kind="stable")
+    named = {name: column[order] for name, column in bands.items()}
+    line = np.arange(order.size) % 2
+    name_at, room = np.empty(order.size), np.empty(order.size)
+    for own in (line == 0, line == 1):
+        half = 0.5 * BAND_NAME_WIDTH * top
+        name_at[own] = spread(named["low"][own] + half, 2.0 * half, 0.0, top) - half
+        room[own] = np.diff(name_at[own], append=top)
+    return {**named, "name_at": name_at, "room": room, "line": 8.0 + 17.0 * line}
+
+
+def end_names(
+    drawn: dict[str, NDArray[np.float64]], shown: tuple[float, float], top: float
+) -> list[tuple[float, float, int]]:
+    """Names of the curves at their right ends: above the upper one, below the lower one."""
+    at_end = drawn["frequency"] > END * top
+    ends = {
+        dof: drawn[dof][at_end]
+        for dof in SHOWN
+        if at_end.any() and np.isfinite(drawn[dof][at_end]).all()
+    }
+    room = NAME_ROOM * (shown[1] - shown[0])
+    upper = max(ends, key=lambda dof: float(ends[dof].mean()), default="")
+    places = {
+        dof: float(end.max()) + room if dof == upper else float(end.min()) - room
+        for dof, end in ends.items()
+    }
+    return [
+        (top, min(max(y, shown[0] + room), shown[1] - 4.0 * room), SHOWN.index(dof))
+        for dof, y in places.items()
+    ]
+
+
+def grey_name(
+    healthy: dict[str, NDArray[np.float64]],
+    drawn: dict[str, NDArray[np.float64]],
+    shown: tuple[float, float],
+) -> list[tuple[float, float, int]]:
+    """Name of the grey curves, over one of their peaks, as far from all curves as it can be.
+
+    None where they are out of view.
+    """
+    if not healthy["frequency"].size or not drawn["frequency"].size:
+        return []
+    room = NAME_ROOM * (shown[1] - shown[0])
+    level = np.fmax(healthy["x"], healthy["y"])
+    wide = int(NAME_WIDTH * level.size)
+    free = []
+    for i in range(wide, int(END * level.size)):  # beyond are the names of the others
+        y = level[i] + room
+        under = slice(i - wide, i + 1)
+        others = [level[under], *(drawn[dof][under] for dof in SHOWN)]
+        apart = min(float(np.nanmin(np.abs(other - y), initial=np.inf)) for other in others)
+        if shown[0] < level[i] < shown[1] - 4.0 * room:
+            free.append((min(apart, room), float(level[i]), i))
+    if not free:
+        return []
+    _, y, i = max(free)
+    return [(float(healthy["frequency"][i]), y + room, 2)]

@@ -1,0 +1,213 @@
+"""The sentence on the effect of the last change along the chain, from the numbers alone."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearing_explorer.explorer.results.chain import Chain, Peak
+from bearing_explorer.kit.plots import style
+from bearingcore.statics.equilibrium import TERM_SYMBOLS
+from bearingcore.sweep.outputs import mode_symbol
+
+LEAST = 0.01
+"""Of a number: less is no change."""
+LEAST_TURN = math.radians(1.0)
+"""[rad] that the loads have to move on average to have moved."""
+LEAST_LOAD = 0.05
+"""Of the greatest load of a ball."""
+LEAST_LEVEL = 2.0
+"""[dB] of the loudest line."""
+ALMOST_NONE = 30.0
+"""[dB] below another level: next to it there is nothing."""
+_SAME = 1e-7  # of a number: rounding
+_SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
+
+
+def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
+    """One sentence: the `cause`, then its effects link after link.
+
+    `why_not` is why the loads stay exactly as they are, should they.
+    """
+    if now.answered == 0.0:
+        gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
+        return f"{cause}: {gone} ({now.reason})."
+    if before.answered == 0.0:
+        return f"{cause}: now there is an equilibrium, which there was not before."
+    along = direction(now, before)
+    said = [load_words(now, before), *stiffness_words(now, before, along)]
+    label = moved_band(now, before, along)
+    if label:
+        said.append(band_words(label, now.bands[label], before.bands[label]))
+    peaks = (along, *(dof for dof in now.peaks if dof != along))
+    said.append(next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), ""))
+    said = [words for words in said if words]
+    text = f"{cause}: {style.list_words(said) or unchanged(now, before, why_not)}"
+    if now.answered < 1.0:
+        text += (
+            f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
+            f"no equilibrium ({now.reason})"
+        )
+    if now.silent:
+        text += f"; there is no spectrum: {now.silent}"
+    return f"{text}."
+
+
+def direction(now: Chain, before: Chain) -> str:
+    """The direction that the chain is followed along: where the housing is loudest.
+
+    Where nothing changes along it, the one whose stiffness changes most; where none does, one with
+    a band that moves.
+    """
+    loudest = now.loudest
+    if loudest and (
+        abs(_change(now, before, f"k_{loudest}{loudest}")) >= LEAST
+        or moved_band(now, before, loudest)
+    ):
+        return loudest
+    terms = [term for term in now.stiffness if abs(_change(now, before, term)) >= LEAST]
+    most = max(terms, key=lambda term: abs(_change(now, before, term)), default="")
+    if most:
+        return most[2 : 2 + (len(most) - 2) // 2]
+    others = dict.fromkeys(label[:-1] for label in now.bands)
+    return next((dof for dof in others if moved_band(now, before, dof)), loudest)
+
+
+def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
+    """That nothing changes, or nothing by as much as is named."""
+    numbers = [np.concatenate(list(of.table().in_units().named().values())) for of in (now, before)]
+    alike = numbers[0].size == numbers[1].size and np.allclose(
+        numbers[0], numbers[1], rtol=_SAME, atol=_SAME, equal_nan=True
+    )
+    if now.silent:
+        return "at rest hardly anything changes"
+    if not alike:
+        return "hardly anything changes"
+    return "nothing changes" + (f", as {why_not}" if why_not else "")
+
+
+def load_words(now: Chain, before: Chain) -> str:
+    """Shift of the load, or change of the load of the most loaded ball."""
+    around = math.degrees(now.direction - before.direction)
+    around = abs((around + 180.0) % 360.0 - 180.0)
+    if around >= math.degrees(LEAST_TURN):
+        return f"the load turns by {style.number(around, 2)}°"
+    turned = now.off_line - before.off_line
+    if turned >= LEAST_TURN:
+        return "load shifts to balls farther from the load line"
+    if turned <= -LEAST_TURN:
+        return "load shifts to balls nearer the load line"
+    grown = _ratio(now.greatest_load, before.greatest_load)
+    if abs(grown) >= LEAST_LOAD:
+        return f"the greatest load of a ball {_by(grown)}"
+    return ""
+
+
+def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
+    """Change of the mean stiffness along a direction, and in another where it is larger."""
+    main = f"k_{along}{along}"
+    own = abs(_change(now, before, main))
+    others = [term for term in now.stiffness if term != main]
+    most = max(others, key=lambda term: abs(_change(now, before, term)), default=main)
+    terms = [main] if own >= LEAST else []
+    if abs(_change(now, before, most)) >= max(_SECOND * own, LEAST) and most != main:
+        terms.append(most)
+    return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
+
+
+def moved_band(now: Chain, before: Chain, along: str) -> str:
+    """The label of a mode of a direction whose band moves, and the loudest line with it.
+
+    Where that goes with none it is the one that moves most; nothing where none does.
+    """
+
+    def moved(label: str) -> float:
+        ends = zip(now.bands[label], before.bands[label], strict=True)
+        return max(abs(_ratio(new, old)) for new, old in ends)
+
+    labels = [
+        label
+        for label in now.bands
+        if label[:-1] == along and label in before.bands and moved(label) >= LEAST
+    ]
+    if along in now.peaks and along in before.peaks:
+        for label in labels:
+            if _goes_along(
+                now.peaks[along], before.peaks[along], now.bands[label], before.bands[label]
+            ):
+                return label
+    return max(labels, key=moved, default="")
+
+
+def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
+    """Move of a band, in words."""
+    low, high = (_ratio(new, old) for new, old in zip(now, before, strict=True))
+    name = f"the {mode_symbol(label)} band"
+    still = 0.5 * LEAST
+    if min(low, high) > -still:
+        verb = "rises"
+    elif max(low, high) < still:
+        verb = "sinks"
+    else:
+        verb = "widens" if low < 0.0 else "narrows"
+    return f"{name} {verb} from {_band(before)} to {_band(now)} Hz"
+
+
+def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
+    """Change of the loudest line, and whether it moves with the band of a mode."""
+    if along not in now.peaks or along not in before.peaks:
+        return ""
+    new, old = now.peaks[along], before.peaks[along]
+    louder = new.level - old.level
+    level = ""
+    if abs(louder) >= ALMOST_NONE:
+        where = "" if along == now.loudest else f" along {along}"
+        at = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
+        verb = "rises from" if louder > 0.0 else "falls to"
+        return f"the spectrum's peak{where} at {at} {verb} almost none"
+    if abs(louder) >= LEAST_LEVEL:
+        level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
+    moved = new.frequency - old.frequency
+    if abs(moved) <= 1.01 * max(new.resolution, old.resolution):
+        where = "" if along == now.loudest else f" along {along}"
+        return f"the spectrum's peak{where} at {new.frequency:.0f} Hz is {level}" if level else ""
+    to = f"from {old.frequency:.0f} to {new.frequency:.0f} Hz"
+    with_it = bool(label) and _goes_along(new, old, now.bands[label], before.bands[label])
+    words = "the spectrum's peak with it" if with_it else f"the spectrum's peak along {along} moves"
+    return f"{words}, {to}" if with_it else f"{words} {to}" + (f", {level}" if level else "")
+
+
+def _goes_along(
+    new: Peak, old: Peak, band: tuple[float, float], former: tuple[float, float]
+) -> bool:
+    """Whether the peak lies in the band both times, and both move the same way."""
+
+    def inside(peak: Peak, band: tuple[float, float]) -> bool:
+        return band[0] - peak.resolution <= peak.frequency <= band[1] + peak.resolution
+
+    same_way = (new.frequency - old.frequency) * (sum(band) - sum(former)) > 0.0
+    return inside(new, band) and inside(old, former) and same_way
+
+
+def _change(now: Chain, before: Chain, term: str) -> float:
+    if term not in now.stiffness or term not in before.stiffness:
+        return 0.0
+    return _ratio(now.stiffness[term], before.stiffness[term])
+
+
+def _ratio(now: float, before: float) -> float:
+    """Relative growth of a number; 0 where it has none."""
+    grown = now / before - 1.0 if before else 0.0
+    return grown if math.isfinite(grown) else 0.0
+
+
+def _by(grown: float) -> str:
+    if grown >= 1.0:
+        return f"rises to {style.number(1.0 + grown, 2)} times"
+    return f"{'rises' if grown > 0.0 else 'falls'} by {style.number(100.0 * abs(grown), 2)} %"
+
+
+def _band(band: tuple[float, float]) -> str:
+    low, high = (f"{end:.0f}" for end in band)
+    return low if low == high else f"{low}–{high}"

@@ -1,0 +1,114 @@
+"""Figures of the paper: printed values against ours, and the live tab that draws each."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.widgets.facts import facts_pane, html_table
+from bearing_explorer.kit.widgets.form import button, row
+from bearingcore import Scene
+
+TAB_TITLES = {
+    "load": "Load",
+    "stiffness": "Stiffness",
+    "maps": "Stiffness, Maps",
+    "modes": "Frequencies",
+    "vibration": "Vibration",
+    "model": "Machine, Rotor and support",
+}
+"""Titles of the tabs that show the figures live."""
+
+
+class PaperFigures(View[Results]):
+    """One figure of the paper at a time; a button for each."""
+
+    name = "paper"
+    title = "Figures of the paper"
+    about = (
+        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The "
+        "scene stays as it is until a figure is opened."
+    )
+    in_report = False
+    computes = True
+
+    def build(self, packed: PackedSource) -> Any:
+        self._figure = FIGURES[0]
+        #: the figure whose numbers are known, and these
+        self._known: tuple[PaperFigure, list[list[str]]] | None = None
+        self._buttons = {
+            one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
+        }
+        self._live = button("Open it", self._open_live, css_classes=["main"])
+        self._numbers = facts_pane(sizing_mode="stretch_width")
+        return [row(*self._buttons.values(), self._live), self._numbers]
+
+    def _show(self, figure: PaperFigure) -> None:
+        """Show the numbers of a figure; the scene of the sliders stays."""
+        self._figure = figure
+        if self.parts is not None:
+            self.parts.draw()
+
+    def _open_live(self) -> None:
+        """The tab of the figure, with its other scenes as compared ones."""
+        figure = self._figure
+        if self.parts is not None:
+            self.parts.open_link(f"Figure {figure.number}", figure.link(figure.tab, True))
+
+    def choices(self) -> dict[str, Any]:
+        return {"figure": self._figure.number}
+
+    def choose(self, choices: Mapping[str, Any], results: Results) -> None:
+        numbers = {figure.number: figure for figure in FIGURES}
+        number = choices.get("figure", FIGURES[0].number)
+        if number not in numbers:
+            raise ValueError(f"figure is {number!r}; it can be {', '.join(map(str, numbers))}")
+        self._figure = numbers[number]
+
+    def scene_drawn(self, results: Results) -> Scene:
+        return self._figure.scenes[-1]
+
+    def rows(self) -> list[list[str]]:
+        """Name, printed and own value of each number of the figure."""
+        figure = self._figure
+        if self._known is None or self._known[0] is not figure:
+            ours = [[one.name, one.paper, one.ours(figure.scenes)] for one in figure.printed]
+            self._known = figure, ours
+        return self._known[1]
+
+    def sentence(self, results: Results) -> str:
+        figure = self._figure
+        self.rows()
+        bearing = "Liew and Lim's bearing" if figure.preset == "liew-lim" else "the fan rig"
+        return (
+            f"Figure {figure.number}, {figure.title.lower()}, is of {bearing}, independent of the "
+            f"sliders; the tab {TAB_TITLES[figure.tab]} draws it."
+        )
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        figure = self._figure
+        rows = ([_symbols(name), html.escape(a), html.escape(b)] for name, a, b in self.rows())
+        slip = f"<p><b>Errors in the paper.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
+        self._numbers.object = html_table(("", "Paper", "Here"), rows, named=True) + slip
+        self._live.label = f"Open it on the tab {TAB_TITLES[figure.tab]}"
+        for number, one in self._buttons.items():
+            one.css_classes = ["main"] if number == figure.number else []
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        names, paper, here = zip(*self.rows(), strict=True)
+        return {"number": np.array(names), "paper": np.array(paper), "here": np.array(here)}
+
+
+def _symbols(words: str) -> str:
+    """Words as HTML, with what is behind "_" below the letter before it."""
+    return re.sub(r"_(\w+)", r"<sub>\1</sub>", html.escape(words))

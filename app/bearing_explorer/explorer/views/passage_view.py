@@ -1,0 +1,172 @@
+"""Views of balls that pass the defect: acceleration above, loads of the balls below."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import (
+    ON_PAPER,
+    Layer,
+    Words,
+    add_all,
+    by_number,
+    sources_of,
+    uprights,
+)
+from bearing_explorer.kit.plots.levels import SHOWN
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.plots.thinned import least_and_greatest
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, View
+from bearingcore import Bearing
+
+SLOTS = len(style.BALL_COLORS)
+PIXELS = 500  # stretches of a line that are kept apart
+LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
+NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12", and of "ball 12 of row 2"
+ROW_HEIGHT = 0.065  # of its height
+EVENT_ROWS = 3
+
+NAMED = ("ball", "row", "roller")  # columns that name a ball
+BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
+"""The name of a ball in a template of JavaScript."""
+
+
+class PassageView(View):
+    """A view of acceleration and of ball loads in time; subclasses fill in the layers."""
+
+    #: of the names of sources and ranges
+    prefix: ClassVar[str]
+
+    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
+        """Quantity, height [px] and layers of the figures of acceleration."""
+        raise NotImplementedError
+
+    def lower_figure(self) -> tuple[int, Sequence[Layer]]:
+        """Height [px] and layers of the figure of loads."""
+        raise NotImplementedError
+
+    def build(self, packed: PackedSource) -> Any:
+        self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
+        self._load = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
+        time = packed.range(f"{self.prefix}_time", 0.0, 0.04)
+        acceleration = packed.range(f"{self.prefix}_acceleration", -5.0, 5.0)
+        load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
+        figures = [(*figure, acceleration) for figure in self.upper_figures()]
+        figures.append((style.BALL_LOAD, *self.lower_figure(), load))
+        sources = sources_of(packed, [layer for _, _, layers, _ in figures for layer in layers])
+        plots = []
+        for number, (quantity, height, layers, shown) in enumerate(figures):
+            name = f"{self.prefix}_drawing_{number}"
+            plot = style.make_figure(style.TIME, quantity, time, shown, height=height, name=name)
+            add_all(plot, sources, layers)
+            plots.append(plot)
+        return plots
+
+    def ranges(
+        self, time: NDArray[np.float64], signals: NDArray[np.float64], loads: ArrayLike
+    ) -> Ranges:
+        """Ranges of the axes, with room above the signals for the labels of the events."""
+        room = 1.0 + 2.2 * ROW_HEIGHT * EVENT_ROWS
+        greatest = np.nanmax(np.abs(signals), initial=0.0)
+        return {
+            f"{self.prefix}_time": (float(time[0]), float(time[-1])),
+            f"{self.prefix}_acceleration": self._acceleration.fit(greatest * room),
+            f"{self.prefix}_load": self._load.fit(1.2 * np.asarray(loads)),
+        }
+
+    def names_of_balls(self) -> Layer:
+        """The names of the balls in their colours."""
+        return Words(
+            f"{self.prefix}_ball_names",
+            "from",
+            "at",
+            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` : `{BALL}`",
+            reads=(*NAMED, "slot"),
+            x_share=True,
+            y_share=True,
+            fitting=style.NARROW,
+            look={"text_color": by_number("slot", style.BALL_COLORS)},
+        )
+
+
+def event_lines(prefix: str) -> Layer:
+    """The upright lines at events, of the source of that prefix."""
+    return uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
+
+
+def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
+    """Their names by some code, which knows the width of the frame."""
+    return Words(
+        f"{prefix}_events",
+        "label_from",
+        "label_at",
+        code,
+        reads=(*NAMED, *reads),
+        y_share=True,
+        fitting=style.NARROW,
+        look={"x_offset": 4, **ON_PAPER},
+    )
+
+
+def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
+    """Columns that name balls, counted from 0 row after row; row 0 is the only one."""
+    row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
+    return {
+        "ball": number + 1.0,
+        "row": row + 1.0 if bearing.rows else np.zeros(balls.size),
+        "roller": np.full(balls.size, float(bearing.kind.line_contact)),
+    }
+
+
+def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarray]:
+    """The names of balls in a row, shares of the figure's width and height."""
+    slots = np.arange(float(balls.size))
+    return {
+        "from": 0.02 + (LONG_NAME_WIDTH if bearing.rows else NAME_WIDTH) * slots,
+        "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
+        **named(bearing, balls),
+        "slot": slots,
+    }
+
+
+def along_both(
+    time: NDArray[np.float64], acceleration: Mapping[str, NDArray[np.float64]]
+) -> dict[str, NDArray[np.float64]]:
+    """Acceleration along x and y over time; NaN where the housing cannot move."""
+    missing = np.full(time.size, np.nan)
+    return {dof: acceleration.get(dof, missing) for dof in SHOWN}
+
+
+def traces(
+    time: NDArray[np.float64], columns: Mapping[str, NDArray[np.float64]]
+) -> dict[str, np.ndarray]:
+    """Columns over time, thinned out to what the pixels of a figure can show."""
+    rows, drawn = least_and_greatest(np.stack(list(columns.values()), axis=1), PIXELS)
+    return {"time": time[rows], **dict(zip(columns, drawn.T, strict=True))}
+
+
+def places_of_labels(
+    times: Sequence[float], start: float, end: float, share: float = LABEL_WIDTH, apart: float = 1.0
+) -> dict[str, np.ndarray]:
+    """Places of labels right of their lines, each in the first row where it has room.
+
+    At the end of the stretch a label moves left as far as it needs. One that has room in no row
+    gets NaN; the first ones are served first. `share` is the width of a label over that of the
+    figure, `apart` the distance of the rows over their height.
+    """
+    width = share * (end - start)
+    lefts = np.array([min(time, end - width) for time in times])
+    rows: list[list[float]] = [[] for _ in range(EVENT_ROWS)]
+    places = np.full(len(times), np.nan)
+    for event, left in enumerate(lefts):
+        free = (r for r in range(EVENT_ROWS) if all(abs(left - x) >= width for x in rows[r]))
+        if (row := next(free, None)) is not None:
+            rows[row].append(left)
+            places[event] = 1.0 - ROW_HEIGHT * (apart * row + 0.8)
+    return {"label_from": lefts, "label_at": places}

@@ -1,0 +1,191 @@
+"""The simulated motion as balls cross the defect, slowly, with the acceleration as sound."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+from bokeh.models import Range1d
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.results.excerpt import Excerpt
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.bearing import (
+    BAR_LENGTH,
+    BAR_START,
+    HALF_WIDTH,
+    NUMBER_RIGHT,
+    NUMBER_UP,
+    BearingDrawing,
+    Shapes,
+    load_words,
+)
+from bearing_explorer.explorer.views.passage_view import along_both, traces
+from bearing_explorer.explorer.views.vibration_time import (
+    ACCELERATION,
+    event_rows,
+    motion_layers,
+)
+from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.element_words import element_name
+from bearing_explorer.kit.plots.layers import draw, uprights
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.widgets.form import stack
+from bearingcore import Bearing
+from bearingcore.common.table import table_of
+from bearingcore.scene.packing import ball_angles
+
+SIDE_BY_SIDE = """
+:host {
+  display: grid;
+  grid-template-columns: repeat(auto-fit, minmax(min(max(400px, 40%), 100%), 1fr));
+}
+"""
+"""Style of two figures that stand below one another where there is little room."""
+
+
+class SlowMotion(LiveComponent):
+    """Play, speed, place and volume. It moves the figures in the browser alone."""
+
+    _esm = scripts("element.js", "slow_motion.js")
+    _stylesheets: ClassVar[list[str]] = [
+        asset_text(f"{name}.css") for name in ("button", "controls", "slow_motion")
+    ]
+
+
+class SlowPassage(BearingDrawing):
+    """The bearing with its moving balls at an instant of the motion, and where that instant is.
+
+    What moves is sent once for the whole stretch; the script `slow_motion.js` shows an instant.
+    """
+
+    name = "slow-passage"
+    title = "A ball crosses the defect, slowly"
+    about = (
+        "Ball loads in motion, and the housing acceleration. Blue: x. Orange: y. Line: the instant "
+        "drawn. Arrow keys step; with the volume up the acceleration is played as sound, at the "
+        "speed of the picture."
+    )
+    needs = frozenset({"excerpt"})
+    prefix = "slow"
+    short = True
+    at_rest = True
+    in_report = False
+
+    def build(self, packed: PackedSource) -> Any:
+        bearing = super().build(packed)
+        self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
+        for name, columns in {
+            "frames": ("time", "turned", "shaft"),
+            "path": ("radius", "load"),
+            "start": ("angle",),
+            "base_rings": ("x", "y", "turns"),
+            "base_defect": ("x", "y", "turns"),
+            "scale": ("bar_start", "bar_length", "number_right", "number_up"),
+            "sound": ("value",),
+        }.items():
+            packed.source(f"slow_{name}", *columns)
+        motion = style.make_figure(
+            style.TIME,
+            ACCELERATION,
+            packed.range("slow_time", 0.0, 0.04),
+            packed.range("slow_acceleration", -5.0, 5.0),
+            height=200,
+            name="slow_drawing",
+        )
+        cursor = uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0)
+        draw(motion, packed, [*motion_layers("slow"), cursor])
+        figures = stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])
+        return self.only_with_numbers(SlowMotion(), figures)
+
+    def _figure(self, x: Range1d, y: Range1d) -> figure:
+        return style.bare_figure(x, y, height=340)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        shown, scene = results.excerpt, results.scene
+        row = row_shown(shown, scene.bearing)
+        own = scene.bearing.balls_of_rows[row]
+        top_range = self._load_range.fit(shown.moving_load)
+        at = int(np.argmin(np.abs(shown.static_time)))
+        cage = shown.static_cage_angle
+        drawn = Shapes(scene, float(cage[at]), row)
+        load = shown.moving_load[:, own]
+        drop = {race: drops[:, own] for race, drops in shown.drop.items()}
+        shapes = drawn.all(load[at], {race: one[at] for race, one in drop.items()}, top_range[1])
+        turned = ball_angles(scene.bearing, cage)[:, own]
+        frames = {
+            "time": shown.static_time,
+            "turned": turned[:, 0] - turned[at, 0],
+            "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
+        }
+        loudest = max(shown.acceleration.values(), key=_peak, default=np.zeros(2))
+        signals = along_both(shown.time, shown.acceleration)
+        start, end = float(shown.time[0]), float(shown.time[-1])
+        sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
+            "slow_load_words": load_words(scene.load, drawn.depth_scale),
+            "slow_frames": frames,
+            "slow_path": {"radius": drawn.ball_radii(drop).ravel(), "load": load.ravel()},
+            "slow_start": {"angle": turned[at]},
+            "slow_base_rings": _turning(shapes["rings"], [0.0, 0.0, 1.0, 1.0]),
+            "slow_base_defect": _turning(
+                shapes["defect"], [float(span.race == "inner") for span in drawn.spans]
+            ),
+            "slow_scale": {
+                "bar_start": np.array([drawn.rim + BAR_START]),
+                "bar_length": np.array([BAR_LENGTH / top_range[1]]),
+                "number_right": np.array([NUMBER_RIGHT]),
+                "number_up": np.array([NUMBER_UP]),
+            },
+            "slow_sound": {"value": loudest},
+            "slow_motion": traces(shown.time, signals),
+            "slow_events": event_rows(shown.events, start, end, scene.bearing, 1.5),
+            "slow_cursor": {"now": shown.static_time[[at]]},
+        }
+        peak = 1.4 * max(map(_peak, signals.values()))
+        return sources, {
+            "slow_load": top_range,
+            "slow_width": (-HALF_WIDTH, HALF_WIDTH),
+            "slow_time": (start, end),
+            "slow_acceleration": self._acceleration.fit(peak),
+        }
+
+    def sentence(self, results: Results) -> str:
+        shown, bearing = results.excerpt, results.scene.bearing
+        if shown.broke_off:
+            return f"{shown.broke_off[0].upper()}{shown.broke_off[1:]}."
+        loads = np.nan_to_num(shown.moving_load)
+        at, ball = np.unravel_index(np.argmax(loads), loads.shape)
+        length = float(shown.time[-1] - shown.time[0])
+        return (
+            f"{style.with_prefix(length, 's')} of motion; {element_name(bearing, int(ball))} "
+            f"carries the most, {style.with_prefix(loads[at, ball], 'N')} at "
+            f"{style.with_prefix(float(shown.static_time[at]), 's')}."
+        )
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        shown = results.excerpt
+        loads = [(f"ball_{k + 1}_load", "N", own) for k, own in enumerate(shown.moving_load.T)]
+        time = ("time", "s", shown.static_time)
+        cage = ("cage_angle", "rad", shown.static_cage_angle)
+        return table_of(time, cage, *loads).in_units().named()
+
+
+def row_shown(shown: Excerpt, bearing: Bearing) -> int:
+    """The row whose ball enters the defect at 0, or the first."""
+    entry = next((event for event in shown.events if event.enters), None)
+    return bearing.row_of_ball(entry.ball)[0] if entry else 0
+
+
+def _peak(signal: NDArray[np.float64]) -> float:
+    return float(np.nanmax(np.abs(signal), initial=0.0))
+
+
+def _turning(shape: dict[str, np.ndarray], turns: list[float]) -> dict[str, np.ndarray]:
+    """A shape of polygons with NaN between; `turns` is 1 of those that turn with the shaft."""
+    part = np.cumsum(np.isnan(shape["x"]))
+    return {**shape, "turns": np.array([*turns, 0.0])[part]}

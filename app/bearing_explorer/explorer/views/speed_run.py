@@ -1,0 +1,327 @@
+"""Spectra of the housing over shaft speed, with the expected lines (Campbell diagram)."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import panel as pn
+from bokeh.models import GlyphRenderer, HSpan, Scatter
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.state.value_range import (
+    SWEEPABLE,
+    Sweep,
+    focused,
+    sweep,
+    usual_range,
+    value_of,
+)
+from bearing_explorer.explorer.views.swept_view import Swept, SweptView, compute_in_levels
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
+from bearing_explorer.kit.plots.heat_map import GridImage, Side, bright_image, ends
+from bearing_explorer.kit.plots.layers import (
+    Glyph,
+    Layer,
+    Words,
+    add_all,
+    curve,
+    sources_of,
+    strips,
+    switch,
+    toggle,
+)
+from bearing_explorer.kit.plots.levels import FREQUENCY, HIGHEST, SHOWN, decibels
+from bearing_explorer.kit.plots.ranges import nice_range
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.widgets.form import FieldSpec
+from bearingcore import Scene
+from bearingcore.common.progress import Progress
+from bearingcore.dynamics.speed_run import SpeedRun, speed_run
+
+SPEED = "shaft_speed_hz"
+COUNTS = (25, 49, 97, 193)
+"""Numbers of speeds to choose from."""
+FIRST_COUNT = 25
+"""Speeds of the first picture."""
+RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
+DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
+HARMONICS = 8
+HEIGHT = 520
+
+_SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
+_SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
+_HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
+_HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
+_ON_PICTURE = {
+    "text_align": "center",
+    "text_color": style.LIGHT,
+    "background_fill_color": style.SHADE,
+    "background_fill_alpha": 0.6,
+}
+"""Look of words that lie on the picture."""
+
+
+def expected(dof: str) -> list[Layer]:
+    """The bands of the natural frequencies and the harmonics of the ball-pass frequency."""
+    bands, names = f"speed_run_bands_{dof}", "speed_run_harmonic_names"
+    edge: dict[str, Any] = {"line_color": style.LIGHT, "line_alpha": 0.9, "line_width": 1.0}
+    below = {"text_baseline": "top", "y_offset": 36, "padding": 1}
+    return [
+        strips(bands, style.LIGHT, 0.13, **edge),
+        Words(
+            bands,
+            "label_at",
+            1.0,
+            SHORT_BAND_WORDS,
+            reads=("direction", "number"),
+            y_share=True,
+            fitting=style.NARROW,
+            look={**_ON_PICTURE, "padding": 2, "y_offset": 16},
+        ),
+        curve("speed_run_harmonics", "frequency", "speed", style.LIGHT, 1.0, (5, 4), 0.75),
+        Words(
+            names,
+            "frequency",
+            "speed",
+            _HARMONIC_WORDS,
+            reads=("number", "inner"),
+            fitting=style.NARROW,
+            look={**_ON_PICTURE, **below},
+        ),
+    ]
+
+
+_TRIANGLE = {"marker": "triangle", "angle": -0.5 * math.pi, "size": 7, "level": "annotation"}
+SCENE: list[Layer] = [
+    Glyph(
+        Scatter,
+        "speed_run_marched",
+        ("frequency", "speed"),
+        {"fill_color": style.DEFECT, "line_color": None, **_TRIANGLE},
+    ),
+    *(
+        Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
+        for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6))
+    ),
+]
+"""Speeds whose motion was integrated in time, and the speed of this scene."""
+ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
+
+
+class SpeedRunSpectra(SweptView):
+    """Power spectral density of the housing's acceleration over frequency and shaft speed."""
+
+    name = "speed-run"
+    title = "Spectrum over shaft speed"
+    about = (
+        "Spectrum of the vibration at each shaft speed. It is that of the steady vibration. "
+        "Vertical: the bands of the natural frequencies, which speed does not move. Slanted: the "
+        "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
+        "Horizontal line: current speed. Click to go to a speed."
+    )
+    nothing_yet = "There is no run yet."
+    start = "Run up"
+    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
+
+    _begun = False
+
+    def build(self, packed: PackedSource) -> Any:
+        frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
+        speed = packed.range("speed_run_speed", 0.0, 60.0)
+        self._images: dict[str, GridImage] = {}
+        sources = sources_of(packed, ALL_LAYERS)
+        sides = list(_SIDES.values())
+        plots: list[figure] = []
+        marks: list[GlyphRenderer] = []
+        for dof in SHOWN:
+            plot = style.make_figure(
+                FREQUENCY,
+                _SIDES[SPEED].quantity,
+                frequency,
+                speed,
+                height=HEIGHT,
+                name=f"speed_run_drawing_{dof}",
+            )
+            plot.stylesheets = [":host { cursor: crosshair; }"]
+            plot.syncable = False  # which of them is seen is the browser's business
+            shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
+            name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
+            self._images[dof] = bright_image(plot, packed, name, shown, sides, _SAY, title)
+            marks += add_all(plot, sources, expected(dof))
+            add_all(plot, sources, SCENE)
+            plots.append(plot)
+        along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
+        box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
+        choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
+        return [self.job, self.only_with_numbers(choices, *plots)]
+
+    # The job
+
+    def fields(self) -> list[FieldSpec]:
+        return [
+            {"name": "from", "label": "Shaft speed from (Hz)"},
+            {"name": "to", "label": "to (Hz)"},
+            {"name": "count", "label": "Speeds", "options": [[str(n), str(n)] for n in COUNTS]},
+        ]
+
+    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
+        low, high = usual_range(SPEED, editor.limits)
+        return {"from": f"{low:g}", "to": f"{high:g}", "count": "97"}, {}
+
+    def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
+        if given["count"] not in map(str, COUNTS):
+            counts = ", ".join(map(str, COUNTS[:-1]))
+            raise ValueError(f"A run has {counts} or at most {COUNTS[-1]} speeds.")
+        speeds = sweep(SPEED, given["from"], given["to"], int(given["count"]), editor.limits)
+        scene = focused(editor.scene, editor.selected)
+        return lambda job: compute(job, scene, speeds)
+
+    # The picture
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        if (found := self.found) is None:
+            return {}, {}
+        run, (speeds,) = found.result, found.sweeps
+        alpha = self.opacity(results, found)
+        seen = run.frequency <= top_frequency(run)
+        frequency = run.frequency[seen]
+        top = float(frequency[-1])
+        level_ranges = {}
+        sources: Sources = {}
+        for dof in SHOWN:
+            level = levels_of(run, dof)[:, seen]
+            level_ranges[f"speed_run_level_{dof}"] = level_range(level, frequency)
+            sources[f"speed_run_cells_{dof}"] = self._images[dof].columns(
+                (_SIDES["frequency"], frequency), (_SIDES[SPEED], speeds.values), [level], alpha
+            )
+            sources[f"speed_run_bands_{dof}"] = bands_along(run.bands, dof, top)
+        limits = ends(speeds.values)
+        sources |= harmonics(run, speeds, top)
+        not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).any(axis=(1, 2))]
+        sources["speed_run_now"] = {"speed": np.array([value_of(results.scene, speeds.field)])}
+        sources["speed_run_marched"] = {
+            "frequency": np.full(not_proven.size, 0.006 * top),
+            "speed": not_proven,
+        }
+        return sources, {
+            "speed_run_frequency": (0.0, top),
+            "speed_run_speed": limits,
+            **level_ranges,
+        }
+
+    def words_of(self, results: Results, found: Swept) -> str:
+        run, (speeds,) = found.result, found.sweeps
+        words = []
+        for dof in SHOWN:
+            level = levels_of(run, dof)
+            level[:, run.frequency < 100.0] = np.nan
+            if np.isfinite(level).any():
+                i, k = np.unravel_index(np.nanargmax(level), level.shape)
+                words.append(
+                    f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
+                    f"{style.number(speeds.values[i])} Hz"
+                )
+        text = f"Loudest {style.list_words(words)}." if words else "Nothing moves."
+        marched = int(np.sum(~run.from_orbit))
+        if marched:
+            text += (
+                f" At {marched} of {run.shaft_speed.size} speeds (triangles) no stable orbit was "
+                "found; their motion was integrated in time."
+            )
+        return text
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is None or results.moving or self._begun or self._jobs is None:
+            return
+        if self.found is None and not self._jobs.busy:
+            self._begin_coarse()
+
+    def _begin_coarse(self) -> None:
+        """Compute a first picture at once."""
+        self._begun = True
+        with contextlib.suppress(ValueError):  # the button says why
+            self.begin({**self.job.values, "count": str(FIRST_COUNT)})
+
+    def columns(self, found: Swept) -> dict[str, np.ndarray]:
+        run = found.result
+        orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
+        return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
+
+
+def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
+    """A coarse run and then the full one. Runs in a job's thread."""
+    n = speeds.values.size
+    levels = [(speeds,)]
+    if n > FIRST_COUNT:
+        levels.insert(0, (speeds.every((n - 1) // (FIRST_COUNT - 1)),))
+
+    def one_level(level: tuple[Sweep, ...], progress: Progress) -> SpeedRun:
+        return speed_run(
+            scene,
+            level[0].in_si[1],
+            resolution=RESOLUTION,
+            progress=progress,
+            cancelled=job.cancelled,
+        )
+
+    return compute_in_levels(job, levels, one_level, "speeds")
+
+
+def top_frequency(run: SpeedRun) -> float:
+    """Highest frequency that is drawn [Hz]: more than usual where a band lies higher."""
+    return max(HIGHEST, 1.05 * highest(run.bands))
+
+
+def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:
+    """(n, m) levels [dB] of a direction; NaN where it cannot move or was not computed."""
+    if dof not in run.dofs:
+        return np.full(run.density.shape[:2], np.nan)
+    return np.asarray(decibels(run.density[:, :, run.dofs.index(dof)]))
+
+
+def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> tuple[float, float]:
+    """Ends of the colour scale [dB], after the levels above 100 Hz."""
+    heard = level[:, frequency >= 100.0]
+    if not np.isfinite(heard).any():
+        return -80.0, -20.0
+    top = nice_range(float(np.nanmax(heard)) - DEPTH_OF_VIEW, float(np.nanmax(heard)))[1]
+    return top - DEPTH_OF_VIEW, top
+
+
+def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
+    """The lines of the ball-pass frequency and its harmonics up to `top` [Hz], and their names.
+
+    Names stand where a line leaves the picture.
+    """
+    low, high = ends(speeds.values)
+    ratio = float(run.ball_pass_frequency[-1] / speeds.values[-1])
+    number = np.arange(1.0, HARMONICS + 1.0)
+    last = np.minimum(high, top / (number * ratio))
+    drawn = last > low
+    number, last = number[drawn], last[drawn]
+    first, gap = np.full(number.size, low), np.full(number.size, np.nan)
+    places = np.stack([first, last, gap], axis=1)  # of each line along the speeds
+    inner = any(defect.race == "inner" for defect in run.scene.defects)
+    return {
+        "speed_run_harmonics": {
+            "frequency": (places * (ratio * number)[:, None]).ravel(),
+            "speed": places.ravel(),
+        },
+        "speed_run_harmonic_names": {
+            "frequency": np.minimum(number * ratio * last, 0.985 * top),
+            "speed": last,
+            "number": number,
+            "inner": np.full(number.size, float(inner)),
+        },
+    }

@@ -1,0 +1,276 @@
+"""All 15 stiffness traces over cage angle in one light drawing, and the number of loaded balls.
+
+The line of all traces is one line with gaps. Below the diagonal are the legend and the number of
+loaded balls.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from bokeh.models import ColumnDataSource
+from bokeh.plotting import figure
+
+from bearing_explorer.explorer.plots import matrix_cells
+from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import compared_curves, layers, style
+from bearing_explorer.kit.plots.element_words import elements
+from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
+from bearing_explorer.kit.plots.style import in_degrees, with_prefix, words_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearingcore import STIFFNESS_TERMS, Scene
+from bearingcore.common.numbers import prefixed_span
+from bearingcore.statics.equilibrium import TERM_UNITS
+
+NARROWEST = 920
+"""[px] width from which a cell has room for its symbol and its value."""
+LEFT = 0.31
+"""Room for the numbers left of a cell."""
+
+
+def _cell(row: int, column: int) -> Cell:
+    return Cell(column + LEFT, column + 0.97, -row - 0.86, -row - 0.27)
+
+
+_CELLS = [_cell(i, j) for i, j in PLACES]
+_BALLS = Cell(LEFT, 2.6, -4.86, -3.5)
+_FRAMES = [*_CELLS, _BALLS]
+_IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
+_PLACE_COLUMNS = {
+    **matrix_cells.sides_of(_FRAMES),
+    "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
+}
+_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat")
+
+
+class Stiffness(View):
+    """15 stiffness traces, defective against healthy, the current cage angle marked."""
+
+    name = "stiffness"
+    title = "Stiffness of the bearing"
+    about = (
+        "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
+        "5×5 stiffness matrix: displacements are the columns, "
+        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}. A defect that "
+        "turns with the shaft meets the balls elsewhere in each turn: drawn is the turn of now."
+    )
+    needs = frozenset({"equilibrium", "now", "ranges"})
+    cells = matrix_cells.named_cells(_FRAMES)
+
+    def build(self, packed: PackedSource) -> Any:
+        """One canvas for all traces."""
+        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
+        self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
+        plot = matrix_cells.matrix_figure(
+            (-0.05, 5.03), (-5.08, 0.0), height=524, name="stiffness_drawing"
+        )
+        self._legend = _static_parts(plot)
+        cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
+        healthy = packed.source("stiffness_healthy", "x", "y")
+        defective = packed.source("stiffness_defective", "x", "y")
+        now = packed.source("stiffness_now", "x", "y", "low", "high")
+        axis = packed.source("stiffness_axis", "shaft")
+        _moving_parts(plot, cells, axis)
+        plot.segment("x", "low", "x", "high", source=now, line_color=style.INK, line_alpha=0.45)
+        plot.line("x", "y", source=healthy, line_color=style.HEALTHY, line_width=1.6)
+        layers.draw(plot, packed, compared_curves.curves("stiffness", "x", "y"))
+        plot.line("x", "y", source=defective, line_color=style.DEFECTIVE, line_width=1.8)
+        plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
+        units = [*UNITS, ""]
+        matrix_cells.axes_when_zoomed(plot, _FRAMES, _SCALE_OF, [cells, axis], units=units)
+        matrix_cells.enlarge_on_click(plot)
+        return matrix_cells.scrolled(plot)
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        """All traces, scaled into their cells."""
+        found, now = results.equilibrium, results.now
+        alike = [results.reference, *(results.against(one) for one in results.compared)]
+        answers = [found, *(other.equilibrium for other in alike)]
+        first, last, _ = results.stretch
+        shares = [(e.cage_angles - first) / (last - first) for e in answers]
+        now_share = (results.cage_angle - first) % (last - first) / (last - first)
+        scales = matrix_cells.term_sizes(
+            lambda term: np.concatenate([e.term(term) for e in answers])
+        )
+        lines: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in shares]
+        marks: list[tuple[float, float, float, float]] = []
+        heads: list[tuple[float, float, float, float, float]] = []
+
+        def put(
+            cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
+        ) -> None:
+            for line, x, y in zip(lines, xs, ys, strict=True):
+                line.append((cell.x(x), cell.y(y, limits)))
+
+        for cell, sticky, term, scale in zip(
+            _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
+        ):
+            terms = [cleaned(e.term(term), scale) for e in answers]
+            at_now = float(cleaned(now.term(term), scale)[0])
+            limits = matrix_cells.trace_limits(sticky, scale, *terms)
+            put(cell, limits, shares, *terms)
+            at = float(cell.y(np.array(at_now), limits))
+            marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
+            zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
+            flat = not np.nan_to_num(np.concatenate(terms)).any()
+            heads.append((*limits, at_now, zero, flat))
+
+        counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
+        low, high = self._ball_limits.fit(*counts)
+        limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
+        put(
+            _BALLS,
+            limits,
+            [_stepped(share) for share in shares],
+            *(np.repeat(count, 2) for count in counts),
+        )
+        balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
+        at = float(_BALLS.y(np.array(balls), limits))
+        marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
+        heads.append((*limits, balls, _BALLS.bottom, False))
+
+        drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
+        mark, head = np.array(marks).T, np.array(heads).T
+        return {
+            **compared_curves.sources("stiffness", ("x", "y"), others, lambda line: line),
+            "stiffness_defective": drawn,
+            "stiffness_healthy": reference,
+            "stiffness_now": dict(zip(("x", "y", "low", "high"), mark, strict=True)),
+            "stiffness_cells": {
+                **_PLACE_COLUMNS,
+                "foot": _IS_FOOT * float(results.along(last)),
+                **dict(zip(("low", "high", "now", "zero", "flat"), head, strict=True)),
+            },
+            "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
+        }, {}
+
+    def sentence(self, results: Results) -> str:
+        """The range of the radial stiffness and of the number of loaded balls."""
+        ranges, healthy = results.ranges, results.reference.ranges
+        found = ranges.state
+        if not found.converged.any():
+            return "There is no equilibrium here, so there is no stiffness to show."
+        parts = []
+        for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
+            least, most = ranges.least[term], ranges.greatest[term]
+            line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
+            if results.reference_label and healthy.state.converged.any():
+                mean = healthy.mean(healthy.state.term(term))
+                line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
+            parts.append(line)
+        balls = found.loaded_balls[found.converged]
+        count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
+        at = in_degrees(results.cage_angle)
+        over = " Ranges are over all turns of the shaft, curves over the one shown."
+        carry = f"{elements(found.scene.bearing)} carry load"
+        return f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}." + (
+            over if results.over_shaft else ""
+        )
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        """Say in the legend whether there is a defect."""
+        super().say(results, sentence)
+        if results is not None:
+            words = _legend_words(results.scene)
+            if words != self._legend.data["text"]:
+                self._legend.data = {**self._legend.data, "text": words}
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        """Every trace in SI, defective and healthy."""
+        found, healthy = results.equilibrium, results.reference.equilibrium
+        columns: dict[str, np.ndarray] = {}
+        for kind, answer in (("defective", found), ("healthy", healthy)):
+            table = answer.table().in_units().prefixed(kind)
+            columns |= table.only(f"{kind}_cage_angle").named()
+            if results.over_shaft:
+                columns[f"{kind}_shaft_angle_deg"] = results.along(answer.cage_angles)
+            shown = (*STIFFNESS_TERMS, "loaded_balls")
+            columns |= table.only(*(f"{kind}_{name}" for name in shown)).named()
+        return columns
+
+
+_SCALE_OF = """
+const [{data: rows}, {data: axis}] = sources
+const unit = units[rows.unit[k]], [low, high] = [rows.low[k], rows.high[k]]
+const e = unit ? power(Math.max(Math.abs(low), Math.abs(high))) : 0
+const words = axis.shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
+return {
+  x: {first: 0, last: Math.max(...rows.foot), factor: 1, unit: '°', words},
+  y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
+}
+"""
+_AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
+
+
+def _stepped(share: np.ndarray) -> np.ndarray:
+    """Edges of steps halfway between the angles, two for each angle."""
+    middles = 0.5 * (share[1:] + share[:-1])
+    return np.concatenate([share[:1], np.repeat(middles, 2), share[-1:]])
+
+
+def _static_parts(plot: figure) -> ColumnDataSource:
+    """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
+    frames = ColumnDataSource(matrix_cells.sides_of(_FRAMES))
+    sides = {side: side for side in matrix_cells.SIDES}
+    plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
+    matrix_cells.write_names(plot, _FRAMES)
+    y = [-2.36, -2.52, -2.68]
+    colors = [style.DEFECTIVE, style.HEALTHY]
+    ends = {"x0": [LEFT] * 2, "x1": [LEFT + 0.15] * 2, "y0": y[:2], "y1": y[:2]}
+    plot.segment(**ends, line_color=colors, line_width=[2.4, 2.0])
+    upright = {"x0": [LEFT + 0.075], "x1": [LEFT + 0.075], "y0": [y[2] - 0.06], "y1": [y[2] + 0.06]}
+    plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
+    plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
+    legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", "now"]})
+    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
+    write(plot, legend, "text", text_baseline="middle", **look)
+    return legend
+
+
+def _legend_words(scene: Scene) -> list[str]:
+    """Words of the legend: blue, grey, and the upright line."""
+    own = "with the defect" if scene.defects else "this bearing, without a defect"
+    return [own, "healthy bearing", "now"]
+
+
+_UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
+_LIMIT = f"""{_UNIT}
+if (isNaN(row.low) || row.flat) return ''
+const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
+return minus(String(Number((row.%s/10**e).toPrecision(4))))
+"""
+_NOW = f"""{_UNIT}
+if (narrow || row.flat) return ''  // it would lie on the symbol
+if (isNaN(row.now)) return 'no value'
+if (!unit) return rounded(row.now, 3)
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
+"""
+_FLAT = f"""
+const words = '{matrix_cells.ZERO}'
+return !row.flat ? '' : narrow ? words.replace(/ (?!.* )/, '\\n') : words
+"""
+_FOOT = "return row.foot ? rounded(%s, 4) + '°' : ''"
+
+
+def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
+    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
+    plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
+    left = {"x": "left", "x_offset": -3, "text_align": "right"}
+    write(plot, cells, words_of(cells, _LIMIT % "low"), y="bottom", text_baseline="bottom", **left)
+    write(plot, cells, words_of(cells, _LIMIT % "high"), y="top", text_baseline="top", **left)
+    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
+    write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
+    flat = style.fitting_words(plot, cells, _FLAT, NARROWEST)
+    # below the zero line, which runs through the middle
+    write(plot, cells, flat, x="left", y="bottom", x_offset=3, y_offset=-1, text_baseline="bottom")
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
+    write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
+    last = words_of(cells, _FOOT % "row.foot")
+    write(plot, cells, last, x="right", text_align="right", **below)
+    middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}
+    write(plot, axis, words_of(axis, _AXIS_WORDS), **{**below, **middle, "y": _BALLS.bottom})

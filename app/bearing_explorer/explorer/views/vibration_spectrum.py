@@ -1,0 +1,314 @@
+"""Spectra of the housing's acceleration with the bands of the natural frequencies (Fig. 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any, ClassVar
+
+import numpy as np
+from bokeh.models import LayoutDOM
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.results.excerpt import why_ended
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
+from bearing_explorer.explorer.views.wide_spectrum import HEIGHT, WideSpectra
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
+from bearing_explorer.kit.plots.layers import (
+    CENTERED,
+    ON_PAPER,
+    Layer,
+    Words,
+    add_all,
+    curve,
+    sources_of,
+    strips,
+    toggle,
+    uprights,
+)
+from bearing_explorer.kit.plots.levels import (
+    FREQUENCY,
+    HIGHEST,
+    SHOWN,
+    decibels,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.look_view import LookView
+from bearing_explorer.kit.widgets.form import FieldSpec
+from bearingcore import Scene
+from bearingcore.dynamics.ball_motion import contact_resonance_band
+from bearingcore.scene.scene import WITH_MASS
+
+GREY: FieldSpec = {
+    "name": "grey",
+    "label": "Grey",
+    "options": [[HEALTHY, "without the defect"], [OTHER_BALLS, "with the mass of the balls"]],
+}
+AXIS: FieldSpec = {
+    "name": "axis",
+    "label": "Frequency",
+    "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
+}
+"""The switches above the figures."""
+
+NAMED_IN_FULL = 580.0
+"""[px] width of a frame from which the names of bands have room for their frequencies."""
+_PASS_WORDS = """
+const of = row.row ? ` row ${row.row}` : ''
+const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
+return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)}${give} Hz`
+"""
+
+
+def spectra(dof: str) -> list[Layer]:
+    """Along a direction: the spectra over the bands of the natural frequencies."""
+    color = style.color_along(dof)
+    bands = f"spectrum_bands_{dof}"
+    return [
+        strips(bands, color, 0.12),
+        *compared_curves.bands(f"spectrum_band_{dof}"),
+        Words(
+            bands,
+            "label_at",
+            0.94,
+            SHORT_BAND_WORDS,
+            reads=("direction", "number"),
+            y_share=True,
+            fitting=NAMED_IN_FULL,
+            look={"text_color": color, **CENTERED},
+        ),
+        curve("spectrum_healthy", "frequency", dof, style.HEALTHY, 1.5),
+        *compared_curves.curves("spectrum", "frequency", dof),
+        curve("spectrum_lines", "frequency", dof, color),
+    ]
+
+
+PASSES: list[Layer] = [
+    uprights("spectrum_passes", "frequency", style.DEFECT, 1.0, 0.4, level="underlay"),
+    Words(
+        "spectrum_first_pass",
+        "frequency",
+        0.06,
+        _PASS_WORDS,
+        reads=("inner", "row", "spread"),
+        y_share=True,
+        in_view="x",
+        share=1.0,
+        look={"x_offset": 4, "level": "annotation", **ON_PAPER},
+    ),
+]
+"""Marks of the ball-pass frequencies."""
+
+
+class VibrationSpectra(LookView):
+    """Power spectral density of the housing's acceleration along x and y."""
+
+    name = "vibration-spectrum"
+    title = "Spectrum of the vibration"
+    about = (
+        "Spectrum of the housing's acceleration. Power spectral density along x and y after the "
+        "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
+        "frequencies."
+    )
+    needs = frozenset({"motion", "late_spectra", "reference", "bands"})
+    look_fields = (AXIS, GREY)
+    first_look: ClassVar[dict[str, Any]] = {"axis": "linear", "grey": HEALTHY}
+
+    def build(self, packed: PackedSource) -> Any:
+        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        frequency = packed.range("spectrum_frequency", 0.0, HIGHEST)
+        level = packed.range("spectrum_level", -80.0, -20.0)
+        sources = sources_of(packed, [layer for dof in SHOWN for layer in [*spectra(dof), *PASSES]])
+        plots, passes = [], []
+        for dof in SHOWN:
+            density = density_axis(f"S{dof}")
+            plot = style.make_figure(FREQUENCY, density, frequency, level, height=HEIGHT)
+            add_all(plot, sources, spectra(dof))
+            passes += add_all(plot, sources, PASSES)
+            plots.append(plot)
+        box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
+        self._narrow = [box, *plots]
+        self._wide = WideSpectra(packed, "spectrum_wide")
+        high = {"min-height": "calc(var(--room) - 170px)"}
+        return self.only_with_numbers(
+            self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
+        )
+
+    @property
+    def is_empty(self) -> bool:
+        """Where the motion ended before it had settled."""
+        return self._results is not None and not self._results.late_spectra
+
+    @property
+    def wide(self) -> bool:
+        """Whether it goes as far as the motion is known, on a logarithmic frequency axis."""
+        return bool(self.look["axis"] == "logarithmic")
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        return self._wide.plots if self.wide else self._narrow[1:]
+
+    def look_changed(self, name: str, value: Any) -> None:
+        if name == "grey" and self.parts is not None:
+            self.parts.set_grey(value)  # what is drawn in grey is so on all tabs
+        else:
+            super().look_changed(name, value)
+
+    def choices(self) -> dict[str, Any]:
+        return {name: value for name, value in super().choices().items() if name != "grey"}
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        if results is not None:
+            self.look["grey"] = results.grey_kind
+        super().say(results, sentence)
+
+    def show_look(self) -> None:
+        super().show_look()
+        for part in self._narrow:
+            part.visible = not self.wide
+        for plot in self._wide.plots:
+            plot.visible = self.wide
+
+    def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
+        """As far as the motion is known, where that was chosen."""
+        if not self.wide:
+            return {}, {}
+        band = (0.0, 0.0)
+        for scene in (results.scene, results.grey.scene):
+            if scene.balls == WITH_MASS:
+                band = contact_resonance_band(scene)
+        return self._wide.data(
+            results,
+            results.late_spectra,
+            results.reference.late_spectra,
+            band,
+            results.motion.bandwidth,
+        )
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
+        drawn = drawn_levels(results.late_spectra, top)
+        passing = pass_frequencies(results.scene, top)
+        which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
+        sources, ranges = self._wide_data(results)
+        compared = levels_of_compared("spectrum", results, top)
+        for dof in SHOWN:
+            sources |= compared_curves.sources(
+                f"spectrum_band_{dof}",
+                ("low", "high"),
+                results.compared_results,
+                partial(_bands_of, dof, top),
+            )
+        sources |= {
+            **compared,
+            "spectrum_lines": drawn,
+            "spectrum_healthy": drawn_levels(results.reference.late_spectra, top),
+            "spectrum_passes": {"frequency": passing["frequency"]},
+            "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
+            **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
+        }
+        shown = self._levels.fit(*seen_levels(6.0, drawn, *compared.values()))
+        return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
+
+    def sentence(self, results: Results) -> str:
+        return loudest_words(results)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        table: dict[str, np.ndarray] = {}
+        before = f"{results.grey_kind.replace('-', '_')}_"
+        spectra_of = {"": results.late_spectra, before: results.reference.late_spectra}
+        for prefix, drawn in spectra_of.items():
+            for dof, one in drawn.items():
+                unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
+                # samples of an orbit fit its period: a little off those of a march
+                columns = one.table([dof], unit).named()
+                table |= {f"{prefix}{name}": values for name, values in columns.items()}
+        return table
+
+
+def _bands_of(dof: str, top: float, other: Results) -> dict[str, np.ndarray]:
+    return bands_along(other.bands, dof, top)
+
+
+def loudest_words(results: Results) -> str:
+    """Where the housing vibrates most along each direction, and how often balls pass."""
+    words = []
+    if not results.late_spectra:
+        return f"There is no spectrum, as {why_ended(results.motion)}."
+    for dof in SHOWN:
+        if dof in results.late_spectra:
+            frequency, density = results.late_spectra[dof]
+            heard = (frequency >= 100.0) & (frequency <= HIGHEST)
+            most = np.flatnonzero(heard)[np.argmax(density[heard])]
+            words.append(
+                f"{style.number(decibels(density[most]), 2)} dB at {frequency[most]:.0f} Hz "
+                f"along {dof}"
+            )
+    text = (
+        "Above 100 Hz the housing vibrates most with "
+        + style.list_words(words)
+        + " (re 1 (m/s²)²/Hz)"
+        if words
+        else "The housing cannot move along x or y in this scene"
+    )
+    passing = style.list_words(
+        [
+            f"of the {race} race{f', row {row},' if row else ''} at {style.number(frequency, 4)} Hz"
+            for race, row, frequency in passed(results.scene)
+        ]
+    )
+    estimated = ", as estimated" if results.scene.bearing.estimated else ""
+    text += f"; balls pass a point {passing}{estimated}"
+    if results.moving:
+        return f"{text}."
+    start = style.with_prefix(results.settled_since, "s")
+    return f"{text}. Computed by time integration, without the first {start}."
+
+
+def passed(scene: Scene) -> list[tuple[str, int, float]]:
+    """Races with a defect, and their ball-pass frequencies [Hz]; the outer race without defects.
+
+    Of rows that are not alike each whose balls meet one, with its number; else that is 0.
+    """
+    speed, found = scene.shaft_speed, []
+    several = not scene.bearing.rows_are_alike
+    for race in ("outer", "inner"):
+        for row, (own, _) in enumerate(scene.bearing.unlike_rows):
+            met = (None, row) if several else (None, *range(len(scene.bearing.all_rows)))
+            there = [d.race == race and d.row in met for d in scene.defects] or [race == "outer"]
+            if any(there):
+                rate = own.bpfo(speed) if race == "outer" else own.bpfi(speed)
+                found.append((race, row + 1 if several else 0, rate))
+    return found
+
+
+def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
+    """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
+
+    Columns: frequency, whether it belongs to the inner race, the number of the row, 0 where rows
+    are alike, and the error [Hz] that an estimated inside may give; the outer race comes first.
+    """
+    frequencies, inner, rows = [np.empty(0)], [np.empty(0)], [np.empty(0)]
+    spreads = [np.empty(0)]
+    for race, row, first in passed(scene):
+        own = scene.bearing.of_row(max(row - 1, 0))
+        spread = first * own.frequency_spread("bpfo" if race == "outer" else "bpfi")
+        count = int(top / first) if first > 0.0 else 0
+        frequencies.append(first * np.arange(1.0, count + 1.0))
+        inner.append(np.full(count, float(race == "inner")))
+        rows.append(np.full(count, float(row)))
+        spreads.append(np.full(count, spread))
+    return {
+        "frequency": np.concatenate(frequencies),
+        "inner": np.concatenate(inner),
+        "row": np.concatenate(rows),
+        "spread": np.concatenate(spreads),
+    }

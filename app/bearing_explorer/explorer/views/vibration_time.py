@@ -1,0 +1,154 @@
+"""Housing acceleration and contact forces while balls pass the defect (Fig. 9)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bearing_explorer.explorer.results.excerpt import Event, Excerpt
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.passage_view import (
+    BALL,
+    LABEL_WIDTH,
+    SLOTS,
+    PassageView,
+    along_both,
+    ball_names,
+    event_lines,
+    event_names,
+    named,
+    places_of_labels,
+    traces,
+)
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import element_name
+from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
+from bearing_explorer.kit.plots.levels import SHOWN
+from bearing_explorer.kit.views.base import Ranges, Sources
+from bearingcore import Bearing
+
+ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
+EVENT_WORDS = f"""
+const does = row.enters ? 'enters' : 'leaves'
+const words = `{BALL} ${{does}}`
+let room = Infinity
+try {{ room = {LABEL_WIDTH}*plot.inner_width }} catch {{}}
+return words.length*5.8*larger < room ? words : `${{row.ball}} ${{does}}`
+"""
+
+
+class VibrationInTime(PassageView):
+    """Acceleration of the housing, and the loads of the balls meanwhile."""
+
+    name = "vibration-time"
+    title = "Vibration as balls pass the defect"
+    about = (
+        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
+        "or leave the defect; thin: their static loads."
+    )
+    needs = frozenset({"excerpt"})
+    prefix = "vibration"
+
+    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
+        compared = compared_curves.curves("vibration", "time", *SHOWN, width=1.1)
+        return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
+
+    def lower_figure(self) -> tuple[int, Sequence[Layer]]:
+        lines = [
+            curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
+            for i, color in enumerate(style.BALL_COLORS)
+        ]
+        static = curve("vibration_static_loads", "time", "load", style.INK, 1.0)
+        return 230, [event_lines("vibration"), static, *lines, self.names_of_balls()]
+
+    def data(self, results: Results) -> tuple[Sources, Ranges]:
+        shown, bearing = results.excerpt, results.scene.bearing
+        missing = np.full(shown.time.size, np.nan)
+        signals = along_both(shown.time, shown.acceleration)
+        loads = dict.fromkeys((f"load{i}" for i in range(SLOTS)), missing)
+        loads |= {f"load{i}": load for i, load in enumerate(shown.ball_load.T[:SLOTS])}
+        start, end = float(shown.time[0]), float(shown.time[-1])
+        compared = compared_curves.sources(
+            "vibration",
+            ("time", *SHOWN),
+            results.compared_results,
+            lambda other: traces(
+                other.excerpt.time, along_both(other.excerpt.time, other.excerpt.acceleration)
+            ),
+        )
+        sources: Sources = {
+            **compared,
+            "vibration_motion": traces(shown.time, signals),
+            "vibration_loads": traces(shown.time, loads),
+            "vibration_static_loads": static_lines(shown),
+            "vibration_events": event_rows(shown.events, start, end, bearing),
+            "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),
+        }
+        carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
+        drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
+        return sources, self.ranges(shown.time, np.concatenate(drawn), carried)
+
+    def sentence(self, results: Results) -> str:
+        shown = results.excerpt
+        if shown.broke_off:
+            words = shown.broke_off
+            return f"{words[0].upper()}{words[1:]}."
+        peaks = [
+            f"{style.number(float(np.max(np.abs(shown.acceleration[dof]))), 2)} m/s² along {dof}"
+            for dof in SHOWN
+            if dof in shown.acceleration
+        ]
+        below = style.with_prefix(results.motion.bandwidth, "Hz", 2)
+        text = (
+            f"The housing's acceleration below {below} peaks at " + style.list_words(peaks)
+            if peaks
+            else "The housing cannot move along x or y in this scene"
+        )
+        bearing = results.scene.bearing
+        entry = next((event for event in shown.events if event.enters), None)
+        leaving = next(
+            (e for e in shown.events if entry and not e.enters and e.time >= entry.time), None
+        )
+        if entry and leaving:
+            text += (
+                f"; {element_name(bearing, entry.ball)} enters the defect and "
+                f"{style.with_prefix(leaving.time - entry.time, 's', 4)} later "
+                + ("it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball))
+                + " leaves it"
+            )
+        return text + "."
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        return results.excerpt.table().named()
+
+
+def motion_layers(prefix: str) -> list[Layer]:
+    """Acceleration along x and y, with the events, of the sources of that prefix."""
+    return [
+        event_lines(prefix),
+        *(
+            curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
+            for dof in reversed(SHOWN)
+        ),
+        event_names(prefix, EVENT_WORDS, ("enters",)),
+    ]
+
+
+def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
+    """The static loads of all balls as one line with gaps."""
+    loads = shown.static_load.T[:SLOTS]
+    return with_gaps(((shown.static_time, load) for load in loads), "time", "load")
+
+
+def event_rows(
+    events: tuple[Event, ...], start: float, end: float, bearing: Bearing, apart: float = 1.0
+) -> dict[str, np.ndarray]:
+    """Events as columns, with the places of their labels, whose rows are `apart`."""
+    times = [event.time for event in events]
+    return {
+        "time": np.array(times),
+        **named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
+        "enters": np.array([float(event.enters) for event in events]),
+        **places_of_labels(times, start, end, apart=apart),
+    }

@@ -1,0 +1,72 @@
+"""The panel of lessons: the words of one, its prediction and answer, the way to the next."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
+
+import param
+from panel.custom import JSComponent
+
+from bearing_explorer.explorer.messages import LessonChange
+from bearing_explorer.explorer.state.lessons import Fault, Lesson
+from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.messages import take
+
+
+class LessonPanel(JSComponent):
+    """The list of lessons, or the words of one; hidden until lessons are opened.
+
+    A scene is set when a lesson begins, and not when its words are shown again.
+
+    `asked` is called with each message as a dictionary with fields of `LessonChange`.
+    """
+
+    #: [title, what is wrong with the file or "", name] of each
+    titles = param.List(default=[])
+    #: of `Lesson.for_browser`; empty before the first
+    lesson = param.Dict(default={})
+    #: whether it is open when the page loads
+    open_first = param.Boolean(default=False)
+    #: the page for teachers, as safe HTML
+    teachers = param.String()
+
+    _esm = scripts("element.js", "asking.js", "lesson.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
+
+    def __init__(
+        self, asked: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
+    ) -> None:
+        titles = [
+            [lesson.title, lesson.sentence, ""]
+            if isinstance(lesson, Fault)
+            else [lesson.title, "", lesson.name]
+            for lesson in lessons
+        ]
+        super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)
+        self._lessons = lessons
+        self._begun = 0
+        self.on_msg(lambda event: take(asked, LessonChange, event.data))
+
+    def begin(self, which: object, *, again: bool = True) -> Lesson | None:
+        """Show the lesson with this number or name and return it; None where there is none.
+
+        One that is shown already begins `again`, or stays as it is.
+        """
+        number = self._number(which)
+        if number is None:
+            return None
+        lesson = self._lessons[number]
+        if isinstance(lesson, Fault):
+            return None
+        if again or self.lesson.get("number") != number:
+            # counted, or the same lesson begun again would be no news to the browser
+            self._begun += 1
+            self.lesson = {**lesson.for_browser(number), "begun": self._begun}
+        return lesson
+
+    def _number(self, which: object) -> int | None:
+        if isinstance(which, int):
+            return which if 0 <= which < len(self._lessons) else None
+        names = [lesson.name if isinstance(lesson, Lesson) else "" for lesson in self._lessons]
+        return names.index(which) if isinstance(which, str) and which and which in names else None

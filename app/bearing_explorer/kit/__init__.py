@@ -1,0 +1,1 @@
+"""The ground that both halves of the page stand on: neither is known here."""

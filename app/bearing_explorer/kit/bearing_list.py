@@ -1,0 +1,202 @@
+"""Bearings to choose from: presets, the published ones, those of a person's table, designations.
+
+A table of one's own stays in the session. It is not trusted: it is refused as a whole,
+with sentences, where it is not such a table.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any
+
+from bearing_explorer.kit.sentences import words_of
+from bearingcore import Bearing, CatalogueBearing, catalogue, preset_notes, presets, read_catalogue
+from bearingcore.bearings.catalogue import MOST_BYTES
+from bearingcore.bearings.designation import (
+    Designation,
+    designations,
+    is_known,
+    read_designation,
+    series_words,
+)
+from bearingcore.common.numbers import number
+from bearingcore.scene.presets import preset_labels
+from bearingcore.units import read_number
+
+MOST_FOUND = 60
+"""Entries that a search lists."""
+MOST_NUMBERS = 12
+"""Designations that it lists of those that begin with what was typed."""
+LONGEST_SEARCH = 60
+SAME_LENGTH = 0.003
+"""Part by which a length of a bearing may differ from one that is searched for."""
+
+
+@dataclass
+class BearingTable:
+    """The bearings of a person's table beside the published ones; `words` say what became of it."""
+
+    own: dict[str, CatalogueBearing] = field(default_factory=dict)
+    words: str = ""
+    bad: bool = False
+
+    def all(self) -> list[tuple[CatalogueBearing, bool]]:
+        """Every bearing and whether it is a person's own; these first, in place of published ones
+        of the same name.
+        """
+        published = [one for name, one in catalogue().items() if name not in self.own]
+        return [(one, True) for one in self.own.values()] + [(one, False) for one in published]
+
+    def find(self, name: str) -> CatalogueBearing:
+        """The bearing of a name or a designation; ValueError where there is none."""
+        return self.own.get(name) or catalogue().get(name) or read_designation(name).entry
+
+    def take(self, file: str, found: dict[str, CatalogueBearing] | str) -> None:
+        """Add what `read_table` made of a file."""
+        shown = " ".join(file.split())[:40] or "The file"
+        if isinstance(found, str):
+            self.words, self.bad = f"{shown}: {found}", True
+            return
+        self.own |= found
+        count = len(found)
+        self.words = f"{shown}: {count} {'bearing' if count == 1 else 'bearings'} added"
+        self.bad = False
+
+    def search(self, text: str) -> dict[str, Any]:
+        """Bearings that a text finds, for the browser; an empty one finds all but designations.
+
+        Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
+        dimensions, and "yours" or "estimated". `words` say why there are none.
+        """
+        text = " ".join(text[:LONGEST_SEARCH].split())
+        entries = list(islice(self._found(text), MOST_FOUND))
+        words = "" if entries else _no_match(text)
+        return {"text": text, "entries": entries, "words": words}
+
+    def _found(self, text: str) -> Iterator[dict[str, Any]]:
+        by_number = _designation(text)
+        wanted = text.lower() if by_number is None else by_number.basic.lower()
+        length = _length(text)
+        ranked: list[tuple[int, dict[str, Any]]] = []
+        for name, label in preset_labels.items():
+            rank = _rank(wanted, label, preset_notes[name])
+            if length and _has_length(presets[name].bearing, length):
+                rank = 0
+            ranked.append((rank, _entry({"preset": name}, label, "", "")))
+        for one, own in self.all():
+            words = entry_words(one)
+            rank = _rank(wanted, one.name, f"{words} {one.note}")
+            if length and _has_length(one.bearing, length):
+                rank = 0
+            mark = "yours" if own else ""
+            ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
+        best = [entry for rank, entry in ranked if rank == 0]
+        # a designation may be the first word of a longer name; what only has its number comes last
+        named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
+        yield from named
+        if by_number is not None:
+            yield _estimated(by_number)
+        yield from (one for one in best if one not in named)
+        if by_number is None and len(text) > 1:
+            for basic in islice(designations(text), MOST_NUMBERS):
+                yield _estimated(read_designation(basic))
+        yield from (entry for rank, entry in ranked if rank == 1)
+
+
+def _no_match(text: str) -> str:
+    """Why a search finds nothing; of a bearing with an unknown suffix what may be written."""
+    if is_known(text):
+        try:
+            read_designation(text)
+        except ValueError as error:
+            words = words_of(error)
+            return f"{words[0].upper()}{words[1:]}."
+    return f"No match. Known by number are the series {series_words()}."
+
+
+def _designation(text: str) -> Designation | None:
+    """The bearing that a text is the designation of; None where it is none."""
+    try:
+        return read_designation(text)
+    except ValueError:
+        return None
+
+
+def _length(text: str) -> float | None:
+    """A length with its unit [m]; None where a text is none."""
+    try:
+        return read_number(text, "m") if not text[-1:].isdecimal() else None
+    except ValueError:
+        return None
+
+
+def _has_length(bearing: Bearing, length: float) -> bool:
+    """Whether a bearing has balls or a pitch circle of a diameter [m]."""
+    own = (bearing.ball_diameter, bearing.pitch_diameter)
+    return any(math.isclose(length, one, rel_tol=SAME_LENGTH) for one in own)
+
+
+def _rank(wanted: str, name: str, note: str) -> int:
+    """0 where all words begin words of the name, 1 where some are in the note, else 2.
+
+    Words are also found together in a name without its spaces: "nu208" in "NU 208". Short ones are
+    not looked for in notes.
+    """
+    words, low = wanted.split(), f" {name} ".lower()
+    if "".join(words) in "".join(low.split()) and len(wanted) > 3:
+        return 0
+    begun = [re.search(rf"(?<!\w){re.escape(word)}", low) is not None for word in words]
+    if all(begun):
+        return 0
+    noted = note.lower()
+    inside = (
+        len(word) > 2 and word in noted for word, own in zip(words, begun, strict=True) if not own
+    )
+    return 1 if all(inside) else 2
+
+
+def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[str, Any]:
+    return {"choose": choose, "label": label, "words": words, "mark": mark}
+
+
+def _estimated(one: Designation) -> dict[str, Any]:
+    return _entry({"bearing": one.name}, one.name, entry_words(one.entry), "estimated")
+
+
+def read_table(text: str) -> dict[str, CatalogueBearing] | str:
+    """The bearings of a table, or sentences that say what is wrong. For any thread."""
+    if len(text) > MOST_BYTES:
+        return f"it is longer than {MOST_BYTES // 1000} kB."
+    try:
+        return read_catalogue(text)
+    except ValueError as error:
+        return f"{words_of(error)}."
+
+
+def entry_words(one: CatalogueBearing) -> str:
+    """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
+    bearing = one.bearing
+    rough = bearing.estimated and bearing.kind.estimate_spread is not None
+    diameter = number(1e3 * bearing.ball_diameter, 3 if rough else 5)
+    words = (
+        f"{'two rows of ' if bearing.rows else ''}{bearing.n_balls} {bearing.kind.elements} of "
+        f"{diameter} mm on {number(1e3 * bearing.pitch_diameter, 5)} mm"
+    )
+    if bearing.contact_angle:
+        words += f", {number(math.degrees(bearing.contact_angle))}°"
+    if bearing.radial_clearance:
+        words += f", clearance {number(2e6 * bearing.radial_clearance)} µm"
+    if one.dynamic_load_rating is not None:
+        words += f", dynamic rating {number(one.dynamic_load_rating / 1e3, 4)} kN"
+    return words
+
+
+def origin_words(one: CatalogueBearing, own: bool) -> str:
+    """Sources of the numbers of a bearing, and assumptions."""
+    source = one.note or ("From a table of your own." if own else "")
+    assumed = f" Assumed here: {', '.join(one.assumed)}." if one.assumed else ""
+    return f"{source}{assumed}".strip()

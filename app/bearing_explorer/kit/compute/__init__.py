@@ -1,0 +1,1 @@
+"""Computing off the event loop: threads, cache, jobs, the drawing loop."""

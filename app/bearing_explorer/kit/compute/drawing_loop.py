@@ -1,0 +1,151 @@
+"""One loop a session: draws the newest inputs, and draws them finely once a slider rests."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable
+from typing import Generic, TypeVar
+
+from bearing_explorer.kit.compute.executors import LoopLocks, in_thread
+
+log = logging.getLogger(__name__)
+
+RESTS_AFTER = 0.3
+"""[s] without newer inputs after the last picture after which a slider counts as at rest."""
+
+_ONE_BY_ONE = LoopLocks()
+"""Fine pictures of all sessions wait for one another: their threads hold up moving sliders."""
+
+Inputs = TypeVar("Inputs")
+Fine = TypeVar("Fine")
+
+
+class DrawingLoop(Generic[Inputs, Fine]):
+    """Always draws the newest inputs and drops what they overtook.
+
+    Slider events come faster than scenes can be drawn. A queue would grow into a tail that moves on
+    after the slider has stopped; here at most one set of inputs waits.
+
+    Parameters
+    ----------
+    draw
+        draws inputs on the event loop, and returns those that it has drawn: `newest` may have given
+        it newer ones.
+    refine
+        computes the fine picture of inputs, in a thread; None where there is nothing finer. Its
+        second argument says whether newer inputs have come: then the picture is no longer wanted.
+    draw_fine
+        draws such a picture, on the event loop.
+    failed
+        is called where one of them raises an exception.
+    """
+
+    def __init__(
+        self,
+        draw: Callable[[Inputs], Awaitable[Inputs]],
+        refine: Callable[[Inputs, Callable[[], bool]], Fine | None],
+        draw_fine: Callable[[Inputs, Fine], Awaitable[None]],
+        failed: Callable[[Exception], Awaitable[None]],
+    ) -> None:
+        self._draw, self._refine, self._draw_fine = draw, refine, draw_fine
+        self._failed = failed
+        self._newest: list[Inputs] = []
+        self._submitted = asyncio.Event()
+        self._task: asyncio.Task[None] | None = None
+        self._drawing = False
+        self._stopped = False
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there are newer inputs than those at work. For any thread."""
+        return bool(self._newest)
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the newest inputs are drawn."""
+        return not (self._newest or self._drawing)
+
+    @property
+    def idle(self) -> bool:
+        """Whether the newest inputs are drawn as finely as can be."""
+        return not self._newest and (self._task is None or self._task.done())
+
+    def newest(self, inputs: Inputs) -> Inputs:
+        """The newest inputs there are in place of `inputs`. For any thread.
+
+        Where many sessions wait for a thread, a slider has moved on meanwhile.
+        """
+        try:
+            return self._newest.pop()
+        except IndexError:
+            return inputs
+
+    def submit(self, inputs: Inputs) -> None:
+        """Take these inputs as the newest. Call it on the event loop of the session."""
+        if self._stopped:
+            return
+        self._newest = [inputs]
+        self._submitted.set()
+        if self._task is None or self._task.done():
+            self._task = asyncio.get_running_loop().create_task(self._run())
+
+    def stop(self) -> None:
+        """Draw nothing more: the session is over."""
+        self._stopped = True
+        self._newest = []
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None
+
+    async def _run(self) -> None:
+        while self._newest:
+            inputs = self._newest.pop()
+            self._drawing = True
+            try:
+                inputs = await self._draw(inputs)
+            except Exception as error:
+                await self._report(error)
+                continue
+            finally:
+                self._drawing = False
+            if await self._rests():
+                await self._draw_finely(inputs)
+
+    async def _rests(self) -> bool:
+        """Whether no newer inputs come for a while."""
+        if self._newest:
+            return False
+        self._submitted.clear()
+        try:
+            await asyncio.wait_for(self._submitted.wait(), RESTS_AFTER)
+        except TimeoutError:
+            return True
+        return False
+
+    async def _draw_finely(self, inputs: Inputs) -> None:
+        """Unless newer inputs come first: they do not wait for it."""
+        fine = asyncio.ensure_future(self._fine(inputs))
+        newer = asyncio.ensure_future(self._submitted.wait())
+        try:
+            await asyncio.wait({fine, newer}, return_when=asyncio.FIRST_COMPLETED)
+            if newer.done():
+                fine.add_done_callback(lambda done: done.cancelled() or done.exception())
+                return
+            if (picture := fine.result()) is not None:
+                await self._draw_fine(inputs, picture)
+        except Exception as error:
+            await self._report(error)
+        finally:
+            newer.cancel()
+
+    async def _fine(self, inputs: Inputs) -> Fine | None:
+        """The fine picture, when those of other sessions are done; None where it is not wanted."""
+        async with _ONE_BY_ONE.here():
+            if self._newest or self._stopped:
+                return None
+            return await in_thread(self._refine, inputs, lambda: self.waiting)
+
+    async def _report(self, error: Exception) -> None:
+        log.error("drawing a scene failed", exc_info=error)
+        await self._failed(error)

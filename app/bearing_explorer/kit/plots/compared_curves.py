@@ -1,0 +1,122 @@
+"""Curves of compared scenes: a colour and a dash for each, and a key with their names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+from bokeh.models import GlyphRenderer, Legend, LegendItem, Plot
+
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import Glyph, curve, strips
+
+Other = TypeVar("Other")
+
+COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
+DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
+MOST_COMPARED = len(COLORS)
+"""Greatest number of compared scenes: more colours are hard to distinguish."""
+WITHOUT_DEFECT = "the bearing without its defect"
+"""The scene that is drawn in grey."""
+
+_SLOT = "_compared_"
+_LONGEST_NAME = 28
+
+
+def curves(name: str, x: str, *ys: str, width: float = 1.6) -> list[Glyph]:
+    """Layers: for each compared scene its columns `ys` over `x`, of the sources of `sources`."""
+    return [
+        curve(f"{name}{_SLOT}{slot}", x, y, color, width, dash)
+        for slot, (color, dash) in enumerate(zip(COLORS, DASHES, strict=True))
+        for y in ys
+    ]
+
+
+def bands(name: str, *, level: bool = False) -> list[Glyph]:
+    """Layers: for each compared scene strips from ``low`` to ``high``."""
+    return [
+        strips(f"{name}{_SLOT}{slot}", color, 0.10, level=level)
+        for slot, color in enumerate(COLORS)
+    ]
+
+
+def sources(
+    name: str,
+    columns: Sequence[str],
+    compared: Iterable[Other],
+    compute: Callable[[Other], Mapping[str, np.ndarray]],
+) -> dict[str, dict[str, np.ndarray]]:
+    """Their sources, with `columns` by `compute`; empty where a scene has no such curve."""
+    nothing = dict.fromkeys(columns, np.zeros(0))
+    found: list[dict[str, np.ndarray]] = []
+    for other in compared:
+        try:
+            computed = compute(other)
+            found.append({column: computed[column] for column in columns})
+        except ValueError:
+            found.append(nothing)
+    found += [nothing] * (MOST_COMPARED - len(found))
+    return {f"{name}{_SLOT}{slot}": one for slot, one in enumerate(found)}
+
+
+def numbers(drawn: Mapping[str, Mapping[str, np.ndarray]], column: str) -> np.ndarray:
+    """A column of all compared scenes, for the range of an axis."""
+    return np.concatenate([one[column] for one in drawn.values()])
+
+
+class CurveKey:
+    """The names of the compared scenes above a figure, with their lines.
+
+    It is part of the figure: what is exported has it too. A figure without such curves has no
+    `items`.
+    """
+
+    def __init__(self, plot: Plot) -> None:
+        lines: dict[int, GlyphRenderer] = {}
+        for drawn in plot.renderers:
+            named = (isinstance(drawn, GlyphRenderer) and drawn.data_source.name) or ""
+            slot = named.rpartition(_SLOT)[2] if _SLOT in named else ""
+            if slot and drawn.glyph.__class__.__name__ == "Line":
+                lines.setdefault(int(slot), drawn)
+        self.items = [
+            LegendItem(label="", renderers=[lines[slot]], visible=False) for slot in sorted(lines)
+        ]
+        if self.items:
+            self._legend = _legend(self.items)
+            plot.add_layout(self._legend, "above")
+
+    def show(self, names: Sequence[str]) -> None:
+        """Show these names; none hides the key."""
+        shown = [_short(name) for name in names]
+        if shown == [item.label.value for item in self.items if item.visible]:
+            return
+        for slot, item in enumerate(self.items):
+            known = slot < len(shown)
+            item.update(label={"value": shown[slot] if known else ""}, visible=known)
+        self._legend.visible = bool(shown)
+
+
+def _legend(items: list[LegendItem]) -> Legend:
+    return Legend(
+        items=items,
+        visible=False,
+        orientation="horizontal",
+        location="top_left",
+        ncols=2,
+        border_line_color=None,
+        background_fill_color=style.PAPER,
+        label_text_font=style.FONT,
+        label_text_font_size=style.TEXT_SIZE,
+        label_text_color=style.INK,
+        glyph_width=26,
+        glyph_height=12,
+        label_height=12,
+        padding=2,
+        margin=2,
+        spacing=8,
+    )
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= _LONGEST_NAME else name[: _LONGEST_NAME - 1] + "…"

@@ -1,0 +1,47 @@
+"""Names of rolling elements, balls or rollers, one by one, row by row; sizes of defects."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from bearing_explorer.kit.plots import style
+from bearingcore import Bearing, Defect
+
+_BALL = re.compile(r"\b([Bb])all(?=s?\b)(?![- ]pass)")
+
+
+def elements(bearing: Bearing, count: int = 2) -> str:
+    """The word for so many of them."""
+    return bearing.kind.element if count == 1 else bearing.kind.elements
+
+
+def element_name(bearing: Bearing, index: int) -> str:
+    """The name of one, counted from 0 row after row: "ball 3", "ball 3 of row 2"."""
+    row, number = bearing.row_of_ball(int(index))
+    name = f"{bearing.kind.element} {number + 1}"
+    return name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}"
+
+
+def row_words(bearing: Bearing, row: int | None) -> str:
+    """The row of a defect, of a bearing of several rows: ", row 1"; nothing of one row."""
+    if len(bearing.all_rows) == 1:
+        return ""
+    return ", all rows" if row is None else f", row {row + 1}"
+
+
+def with_elements_of(bearing: Bearing, text: str) -> str:
+    """A text about balls for a bearing, whose elements may be rollers.
+
+    A ball pass is called so for rollers too.
+    """
+    element = bearing.kind.element
+    if element == "ball":
+        return text
+    return _BALL.sub(lambda found: element.title() if found[1] == "B" else element, text)
+
+
+def extent_words(defect: Defect, bearing: Bearing) -> str:
+    """Extent of a defect in degrees and along its race: "12.9° (5.97 mm)"."""
+    length = style.with_prefix(defect.extent * defect.raceway_radius(bearing), "m")
+    return f"{style.number(math.degrees(defect.extent))}° ({length})"

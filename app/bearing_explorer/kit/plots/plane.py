@@ -1,0 +1,296 @@
+"""A map over two quantities, with the lines across it and a histogram.
+
+The lines follow the pointer, and values that are selected in the histogram stay bright on the map,
+without asking Python: so they do in a saved page too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from bokeh.models import BoxSelectTool, ColumnDataSource, CustomJS, LinearColorMapper, Quad
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
+from bearing_explorer.kit.plots.heat_map import (
+    CLEAR,
+    GridImage,
+    Side,
+    color_bar,
+    ends,
+    ring_at,
+    scale_by,
+    sections,
+)
+from bearing_explorer.kit.plots.layers import Glyph, draw
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearingcore.common.numbers import PREFIXES, prefix_power
+
+if TYPE_CHECKING:
+    from xarray import DataArray
+
+_HATCHED = {
+    "fill_color": "#B9BEC4",
+    "line_color": None,
+    "hatch_pattern": "/",
+    "hatch_color": "white",
+    "hatch_alpha": 0.6,
+    "hatch_scale": 8,
+}
+"""Look of points without an answer."""
+BINS = 24
+HEIGHTS = {"map": 340, "up": 340, "across": 200, "histogram": 200}
+"""[px] of the figures."""
+_NO_PREFIX = ("", "°", "kg", "kg·m²")
+_EVERYTHING = {"low": -1e300, "high": 1e300}
+"""Values that are selected while nothing is."""
+_PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
+_NO_WORDS: dict[str, list[str]] = {"words": [], "unit": []}
+
+_SAY = """
+const {words, unit} = said.data
+if (isNaN(cell[0])) return `no answer: ${reasons.data.text[cell[1]]}`
+return `${words[0]}: ${rounded(cell[0], 4)}${unit[0]}`
+"""
+_SELECT = "if (cb_obj.final) veil.setv({low: cb_obj.geometry.x0, high: cb_obj.geometry.x1})"
+_FORGET = "veil.setv(all); counts.selected.indices = []"
+SIDE_BY_SIDE = """
+:host { display: grid !important; gap: 8px 16px;
+        min-height: auto !important;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
+"""
+"""Style of a layout of the figures: two in a row where there is room."""
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Numbers over a plane.
+
+    Attributes
+    ----------
+    x, y
+        the quantities of the sides, and evenly spaced values in their units, (nx,) and (ny,).
+    words, unit
+        of the numbers.
+    values : (ny, nx)
+        NaN where there is no answer.
+    reasons : (ny, nx)
+        why there is none.
+    """
+
+    x: tuple[Side, NDArray[np.float64]]
+    y: tuple[Side, NDArray[np.float64]]
+    words: str
+    unit: str
+    values: NDArray[np.float64]
+    reasons: NDArray[np.object_]
+
+    @classmethod
+    def of_sweep(cls, found: DataArray) -> Field:
+        """One output of a sweep over two fields, angles in degrees.
+
+        Raises
+        ------
+        ValueError
+            for another number of fields.
+        """
+        if found.ndim != 2:
+            raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
+        y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
+        (words, _, unit), values = _in_page_units(found)
+        reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
+        return cls(x, y, words, unit, values, reasons)
+
+    @cached_property
+    def scaled(self) -> tuple[NDArray[np.float64], str]:
+        """The numbers with an SI prefix for the greatest of them, and their unit with it."""
+        if self.unit in _NO_PREFIX:
+            return self.values, self.unit
+        power = prefix_power(float(np.nanmax(np.abs(self.values), initial=0.0)))
+        return self.values / 10.0**power, PREFIXES[power] + self.unit
+
+
+def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
+    """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
+    unit = str(given.attrs.get("units", ""))
+    words = str(given.name).replace("_", " ")
+    words = words[0].upper() + words[1:]
+    values = np.asarray(given, dtype=float)
+    if unit == "rad":
+        return (words, "", "°"), np.degrees(values)
+    return (words, "", "" if unit == "1" else unit), values
+
+
+class PlaneFigures:
+    """The map, a line across it each way, and a histogram in which values can be selected.
+
+    Parameters
+    ----------
+    packed
+        sends the numbers.
+    name
+        of the sources and ranges.
+    sides
+        all quantities that a side may have.
+    """
+
+    def __init__(self, packed: PackedSource, name: str, sides: Sequence[Side]) -> None:
+        self._name = name
+        # the words that go with the numbers: of the values, of x and of y
+        self._said = ColumnDataSource(_NO_WORDS)
+        self._reasons = ColumnDataSource({"text": []})
+        x, y = packed.range(f"{name}_x", 0.0, 1.0), packed.range(f"{name}_y", 0.0, 1.0)
+        value, values = (packed.range(f"{name}_{one}", 0.0, 1.0) for one in ("value", "values"))
+        points = packed.range(f"{name}_points", 0.0, 1.0)
+        self.map, self.up, self.across, self.histogram = (
+            style.make_figure(
+                _NAMELESS, _NAMELESS, *ranges, height=height, name=f"{name}_{which}", title=""
+            )
+            for ranges, (which, height) in zip(
+                ((x, y), (y, value), (x, value), (values, points)), HEIGHTS.items(), strict=True
+            )
+        )
+        self.plots = [self.map, self.up, self.across, self.histogram]
+        self.up.frame_align = self.histogram.frame_align = False  # they need no colour bar's room
+        self._add_map(packed, sides)
+        for line, sideways in ((self.across, True), (self.up, False)):
+            self._add_line(line, sideways)
+        self._add_histogram(packed)
+
+    def _add_map(self, packed: PackedSource, sides: Sequence[Side]) -> None:
+        plot, name = self.map, self._name
+        plot.grid.visible = False
+        plot.stylesheets = [":host { cursor: crosshair; }"]
+        self._colors = LinearColorMapper(palette=_PALETTES[False], nan_color=CLEAR)
+        scale_by(packed.range(f"{name}_colors", 0.0, 1.0), self._colors)
+        codes = LinearColorMapper(palette=[CLEAR])  # of the reasons, which are read and not seen
+        known = {"said": self._said, "reasons": self._reasons}
+        self._image = GridImage(
+            plot, packed, f"{name}_cells", [self._colors, codes], sides, _SAY, _HATCHED, **known
+        )
+        self._veil = LinearColorMapper(
+            palette=[CLEAR], low_color=style.PAPER, high_color=style.PAPER, nan_color=CLEAR,
+            syncable=False, **_EVERYTHING,
+        )  # fmt: skip
+        plot.image(
+            "image", "x", "y", "dw", "dh", source=self._image.source, level="image",
+            color_mapper=self._veil, global_alpha=0.8,
+        )  # fmt: skip
+        draw(plot, packed, ring_at(f"{name}_mark"))
+        self._mark = plot.renderers[-1].data_source
+        self._bar = color_bar(self._colors, bar_line_color=style.STEEL_EDGE)
+        plot.add_layout(self._bar, "right")
+
+    def _add_line(self, plot: figure, sideways: bool) -> None:
+        """The line across the map at the pointer, or at the scene."""
+        # or the server would hear of each movement
+        line = ColumnDataSource({"place": [], "value": []}, syncable=False)
+        plot.title.syncable = False
+        plot.line("place", "value", source=line, line_color=style.DEFECTIVE, line_width=2.0)
+        follow = sections(
+            self._image.source, line=line, title=plot.title, mark=self._mark, said=self._said,
+            sideways=sideways,
+        )  # fmt: skip
+        for event in ("mousemove", "mouseleave"):
+            self.map.js_on_event(event, follow)
+        for source in (self._mark, self._said, self._image.source):
+            source.js_on_change("data", follow)
+
+    def _add_histogram(self, packed: PackedSource) -> None:
+        plot = self.histogram
+        plot.title.text = "Select values here to find them on the map"
+        plot.yaxis.axis_label = "Points"
+        look = {"fill_color": style.DEFECTIVE, "line_color": "white"}
+        quads = Glyph(Quad, f"{self._name}_counts", (*_BAR_SIDES, 0.0), look)
+        (drawn,) = draw(plot, packed, [quads])
+        select = BoxSelectTool(dimensions="width")
+        plot.add_tools(select)
+        plot.toolbar.active_drag = select
+        known = {"veil": self._veil, "all": _EVERYTHING, "counts": drawn.data_source}
+        plot.js_on_event("selectiongeometry", CustomJS(args=known, code=_SELECT))
+        forget = CustomJS(args=known, code=_FORGET)
+        plot.js_on_event("reset", forget)
+        self._said.js_on_change("data", forget)
+
+    def write(self, field: Field) -> None:
+        """Set the words of a field. On the event loop only."""
+        unit = field.scaled[1]
+        (x, _), (y, _) = field.x, field.y
+        said = {
+            "words": [field.words, x.words, y.words],
+            "unit": [_spaced(one) for one in (unit, x.unit, y.unit)],
+        }
+        if (reasons := _reasons_of(field)[0]) != self._reasons.data["text"]:
+            self._reasons.data = {"text": reasons}
+        palette = _PALETTES[_has_both_signs(field.values)]
+        if palette != self._colors.palette:
+            self._colors.palette = palette
+        if said == self._said.data:
+            return
+        self._said.data = said
+        label = f"{field.words} ({unit})" if unit else field.words
+        self._bar.title = self.histogram.xaxis[0].axis_label = label
+        self.up.xaxis[0].axis_label, self.across.xaxis[0].axis_label = y.label, x.label
+        self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = f"({unit})" if unit else ""
+
+    def data(
+        self, field: Field, mark: tuple[float, float] | None = None, alpha: float = 1.0
+    ) -> tuple[dict[str, dict[str, np.ndarray]], dict[str, tuple[float, float]]]:
+        """Sources and ranges for a field; the lines are drawn across it at the `mark`."""
+        name, values = self._name, field.scaled[0]
+        known = values[np.isfinite(values)]
+        counts, edges = np.histogram(known, BINS if known.size else 1)
+        low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+        room = 0.06 * (high - low) or 0.06 * abs(high) or 1.0
+        codes = _reasons_of(field)[1]
+        x, y = np.reshape(mark if mark is not None else (), (2, -1))
+        sources: dict[str, dict[str, np.ndarray]] = {
+            f"{name}_cells": self._image.columns(field.x, field.y, [values, codes], alpha),
+            f"{name}_mark": {"x": x, "y": y},
+            f"{name}_counts": dict(zip(_BAR_SIDES, (edges[:-1], edges[1:], counts), strict=True)),
+        }
+        return sources, {
+            f"{name}_x": ends(field.x[1]),
+            f"{name}_y": ends(field.y[1]),
+            f"{name}_value": (low - room, high + room),
+            f"{name}_values": (float(edges[0]), float(edges[-1])),
+            f"{name}_points": (0.0, 1.05 * float(counts.max()) or 1.0),
+            f"{name}_colors": color_limits(values),
+        }
+
+
+_NAMELESS = style.AxisQuantity("", "", "")
+_BAR_SIDES = ("left", "right", "top")
+
+
+def _spaced(unit: str) -> str:
+    return unit if unit in ("", "°") else f" {unit}"
+
+
+def _reasons_of(field: Field) -> tuple[list[str], NDArray[np.float64]]:
+    """The different reasons of a field, and which of them each of its points has."""
+    texts, codes = np.unique(field.reasons.astype(str), return_inverse=True)
+    return texts.tolist(), codes.astype(float)
+
+
+def _has_both_signs(values: NDArray[np.float64]) -> bool:
+    return bool(np.nanmin(values, initial=0.0) < 0.0 < np.nanmax(values, initial=0.0))
+
+
+def color_limits(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Ends of the colour scale for numbers: the same on both sides of zero for both signs."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    if low < 0.0 < high:
+        most = max(-low, high)
+        return -most, most
+    if not high > low:
+        half = 0.5 * abs(low) or 0.5
+        return low - half, high + half
+    return low, high

@@ -1,0 +1,433 @@
+"""The house style: one way to make a figure, one palette, one way to write numbers with units.
+
+Data go to the browser in SI. The prefix (kN, µm, MN/m) is chosen there, from the range that the
+axis shows, by the same rule as `with_prefix` uses for sentences: so an axis, its label and its
+numbers cannot disagree, and nothing is rescaled on the way.
+
+Colours have one meaning each on the whole page and stay apart for colour-blind eyes (Okabe-Ito).
+"""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bokeh.models import (
+    Axis,
+    ColorBar,
+    ColumnDataSource,
+    CustomJS,
+    CustomJSExpr,
+    CustomJSTickFormatter,
+    CustomJSTransform,
+    FixedTicker,
+    LinearAxis,
+    Range1d,
+)
+from bokeh.plotting import figure
+
+from bearingcore.common.numbers import PREFIXES, prefix_power
+from bearingcore.common.numbers import number as number
+from bearingcore.common.numbers import with_prefix as with_prefix
+
+DEFECTIVE = "#0072B2"
+"""The bearing as the sliders have it."""
+HEALTHY = "#8E93A3"
+"""The same bearing without its defect."""
+DEFECT = "#E69F00"
+"""Where the defect is."""
+INK = "#20262D"
+"""Text, and the mark of the current cage angle."""
+FAINT_INK = "#5B6470"
+PAPER = "#FFFFFF"
+"""Background of figures; white is paper."""
+LIGHT, SHADE = "#FEFEFE", "#1B2127"
+"""On top of pictures, which are the same on a light and on a dark page."""
+STEEL = "#E7EAEE"
+STEEL_EDGE = "#A9B1BB"
+GRID = "#EDEFF2"
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry")
+DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377", "#56B4E9")
+"""Colour of each direction of motion, in the order of `DIRECTIONS`."""
+BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377")
+"""Colours of balls that are shown one by one, taken in turn."""
+
+FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
+HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")
+TEXT_SIZE = "12px"
+WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
+"""Style of rows that stand below one another where there is little room."""
+BUTTONS = f"""
+:host {{
+  --default: var(--card); --default-hover: var(--track-soft); --default-active: var(--accent-paper);
+  --default-border: var(--line); --default-hover-border: var(--line);
+  --default-active-border: var(--accent); --color: var(--ink); color: var(--ink);
+  font-family: {FONT}; font-size: 13px;
+}}
+:host .bk-input-group, :host label {{ font-family: {FONT}; }}
+:host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
+:host .bk-btn.bk-active {{ color: var(--accent); }}
+"""
+"""Style of Bokeh's own buttons and boxes to tick, light and dark."""
+SMALL_TEXT_SIZE = "11px"
+
+# Numbers as text, as `bearingcore.common.numbers` does in sentences.
+JS_PREFIX = """
+const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
+const power = (top) => !(top > 0) || !isFinite(top) ? 0 :
+  Math.max(-12, Math.min(12, 3*Math.floor(Math.log10(top*1.0000001)/3)))
+const minus = (text) => text.replace('-', '\u2212')
+const raised = (e) => [...String(e)].map(c => c == '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]).join('')
+const scientific = (value, digits) => {
+  const [mantissa, e] = value.toExponential(digits - 1).split('e')
+  return minus(Number(mantissa) + '·10' + raised(Number(e)))
+}
+const wide = (value) => value !== 0 && !(Math.abs(value) >= 1e-4 && Math.abs(value) < 1e7)
+const rounded = (value, digits) => !isFinite(value) ? 'no value'
+  : wide(value) ? scientific(value, digits)
+  : minus(Math.abs(value) >= 10**(digits - 1)
+    ? value.toFixed(0) : String(Number(value.toPrecision(digits))))
+const si = (value, unit, digits = 3) => {
+  if (!isFinite(value)) return 'no value'
+  let e = power(Math.abs(value))
+  let scaled = Number((value/10**e).toPrecision(digits))
+  if (Math.abs(scaled) >= 1000 && e < 12) { e += 3; scaled /= 1000 }
+  return wide(scaled) ? scientific(value, digits) + '\u00a0' + unit
+    : rounded(scaled, digits) + '\u00a0' + names[e] + unit
+}
+"""
+
+
+NARROW = 420
+"""[px] width of a frame below which there is room for short words only."""
+LARGER = """
+const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
+"""
+_IS_NARROW = (
+    LARGER
+    + """
+let narrow = false
+if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
+"""
+)
+
+
+def text_offset(column: str) -> dict[str, Any]:
+    """Offset of texts by the pixels in a column; they grow with the type, on a projector too."""
+    code = LARGER + "return xs.map(offset => larger*offset)"
+    return {"field": column, "transform": CustomJSTransform(v_func=code)}
+
+
+@dataclass(frozen=True)
+class AxisQuantity:
+    """Quantity of an axis: name, symbol and unit.
+
+    `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
+    `around`: an angle, written between 0° and 360° also where the axis runs past.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    prefixed: bool = False
+    around: bool = False
+
+    @property
+    def words(self) -> str:
+        """Name and symbol."""
+        return f"{self.name} {self.symbol}".strip()
+
+    def label(self, top: float = 1.0) -> str:
+        """Text of the axis for a range whose greatest absolute value is `top` [unit]."""
+        prefix = PREFIXES[prefix_power(top)] if self.prefixed else ""
+        unit = f"{prefix}{self.unit}"
+        return f"{self.words} ({unit})" if unit else self.words
+
+
+BALL_LOAD = AxisQuantity("Contact load", "Q", "N", prefixed=True)
+BALL_ANGLE = AxisQuantity("Angular position", "φ", "°", around=True)
+CAGE_ANGLE = AxisQuantity("Cage angle", "φc", "°")
+SHAFT_ANGLE = AxisQuantity("Shaft angle", "φs", "°")
+TIME = AxisQuantity("Time", "t", "s", prefixed=True)
+
+
+def make_figure(
+    x: AxisQuantity,
+    y: AxisQuantity,
+    x_range: Range1d,
+    y_range: Range1d,
+    *,
+    height: int = 300,
+    title: str | None = None,
+    right: int = 14,
+    sizing_mode: str = "stretch_both",
+    **options: Any,
+) -> figure:
+    """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
+
+    `right` is the room [px] right of the frame, for labels next to their lines. Unless
+    `sizing_mode` says otherwise it is as wide and high as its place, and `height` [px] the least.
+    """
+    plot = figure(
+        x_range=x_range,
+        y_range=y_range,
+        **({"min_height": height} if sizing_mode == "stretch_both" else {"height": height}),
+        title=title,
+        tools="",
+        toolbar_location="right",
+        output_backend="canvas",
+        sizing_mode=sizing_mode,
+        min_border_right=right,
+        min_border_left=64,
+        min_border_top=10,
+        lod_threshold=None,  # or Bokeh holds lines of thousands of points once more, with fewer
+        **{"min_width": 280, **options},
+    )
+    plot.toolbar_inner = True
+    style_figure(plot)
+    for axis, quantity, shown in ((plot.xaxis[0], x, x_range), (plot.yaxis[0], y, y_range)):
+        style_axis(axis)
+        write_units(axis, quantity, shown)
+    return plot
+
+
+def style_figure(plot: figure) -> None:
+    """Paper, grid, title and toolbar of a figure."""
+    plot.background_fill_color = plot.border_fill_color = PAPER
+    plot.outline_line_color = None
+    plot.toolbar.logo = None
+    plot.toolbar.autohide = True
+    plot.grid.grid_line_color = GRID
+    if plot.title is not None:
+        plot.title.text_font = FONT
+        plot.title.text_font_size = TEXT_SIZE
+        plot.title.text_font_style = "normal"
+        plot.title.text_color = FAINT_INK
+
+
+def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: Any) -> figure:
+    """A figure without axes and grid, for drawings."""
+    plot = make_figure(
+        AxisQuantity("", "", ""),
+        AxisQuantity("", "", ""),
+        x_range,
+        y_range,
+        height=height,
+        **options,
+    )
+    plot.axis.visible = False
+    plot.grid.visible = False
+    plot.min_border_left = plot.min_border_right = plot.min_border_top = 0
+    plot.min_border_bottom = 0
+    return plot
+
+
+def style_axis(axis: Axis) -> None:
+    """Fonts and colours of an axis."""
+    axis.axis_label_text_font = axis.major_label_text_font = FONT
+    axis.axis_label_text_font_style = "normal"
+    axis.axis_label_text_font_size = TEXT_SIZE
+    axis.axis_label_text_color = INK
+    axis.major_label_text_font_size = SMALL_TEXT_SIZE
+    axis.major_label_text_color = FAINT_INK
+    axis.axis_line_color = STEEL_EDGE
+    axis.major_tick_line_color = STEEL_EDGE
+    axis.major_tick_in = 0
+    axis.major_tick_out = 4
+    axis.minor_tick_line_color = None
+    axis.axis_label_standoff = 6
+
+
+def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Range1d) -> None:
+    """Label an axis or colour bar; numbers and label follow the prefix that `shown` asks for."""
+    field = "title" if isinstance(axis, ColorBar) else "axis_label"
+    setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
+    axis.formatter = tick_formatter(quantity, shown)
+    if quantity.prefixed:
+        axis.syncable = False  # or the server would hear of each change of its label
+        follow = CustomJS(
+            args={
+                "axis": axis,
+                "field": field,
+                "shown": shown,
+                "words": quantity.words,
+                "unit": quantity.unit,
+            },
+            code=JS_PREFIX
+            + """
+const e = power(Math.max(Math.abs(shown.start), Math.abs(shown.end)))
+const label = `${words} (${names[e]}${unit})`
+if (axis[field] != label) axis[field] = label
+""",
+        )
+        shown.js_on_change("start", follow)
+        shown.js_on_change("end", follow)
+
+
+def tick_formatter(quantity: AxisQuantity, shown: Range1d) -> CustomJSTickFormatter:
+    """Numbers of an axis over the range `shown`, with a true minus sign."""
+    return CustomJSTickFormatter(
+        args={"shown": shown, "prefixed": quantity.prefixed, "around": quantity.around},
+        code=JS_PREFIX
+        + """
+const e = prefixed ? power(Math.max(Math.abs(shown.start), Math.abs(shown.end))) : 0
+const turned = !around ? tick : tick > 360 ? tick - 360 : tick < 0 ? tick + 360 : tick
+return minus(String(Number((turned/10**e).toPrecision(6))))
+""",
+    )
+
+
+def logarithmic_ticks(unit: str = "", plot: figure | None = None) -> CustomJSTickFormatter:
+    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten.
+
+    Below a narrow `plot` only powers of ten have a number.
+    """
+    return CustomJSTickFormatter(
+        args={"unit": unit, "plot": plot, "below": NARROW},
+        code=JS_PREFIX
+        + _IS_NARROW
+        + """
+if (narrow && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 0.01) return ''
+if (unit) return si(tick, unit)
+if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
+const e = Math.floor(Math.log10(tick*1.0000001))
+const m = Number((tick/10**e).toPrecision(2))
+return (m == 1 ? '' : m + '·') + '10' + raised(e)
+""",
+    )
+
+
+def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
+    """Put the numbers of an axis at `ticks` whatever its range."""
+    axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
+
+
+def words_of(
+    source: ColumnDataSource, code: str, keep: str = "return true", **known: Any
+) -> CustomJSExpr:
+    """Text made in the browser from the numbers of `source`, as the packed source carries no words.
+
+    `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
+    ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
+    `keep` is the body of ``(row, text) => ...`` and says whether a text is shown. `known`: models
+    that both know besides.
+    """
+    return CustomJSExpr(
+        args={"source": source, **known},
+        code=JS_PREFIX
+        + """
+const data = source.data
+const columns = Object.keys(data)
+const count = columns.length ? data[columns[0]].length : 0
+const write = (row) => {"""
+        + code
+        + "}\nconst keep = (row, text) => {"
+        + keep
+        + """}
+const texts = []
+for (let i = 0; i < count; i++) {
+  const row = {}
+  for (const column of columns) row[column] = data[column][i]
+  const text = String(write(row))
+  texts.push(keep(row, text) ? text : "")
+}
+return texts
+""",
+    )
+
+
+def fitting_words(
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    below: float = NARROW,
+    keep: str = "return true",
+    **known: Any,
+) -> CustomJSExpr:
+    """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
+
+    `below`: of which width [px] it is, with type of the usual size. `keep` knows the `plot`.
+    """
+    # its width is known later than its numbers, and changes
+    write = CustomJS(args={"source": source}, code="source.change.emit()")
+    plot.js_on_change("inner_width", write)
+    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below, **known)
+
+
+_ZOOMED = """
+const {start, end, reset_start, reset_end} = shown
+const zoomed = reset_start !== null && (start !== reset_start || end !== reset_end)
+"""
+_IN_VIEW = f"""{_ZOOMED}
+if (!zoomed) return true
+const at = row[column]
+if (!(at >= start && at <= end)) return false
+const room = (end - at)/(end - start)*plot.inner_width + margin
+return room >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
+"""
+_ZOOMS = f"""{_ZOOMED}
+if (zoomed || was[0]) source.change.emit()
+was[0] = zoomed
+"""
+
+
+def words_in_view(
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    column: str,
+    side: str = "x",
+    share: float = 0,
+) -> CustomJSExpr:
+    """Like `words_of`, for words that the frame does not cut off: they go when zoomed out of view.
+
+    `column` says where along `side` they stand; what goes too far over the right edge of the frame
+    is left out too, where a `share` of each text is right of its place. The code knows whether the
+    frame is `narrow`, as that of `fitting_words` does.
+    """
+    shown = plot.x_range if side == "x" else plot.y_range
+    known = {"shown": shown, "column": column, "share": share}
+    margin = plot.min_border_right
+    follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
+    shown.js_on_change("start", follow)
+    shown.js_on_change("end", follow)
+    return fitting_words(plot, source, code, NARROW, _IN_VIEW, margin=margin, **known)
+
+
+def in_degrees(angle: float, digits: int = 1) -> str:
+    """`angle` [rad] for a sentence, between 0° and 360°."""
+    turned = math.degrees(angle) % 360.0
+    text = f"{turned:.{digits}f}"
+    whole = f"{360.0:.{digits}f}"
+    text = f"{0.0:.{digits}f}" if text == whole else text
+    return text.rstrip("0").rstrip(".") + "°" if "." in text else text + "°"
+
+
+def color_along(direction: str) -> str:
+    """Colour of a direction of motion."""
+    return DIRECTION_COLORS[DIRECTIONS.index(direction)]
+
+
+def css_color(color: str) -> str:
+    """A colour for a style in HTML that follows light and dark as it does in figures."""
+    return f"var(--in-dark-{color[1:].upper()}, {color})"
+
+
+def list_words(words: Sequence[str]) -> str:
+    """The words as a sentence lists them: "a", "a and b", "a, b and c"."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
+
+
+def legend(items: Iterable[tuple[str, str, str]]) -> str:
+    """A legend as HTML: colour, sign and words of each item."""
+    spans = "".join(
+        f'<span><span style="color:{css_color(color)}" aria-hidden="true">{sign}</span>'
+        f" {html.escape(words)}</span>"
+        for color, sign, words in items
+    )
+    box = f"{HTML_FONT};display:flex;flex-wrap:wrap;gap:3px 18px;padding:4px 2px"
+    return f'<div style="{box}">{spans}</div>'

@@ -1,0 +1,74 @@
+"""The frame of a report: a page of HTML that stands alone, and its head."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from urllib.parse import urlsplit
+
+from bearing_explorer.kit.widgets.facts import html_text
+from bearingcore.sweep.grid import program_version
+
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+
+
+@dataclass(frozen=True)
+class About:
+    """Head of a report: bearing, source of its numbers, link, day.
+
+    `title`, `machine` and `remarks` are free text; they may be empty.
+    """
+
+    bearing: str
+    note: str
+    link: str
+    date: datetime
+    title: str = ""
+    machine: str = ""
+    remarks: str = ""
+
+
+def mark_of(figure_id: str) -> str:
+    """Placeholder of a figure in the page."""
+    return f"<!--figure {figure_id}-->"
+
+
+def heading(about: About, title: str) -> list[str]:
+    """The head of a report, as HTML: title, machine, remarks, day, version and link."""
+    when = about.date.strftime("%d %B %Y, %H:%M UTC")
+    link = _link(about.link)
+    return [
+        f"<header><h1>{html_text(title)}</h1>",
+        f"<p>Machine: {html_text(about.machine)}</p>" if about.machine.strip() else "",
+        *(f"<p>{html_text(line)}</p>" for line in about.remarks.splitlines() if line.strip()),
+        f"<p>{html_text(when)}, Bearing explorer "
+        f"{html_text(program_version())}{f', {link}' if link else ''}</p></header>",
+    ]
+
+
+def document(about: About, title: str, body: Iterable[str], style_sheet: str) -> str:
+    """A whole page of HTML that fetches and runs nothing."""
+    return (
+        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
+        "<meta name='viewport' content='width=device-width, initial-scale=1'>"
+        f"<title>{html_text(title)}, {html_text(about.date.strftime('%Y-%m-%d'))}</title>"
+        f"<style>{style_sheet}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n"
+    )
+
+
+def now() -> datetime:
+    """The day and the hour."""
+    return datetime.now(UTC)
+
+
+def _link(address: str) -> str:
+    """An address as a link; nothing where it is none of the web's."""
+    try:
+        parts = urlsplit(address)
+    except ValueError:
+        return ""
+    if parts.scheme not in ("http", "https") or not parts.netloc:
+        return ""
+    return f"<a href='{html_text(address)}'>open this scene</a>"

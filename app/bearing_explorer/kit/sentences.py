@@ -1,0 +1,86 @@
+"""Refusals as sentences of the page: fields by their labels, numbers in the units of the page."""
+
+from __future__ import annotations
+
+from bearingcore.common.numbers import number
+from bearingcore.errors import FieldError
+from bearingcore.fields import FIELD_OF, FIELDS, Field
+from bearingcore.units import UNITS
+
+_READ_UNITS = {"m": "mm", "rad": "°", "rad/s": "Hz", "Pa": "GPa"}
+"""Shown units of SI numbers that belong to no field."""
+
+_GROOVES = ("inner_groove_radius", "outer_groove_radius")
+
+
+def sentence_of(error: ValueError) -> str:
+    """The sentence of a refusal. What the page itself refuses is one already."""
+    words = words_of(error)
+    whole = str(error) == f"{words}."
+    return str(error) if whole else f"Not possible: {words}."
+
+
+def words_of(error: ValueError) -> str:
+    """A refusal in the words of the page, without a full stop, to stand inside a sentence.
+
+    "shaft_speed is -1; allowed: a finite number at least 0" is "shaft speed is −0.15915 Hz;
+    allowed: a finite number at least 0 Hz". A shaft may stand still: where it has to turn, that is
+    the reason, and no number is wrong.
+    """
+    if not isinstance(error, FieldError):
+        return str(error).removesuffix(".")
+    if error.field == "shaft_speed" and error.value == 0.0:
+        return "the shaft speed is 0 Hz, so nothing turns"
+    if error.field in _GROOVES and error.value is None:
+        return "the groove radii are not known; enter them on the Machine tab, under Bearing"
+    field = field_of(error)
+    si = error.unit or (field.unit if field else "")
+
+    def amount(value: float, unit: str) -> str:
+        return _amount(value, unit or si, field)
+
+    value = amount(error.value, si) if isinstance(error.value, int | float) else error.shown
+    where = "".join(f"{part}: " for part in error.where)
+    return f"{where}{name_of(error.field)} is {value}; allowed: " + error.allowed_words(
+        name_of, amount
+    )
+
+
+def field_of(error: ValueError) -> Field | None:
+    """The field that a refusal is about; None where the page has no such field."""
+    if not isinstance(error, FieldError):
+        return None
+    second = [field for field in FIELDS if (field.part, field.name) == ("second", error.field)]
+    return second[0] if second and "row 2" in error.where else FIELD_OF.get(error.field)
+
+
+def name_of(name: str) -> str:
+    """The label of a field inside a sentence; another name without its underscores."""
+    field = FIELD_OF.get(name)
+    return name.replace("_", " ") if field is None else label_inside(field)
+
+
+def label_inside(field: Field) -> str:
+    """The label of a field inside a sentence: small, unless it is a person's name."""
+    label = field.label
+    return label if label[:2] in ("Yo", "Po") else label[0].lower() + label[1:]
+
+
+def one_line(text: str, longest: int) -> str:
+    """Untrusted text on one line: printable characters, at most `longest` of them."""
+    clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * longest])
+    return " ".join(clean.split())[:longest].rstrip()
+
+
+def with_unit(value: float, unit: str, digits: int = 6) -> str:
+    """A number with the unit of the page behind it: "12 mm", "3°"."""
+    return number(value, digits) + (unit if unit in ("", "°") else f" {unit}")
+
+
+def _amount(value: float, si: str, field: Field | None) -> str:
+    """A number in SI with the unit that the page has for the field, or for such numbers."""
+    unit = _READ_UNITS.get(si, si)
+    if field is not None and field.unit == si:
+        unit = field.shown_unit
+    unit = "" if unit == "1" else unit
+    return with_unit(value / UNITS[unit].factor if unit in UNITS else value, unit, 5)

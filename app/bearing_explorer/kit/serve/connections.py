@@ -1,0 +1,128 @@
+"""Bounds on the size, time and number of requests before they are answered.
+
+Tornado reads a whole request before it asks the page: of bodies, which no page here takes, up to a
+hundred megabytes, and headers for as long as they come.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+from tornado.httpserver import HTTPServer
+from tornado.httputil import HTTPMessageDelegate, RequestStartLine, ResponseStartLine
+from tornado.iostream import IOStream, UnsatisfiableReadError
+
+from bearing_explorer.kit.serve.pages import message_page
+
+LARGEST_HEADERS = 64_000
+"""Of a request [bytes], its address among them."""
+LARGEST_BODY = 64_000
+"""Of a request [bytes]; only GET and HEAD are answered."""
+SLOWEST_HEADERS = 8.0
+"""For which headers may be under way, and a connection may wait for its next request [s]."""
+MOST_UNFINISHED = 60
+"""Connections at once whose headers are under way; the oldest makes room for another."""
+MOST_ANSWERED, LONGEST_ANSWER, LARGEST_REST = 8, 2.0, 4_000_000
+"""Connections at once that get the sentence about a long address, the time that takes at most [s],
+and how much they may still send [bytes]: a socket closed with bytes unread loses what it was sent.
+"""
+
+HTTP_OPTIONS = {
+    "max_header_size": LARGEST_HEADERS,
+    "max_body_size": LARGEST_BODY,
+    "idle_connection_timeout": SLOWEST_HEADERS,
+    "body_timeout": SLOWEST_HEADERS,
+}
+"""Options of Tornado's server."""
+
+_TOO_LONG = message_page(
+    "This address is too long", "A scene with a long measured floor is shared as a file: Download."
+).encode()
+TOO_LONG_ANSWER = (
+    b"HTTP/1.1 431 Request Header Fields Too Large\r\nContent-Type: text/html; charset=utf-8\r\n"
+    b"Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'\r\n"
+    b"Connection: close\r\nContent-Length: %d\r\n\r\n%s" % (len(_TOO_LONG), _TOO_LONG)
+)
+
+
+class _Started(HTTPMessageDelegate):
+    """Passes a request on, and notes when its headers have come."""
+
+    def __init__(self, inner: HTTPMessageDelegate, come: Callable[[], None]) -> None:
+        self._inner, self._come = inner, come
+
+    def headers_received(
+        self, start_line: RequestStartLine | ResponseStartLine, headers: Any
+    ) -> Any:
+        self._come()
+        return self._inner.headers_received(start_line, headers)
+
+    def data_received(self, chunk: bytes) -> Any:
+        return self._inner.data_received(chunk)
+
+    def finish(self) -> None:
+        self._inner.finish()
+
+    def on_connection_close(self) -> None:
+        self._inner.on_connection_close()
+
+
+class BoundedServer(HTTPServer):
+    """Tornado's server with a bound on connections whose headers are under way."""
+
+    _unfinished: dict[int, IOStream]
+    _answered = 0
+
+    def handle_stream(self, stream: IOStream, address: tuple) -> None:
+        """A connection has come."""
+        while len(self._unfinished) >= MOST_UNFINISHED:
+            self._unfinished.pop(next(iter(self._unfinished))).close()
+        self._unfinished[id(stream)] = stream
+        close = stream.close
+
+        def close_with_an_answer(exc_info: Any = False) -> None:
+            self._unfinished.pop(id(stream), None)
+            if isinstance(exc_info, UnsatisfiableReadError) and self._answered < MOST_ANSWERED:
+                self._say_too_long(stream)
+            close(exc_info)
+
+        stream.close = close_with_an_answer  # type: ignore[method-assign]
+        super().handle_stream(stream, address)
+
+    def start_request(self, server_conn: object, request_conn: Any) -> HTTPMessageDelegate:
+        """A connection is about to send headers."""
+        stream = request_conn.stream
+
+        def come() -> None:
+            self._unfinished.pop(id(stream), None)
+
+        return _Started(super().start_request(server_conn, request_conn), come)
+
+    def _say_too_long(self, stream: IOStream) -> None:
+        """Answer headers that are longer than allowed, and read on until the browser has read."""
+        with suppress(OSError):
+            rest = stream.socket.dup()
+            rest.setblocking(False)
+            rest.send(TOO_LONG_ANSWER)
+            rest.shutdown(socket.SHUT_WR)
+            self._answered += 1
+            asyncio.get_running_loop().create_task(self._drain(rest))
+
+    async def _drain(self, rest: socket.socket) -> None:
+        read = asyncio.get_running_loop().sock_recv
+        with rest, suppress(OSError, TimeoutError):
+            left = LARGEST_REST
+            async with asyncio.timeout(LONGEST_ANSWER):
+                while left > 0 and (came := await read(rest, 65_536)):
+                    left -= len(came)
+        self._answered -= 1
+
+
+def bound(server: HTTPServer) -> None:
+    """Bound the connections of a server that a library has made."""
+    server.__class__ = BoundedServer
+    server._unfinished = {}  # type: ignore[attr-defined]

@@ -1,0 +1,89 @@
+"""Changes of a session's document: made on the event loop, sent to the browser as one message."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from contextlib import nullcontext
+from typing import Any
+
+from bokeh.document import Document
+from panel.io.state import set_curdoc
+from panel.models.esm import DataEvent
+
+from bearing_explorer.kit.serve.fast import dispatch_event, locked, send_changes, sockets_of
+
+
+def on_loop(doc: Document | None, act: Callable[[], None]) -> None:
+    """Have `act` happen on the event loop of a session: now where this is it, else soon.
+
+    From 3.10 on Bokeh hands over in threads, which have no loop, what a browser sends.
+    """
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        assert doc is not None
+
+        async def soon() -> None:
+            with set_curdoc(doc):
+                act()
+
+        doc.add_next_tick_callback(soon)
+    else:
+        with set_curdoc(doc) if doc is not None else nullcontext():
+            act()
+
+
+async def hand_on(session: Any, model: Any, data: Any) -> None:
+    """Give a message of the browser to the component that `model` shows.
+
+    Bokeh would list all models of the document to read it, and ask each whether it is meant.
+    """
+
+    async def act(document: Document) -> None:
+        with set_curdoc(document):
+            dispatch_event(model, DataEvent(model, data))
+
+    await locked(session, act)
+
+
+async def one_message(
+    doc: Document | None, change: Callable[[], None], new_models: bool = False
+) -> None:
+    """Run `change`, which changes models of `doc`, and send all its changes as one message.
+
+    For tasks of the event loop, which hold no lock on the document. The lock is taken and held
+    until the message is written, so messages arrive in the order of the changes. Panel's own
+    ``unlocked`` does not promise that: where two of its writes meet, the second may lie about
+    until a third comes, and the last position of a slider would not be drawn.
+
+    With `new_models` Bokeh counts the models of the document once, after all of the change.
+    """
+    session = getattr(getattr(doc, "session_context", None), "session", None)
+    if doc is None or session is None:
+        change()
+        return
+
+    async def act(document: Document) -> None:
+        def in_document() -> None:
+            with set_curdoc(document), document.models.freeze() if new_models else nullcontext():
+                change()
+
+        await send_changes(session, document, in_document)
+
+    await locked(session, act)
+
+
+def send_at_once(doc: Document | None) -> int:
+    """Set TCP_NODELAY on the websockets of `doc`; return how many there were.
+
+    A Bokeh message is several small frames; without this the kernel holds them back until
+    the browser acknowledges the one before (about 30 ms a drawing).
+    """
+    context = getattr(doc, "session_context", None)
+    count = 0
+    for socket in sockets_of(getattr(context, "session", None)):
+        if getattr(socket, "ws_connection", None) is not None:
+            socket.set_nodelay(True)
+            count += 1
+    return count

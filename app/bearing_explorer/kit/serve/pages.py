@@ -1,0 +1,93 @@
+"""The page, and small ones with a sentence where it cannot be shown."""
+
+from __future__ import annotations
+
+import asyncio
+import html
+from typing import Any, ClassVar
+from urllib.parse import unquote
+
+from panel.io import server as panel_server
+from tornado.httputil import HTTPServerRequest
+from tornado.routing import Matcher
+from tornado.web import RequestHandler
+
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.serve.address import LONGEST_ADDRESS, TOO_LONG
+
+
+def message_page(title: str, words: str) -> str:
+    """A small page with a sentence."""
+    page = asset_text("message.html")
+    return page.replace("{title}", html.escape(title)).replace("{words}", html.escape(words))
+
+
+def write_html(handler: RequestHandler, status: int, title: str, words: str) -> None:
+    """Answer with a small page that is not cached."""
+    handler.set_status(status)
+    handler.set_header("Content-Type", "text/html; charset=utf-8")
+    handler.set_header("Cache-Control", "no-store")
+    handler.write(message_page(title, words))
+
+
+class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
+    """The page, or a sentence that asks to come back later."""
+
+    most_sessions: ClassVar[int] = 100
+    one_at_a_time: ClassVar[asyncio.Lock] = asyncio.Lock()
+    """With a pause after each page, in which those who have one are drawn: of 20 who come at once
+    all waited for the last page otherwise."""
+
+    async def get(self, *arguments: Any, **named: Any) -> None:
+        """A session, and the page that connects to it."""
+        if len(self.request.uri or "") > LONGEST_ADDRESS:
+            self.redirect(f"?v={TOO_LONG}")  # relative: a path such as //elsewhere would lead there
+        elif {"bokeh-token", "bokeh-session-id"} & set(self.request.arguments):
+            write_html(self, 400, "This address does not work", _NO_SESSION)
+        elif len(list(self.application_context.sessions)) >= self.most_sessions:
+            self.set_header("Retry-After", "60")
+            write_html(self, 503, "The server is full", _FULL.format(self.most_sessions))
+        else:
+            async with self.one_at_a_time:
+                await super().get(*arguments, **named)
+                await asyncio.sleep(0.03)
+
+    def head(self, *arguments: Any, **named: Any) -> None:
+        """For monitors: no session is made."""
+
+    def write_error(self, status_code: int, **named: Any) -> None:
+        """A page with a sentence; what went wrong stands in the log."""
+        words = f"The server answers {status_code}. Try the page again."
+        write_html(self, status_code, "This did not work", words)
+        self.finish()
+
+
+_FULL = "This server has room for {} people at once. Try again in a minute."
+_NO_SESSION = "A session cannot be named in an address. Leave the part after the question mark out."
+
+
+class Missing(RequestHandler):
+    """Every other path."""
+
+    def prepare(self) -> None:
+        """A sentence, whatever the method."""
+        write_html(self, 404, "There is no such page", "The explorer is one page up.")
+        self.finish()
+
+
+class HasControls(Matcher):
+    """Matches paths with control characters, at which Tornado's file handler fails."""
+
+    def match(self, request: HTTPServerRequest) -> dict[str, Any] | None:
+        """Parameters of the handler; None where the path is an ordinary one."""
+        return None if unquote(request.path or "").isprintable() else {}
+
+
+class Icon(RequestHandler):
+    """The logo as the page's icon, also under a path in front of the page."""
+
+    def get(self) -> None:
+        """The picture."""
+        self.set_header("Content-Type", "image/svg+xml")
+        self.set_header("Cache-Control", "max-age=86400")
+        self.write(asset_text("logo.svg"))

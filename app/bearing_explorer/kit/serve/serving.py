@@ -1,0 +1,128 @@
+"""The server around the page: Bokeh's own, with headers, a cap on sessions, and small pages."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import os
+import secrets
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import panel as pn
+from bokeh.server.urls import per_app_patterns
+from bokeh.settings import settings
+from tornado.ioloop import PeriodicCallback
+from tornado.routing import Rule
+
+from bearing_explorer.kit.serve.connections import HTTP_OPTIONS, bound
+from bearing_explorer.kit.serve.fast import find_models_quickly
+from bearing_explorer.kit.serve.headers import Headers
+from bearing_explorer.kit.serve.pages import HasControls, Icon, Missing, PageHandler
+from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
+
+SESSION_GRACE_SECONDS = 15.0
+"""For which a session is kept that has no browser: it may come, or come back [s]."""
+
+_SWITCH_INTERVAL = 0.0005
+"""For which a thread may keep the interpreter from the event loop, which needs it for a moment at a
+time [s]. With Python's own 5 ms a class of thirty waits a sixth longer."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The most that a process gives.
+
+    Attributes
+    ----------
+    sessions
+        people at once; those who come later are asked to come back.
+    message
+        of a browser, all of its frames [bytes]. Files are uploaded in pieces of 1 MB.
+    idle
+        after which a browser that sends nothing is disconnected [s].
+    """
+
+    sessions: int = 100
+    message: int = 4 * 2**20
+    idle: float = 3600.0
+
+
+def make_server(
+    *,
+    port: int,
+    address: str,
+    page: Callable[[], Any],
+    origins: Sequence[str] = (),
+    root_path: str = "",
+    num_procs: int = 1,
+    frame_ancestors: Sequence[str] = (),
+    limits: Limits = Limits(),
+) -> Any:
+    """The server, listening but not running yet. OSError where the port is taken."""
+    PageHandler.most_sessions = limits.sessions
+    PageHandler.one_at_a_time = asyncio.Lock()
+    LiveSocket.largest = limits.message
+    Headers.frame_ancestors = ("'self'", *frame_ancestors)
+    per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]
+    find_models_quickly()
+    settings.perform_document_validation = False  # the tests do it
+    options: dict[str, Any] = {}
+    LiveSocket.schemes = dict(map(_origin, origins))
+    if origins:
+        options["websocket_origin"] = list(LiveSocket.schemes)
+    if root_path:
+        options["prefix"] = root_path
+    server = pn.serve(
+        {"/": page},
+        port=port,
+        address=address,
+        title="Bearing explorer",
+        show=False,
+        start=False,
+        liveness=True,
+        verbose=False,
+        num_procs=num_procs,
+        use_index=False,
+        sign_sessions=True,
+        secret_key=os.environ.get("BOKEH_SECRET_KEY", secrets.token_urlsafe(32)).encode(),
+        include_headers=[],
+        include_cookies=[],
+        websocket_max_message_size=limits.message,
+        http_server_kwargs=dict(HTTP_OPTIONS),
+        unused_session_lifetime_milliseconds=int(1e3 * SESSION_GRACE_SECONDS),
+        check_unused_sessions_milliseconds=1000,
+        default_handler_class=Missing,
+        extra_patterns=[(r"/favicon.ico", Icon)],
+        **options,
+    )
+    bound(server._http)
+    sys.setswitchinterval(_SWITCH_INTERVAL)
+    server._tornado.add_transform(Headers)
+    server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
+    PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
+    return server
+
+
+def _origin(text: str) -> tuple[str, tuple[str, ...]]:
+    """An allowed host with its port, and the schemes of pages there: both where none is given."""
+    scheme, separator, host = text.rpartition("://")
+    host = host.rstrip("/").lower()
+    return host, (scheme.lower(),) if separator else ("http", "https")
+
+
+_YOUNG, _MIDDLE, _FULL = 2000, 10, 1000  # Python's own: 700, 10, 10
+
+
+def freeze_startup_objects() -> None:
+    """Have garbage collections look past what stays as long as the process: modules, kernels.
+
+    Sessions refer to each other in circles, which only collections free; Panel starts one five
+    seconds after the last session has ended. Full ones while a class is there free nothing, and
+    hold the event loop for a second each with thirty sessions: they come a hundred times less.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(_YOUNG, _MIDDLE, _FULL)

@@ -1,0 +1,133 @@
+"""The websocket of a browser: it takes messages of the page's own scripts and nothing else."""
+
+from __future__ import annotations
+
+import time
+from typing import Any, ClassVar
+from urllib.parse import urlsplit
+
+from panel.io import server as panel_server
+
+from bearing_explorer.kit.serve import live
+from bearing_explorer.kit.serve.allowed_messages import (
+    MOST_EVENTS,
+    by_id,
+    component_message,
+    is_allowed,
+    is_costly,
+)
+from bearing_explorer.kit.serve.fast import locked
+from bearing_explorer.kit.serve.log import log_warning
+
+
+class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
+    """The websocket of one browser."""
+
+    connected: ClassVar[set[LiveSocket]] = set()
+    schemes: ClassVar[dict[str, tuple[str, ...]]] = {}
+    """Schemes by which pages of the hosts that are allowed by name may have come."""
+    largest: ClassVar[int] = 4 * 2**20
+    """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
+    last_message_at = 0.0
+    """When the browser sent something last [s of `time.monotonic`]."""
+    _size = 0
+    connection: Any
+    receiver: Any
+
+    def check_origin(self, origin: str) -> bool:
+        """Whether a page of this origin may connect.
+
+        Bokeh compares hosts alone. This server speaks http: a page that came by https came through
+        a proxy, whose name has been allowed, or from elsewhere.
+        """
+        try:
+            scheme, host = urlsplit(origin).scheme, urlsplit(origin).netloc.lower()
+            allowed = self.schemes.get(host, ("http",))
+            return scheme in allowed and bool(super().check_origin(origin))
+        except ValueError:  # it is no address at all
+            return False
+
+    async def open(self, *arguments: Any, **named: Any) -> None:
+        """Connect to the session that the token names."""
+        try:
+            super().open(*arguments, **named)
+        except Exception as error:
+            self._refuse(error)
+
+    async def _async_open(self, token: str) -> None:
+        self.last_message_at = time.monotonic()
+        try:
+            await super()._async_open(token)
+        except Exception as error:
+            self._refuse(error)
+        else:
+            self.connected.add(self)
+
+    async def on_message(self, fragment: str | bytes) -> None:
+        """Take a frame; whoever sends what the page does not send is disconnected."""
+        self.last_message_at = time.monotonic()
+        self._size += len(fragment)
+        if self._size > self.largest:
+            self.close(1009, "A message is larger than is allowed.")
+            return
+        try:
+            if isinstance(fragment, str) and is_costly(fragment):
+                raise ValueError("it holds too much")
+            message = await self.receiver.consume(fragment)
+            if message is not None:
+                self._size = 0
+                await self._take(message)
+        except Exception as error:
+            self._refuse(error)
+
+    async def _take(self, message: Any) -> None:
+        if message.msgtype == "PULL-DOC-REQ":
+            answer = await self.handler.handle(message, self.connection)
+            if answer is not None:  # newer versions of Bokeh have sent it
+                await self.send_message(answer)
+            return
+        events = message.content["events"]
+        if message.msgtype != "PATCH-DOC" or len(events) > MOST_EVENTS:
+            raise ValueError("the page does not send such a message")
+        session = self.connection.session
+        buffers = {buffer.id: buffer.to_bytes() for buffer in message.buffers}
+        others = []
+        for event in events:
+            if (found := component_message(event, buffers)) is None:
+                others.append(by_id(event))
+            elif (model := session.document.models.get_by_id(found[0])) is not None:
+                await live.hand_on(session, model, found[1])
+        message.content["events"] = [e for e in others if is_allowed(e, session.document.models)]
+        if message.content["events"]:
+            await self._patch(message)
+
+    async def _patch(self, message: Any) -> None:
+        """Apply a patch on the event loop: from 3.10 on Bokeh does it in a thread."""
+        session = self.connection.session
+
+        async def apply(document: Any) -> None:
+            session._current_patch_connection = self.connection
+            try:
+                message.apply_to_document(document, session)
+            finally:
+                session._current_patch_connection = None
+
+        await locked(session, apply)
+
+    def _refuse(self, error: Exception) -> None:
+        log_warning("refused", why=type(error).__name__)
+        self.close(1008, "This message was not understood.")
+
+    def on_close(self) -> None:
+        """The browser is gone."""
+        self.connected.discard(self)
+        connection, self.connection = self.connection, None
+        if connection is not None:  # Bokeh's own fails where a ping found out before
+            self.application.client_lost(connection)
+
+
+def close_idle(seconds: float) -> None:
+    """Disconnect browsers that have sent nothing for so long; their pages show the reason."""
+    now = time.monotonic()
+    for socket in [one for one in LiveSocket.connected if now - one.last_message_at > seconds]:
+        socket.close(1001, f"The page was not used for {seconds / 60.0:.0f} min.")

@@ -1,0 +1,327 @@
+"""A session: newest inputs -> what is drawn of them -> the views on screen."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import math
+import time
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from functools import partial
+from typing import Any, TypeVar
+
+import panel as pn
+
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
+from bearing_explorer.kit.compute.executors import in_thread, in_turn
+from bearing_explorer.kit.compute.jobs import Change, Jobs
+from bearing_explorer.kit.half import Half, Section
+from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
+from bearing_explorer.kit.serve import log as write
+from bearing_explorer.kit.serve.live import one_message, send_at_once
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.content import Inputs
+from bearing_explorer.kit.widgets.form import stack
+from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
+from bearing_explorer.kit.widgets.status import StatusLine, Tabs
+from bearingcore.statics.limit import summary
+
+log = logging.getLogger(__name__)
+
+Found = TypeVar("Found")
+
+#: slow views are drawn together with the others while a slider moves, or all would be painted
+#: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
+#: inputs wait ...
+_HEAVY = 0.04
+#: ... but not for longer than this [s]
+_PATIENCE = 0.25
+
+#: pictures that took less than this [s] of a processor are made on the event loop: where thirty
+#: people share the interpreter, threads that wait for one another take half as long again
+_AT_ONCE = 0.025
+
+#: the limits of the model are checked when the slider rests; while it moves after so long [s], and
+#: where many share the machine, after so many pictures: they cost as much as two
+_LIMITS_EVERY = 1.0
+_LIMITS_PICTURES = 10
+
+
+class Session:
+    """A session. `page.py` puts its parts on a page; the browser's messages arrive in its halves.
+
+    Parameters
+    ----------
+    halves
+        of the program, by the tabs of each; the page has the tabs in this order.
+    tab
+        that is open at first; the first one where there is no such tab.
+    """
+
+    def __init__(self, halves: Mapping[Section, Half], tab: str = "") -> None:
+        self.packed = PackedSource()
+        #: number of the newest change of the browser
+        self.mark = 0
+        self._halves = {section.name: half for section, half in halves.items()}
+        self._sections = {section.name: section for section in halves}
+        self._views: dict[str, list[View]] = {}
+        self._drawn_mark = 0
+        self._slow_cost = self._quick_cost = math.inf
+        self._slow_at = self._limits_at = -math.inf
+        self._pictures = 0  # since the limits were looked at
+        self._doc = pn.state.curdoc
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._loop: DrawingLoop[Inputs, Picture] = DrawingLoop(
+            self._draw_newest, self._fine_picture, self._draw_fine, self._failed
+        )
+        self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
+        self.jobs = Jobs(self.assign)
+        self._shown = tab if tab in self._sections else next(iter(self._sections))
+        self.status = StatusLine(folded=True, css_classes=["one-line"])
+        self.limits = LimitsStrip()
+        self._on_screen = ""
+        self.tabs = Tabs(
+            self.show_tab,
+            names=[[one.name, one.title, one.tab or one.title] for one in halves],
+            active=self._shown,
+        )
+        # a place for each tab, or the browser would go through all of them whenever one comes
+        self._containers = {name: _place(name) for name in self._sections}
+        places = self._containers.values()
+        self.main = pn.Column(*places, sizing_mode="stretch_both", margin=0)  # the page's height
+        for half in self._each_half():
+            half.join(self)
+
+    def _each_half(self) -> list[Half]:
+        return list({id(half): half for half in self._halves.values()}.values())
+
+    @property
+    def shown(self) -> str:
+        """Name of the tab that is open."""
+        return self._shown
+
+    @property
+    def inputs(self) -> Inputs:
+        """The inputs of the next picture."""
+        return self._halves[self._shown].inputs()
+
+    async def assign(self, change: Change) -> None:
+        """Change models of the page, in one message."""
+        await one_message(self._doc, change)
+
+    def views_made(self) -> list[View]:
+        """All views that have been on screen."""
+        return [view for views in self._views.values() for view in views]
+
+    def start(self) -> None:
+        """The page is up: draw."""
+        send_at_once(self._doc)
+        self.draw()
+        if compiling.left():
+            self._keep(self._draw_when_compiled())
+
+    def stop(self) -> None:
+        """The session is over: nothing is begun any longer, and what waits for its turn is not."""
+        self._loop.stop()
+        self.jobs.stop()
+        for task in self._tasks:
+            task.cancel()
+        for half in self._each_half():
+            half.stop()
+        for view in self.views_made():
+            view.end()
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
+        inputs = self.inputs
+        self._loop.submit(inputs.at_rest(self._refined == self._what_is_fine(inputs)))
+
+    def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
+        """The key of a fine picture; another key needs one of its own."""
+        return self._shown, *inputs.fine_key
+
+    async def _draw_when_compiled(self) -> None:
+        """Draw anew whenever a part of the kernels is ready, and say how far it is."""
+        left: tuple[str, ...] | None = None
+        while left != ():
+            if left == (left := compiling.left()):
+                await asyncio.sleep(0.3)
+                continue
+            show = partial(self.status.put, progress=compiling.progress())
+            await one_message(self._doc, show)
+            self._refined = ()
+            self.draw()
+
+    def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
+        """Compute something off the event loop, then take it."""
+
+        async def work() -> None:
+            found = await in_thread(compute)
+            await one_message(self._doc, lambda: take(found))
+
+        self._keep(work())
+
+    def _keep(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        """Run a task in the background, with a reference: asyncio keeps none."""
+
+        def done(task: asyncio.Task[None]) -> None:
+            self._tasks.discard(task)
+            if not task.cancelled() and (error := task.exception()):
+                log.error("work in the background failed", exc_info=error)
+
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(done)
+        return task
+
+    def show_tab(self, message: Any) -> None:
+        """Open the tab that a message names."""
+        name = message.get("show") if isinstance(message, dict) else None
+        if isinstance(name, str) and name in self._sections:
+            self._shown = name
+            for half in self._each_half():
+                half.tab_opened(name)
+            self.draw()
+
+    def _make(self, name: str) -> list[View]:
+        """The views of a section, which are in no document yet."""
+        return [view(self.packed) for view in self._sections[name].views]
+
+    async def _open_tab(self, name: str) -> None:
+        """Put a section on screen; its figures are made when it is first opened.
+
+        Done by the worker, in the same order of messages as what is drawn on them: the browser
+        must know a figure before its numbers arrive. All of it holds the interpreter, and is done
+        on the event loop, one session after the other: where 30 come at once, threads that take it
+        from each other have the last picture come a sixth later.
+        """
+        if name not in self._views:
+            self._views[name] = await in_turn(self._make, name)
+            for view in self._views[name]:
+                self._halves[name].attach(view)
+        new = not self._containers[name].objects
+        await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
+
+    def _attach_tab(self, name: str) -> None:
+        if not self._containers[name].objects:
+            self._containers[name].objects = [view.panel for view in self._views[name]]
+        for other, container in self._containers.items():
+            container.css_classes = _classes(other, shown=other == name)
+            if other != name:
+                for view in self._views.get(other, ()):
+                    view.put_away()
+        self.packed.introduce()
+        self.tabs.active = self._on_screen = name
+
+    # Drawing: off the event loop to compute, on it to assign.
+
+    async def _draw_newest(self, inputs: Inputs) -> Inputs:
+        started = time.perf_counter()
+        if self._on_screen != self._shown:
+            await self._open_tab(self._shown)
+            self._slow_cost = self._quick_cost = math.inf  # not known yet
+        views = [view for view in self._views[self._on_screen] if not view.at_rest]
+        slow = [view for view in views if view.needs & inputs.slow]
+        quick = [view for view in views if view not in slow]
+        # where nothing else follows the slider there is nothing to delay
+        heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
+        if slow and not heavy and math.isfinite(self._slow_cost) and not inputs.rested:
+            quick, slow = [], views
+        if heavy and self._loop.waiting:
+            slow = slow if started - self._slow_at > _PATIENCE else []
+
+        if quick or not slow:
+            run = in_turn if self._quick_cost < _AT_ONCE else in_thread
+            inputs, picture = await run(self._newest_picture, inputs, quick)
+            self._quick_cost = picture.work
+            await self._assign(picture, None if slow else inputs.mark)
+        if slow:
+            before = time.perf_counter()
+            limits = not quick and self._limits_due(inputs)
+            picture = await in_thread(picture_of, inputs.content(), slow, limits)
+            self._slow_at = time.perf_counter()
+            self._slow_cost = self._slow_at - before
+            await self._assign(picture, inputs.mark)
+        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+        compiling.drawn()
+        if self._on_screen != self._shown:
+            # opened meanwhile, and these inputs may have been the newest
+            self.draw()
+        return inputs
+
+    def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
+        """A picture of the newest inputs: others may have waited for a thread too."""
+        inputs = self._loop.newest(inputs)
+        return inputs, picture_of(inputs.content(), views, self._limits_due(inputs))
+
+    def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
+        """Views that are finer at rest, with the limits; None where all is drawn finely already."""
+        if inputs.rested:
+            return None
+        fine, drawn = inputs.at_rest().content(give_up), inputs.content()
+        on_screen = self._views[self._on_screen]
+        # views without needs may have waited for the slider to rest
+        finer = [
+            view
+            for view in on_screen
+            if view.at_rest or not view.needs or drawn.is_finer_at_rest(view.needs)
+        ]
+        return picture_of(fine, finer, limits=True, on_screen=on_screen)
+
+    async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
+        await self._assign(picture, inputs.mark)
+        self._refined = self._what_is_fine(inputs)
+
+    def _limits_due(self, inputs: Inputs) -> bool:
+        now = time.perf_counter()
+        self._pictures += 1
+        long_ago = now - self._limits_at > _LIMITS_EVERY
+        due = inputs.rested or (long_ago and self._pictures >= _LIMITS_PICTURES)
+        if due:
+            self._limits_at, self._pictures = now, 0
+        return due
+
+    async def _assign(self, picture: Picture, mark: int | None) -> None:
+        """Send a picture; `mark` where with it all of these inputs is drawn."""
+        sources: Sources = {}
+        ranges: Ranges = {}
+        for drawing in picture.drawings:
+            if drawing.data is not None:
+                sources |= drawing.data[0]
+                ranges |= drawing.data[1]
+        self._drawn_mark = self._drawn_mark if mark is None else mark
+
+        def change() -> None:
+            self.packed.send(sources, ranges, self._drawn_mark, picture.seconds)
+            for drawing in picture.drawings:
+                drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
+            self.status.put(line={**picture.status, "tab": self.tabs.active})
+            if picture.limits is not None:
+                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
+
+        await one_message(self._doc, change)
+
+    async def _failed(self, error: Exception) -> None:
+        """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
+        scene = write.scene_name(self.inputs.scene)
+        write.log_warning("failed", self._doc, scene=scene, view=self._shown)
+        self._drawn_mark = self.mark
+
+        def change() -> None:
+            self.packed.send({}, {}, self._drawn_mark)
+            self.status.put(line={"mood": "bad", "words": BROKEN, "details": []})
+
+        await one_message(self._doc, change)
+
+
+def _classes(name: str, *, shown: bool) -> list[str]:
+    """Classes of the place of a tab, for styles and scripts."""
+    return ["section", f"section-{name}", "on-screen" if shown else "off-screen"]
+
+
+def _place(name: str) -> pn.Column:
+    """The layout of a tab that is not open yet."""
+    return stack(css_classes=_classes(name, shown=False), stylesheets=[asset_text("section.css")])

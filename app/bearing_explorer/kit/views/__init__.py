@@ -1,0 +1,1 @@
+"""The parts that views of both halves are made of."""

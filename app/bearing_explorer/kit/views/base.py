@@ -1,0 +1,361 @@
+"""A view: figures made once, numbers pushed through the packed source, one live sentence.
+
+A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
+reads; only those are computed, and only while the view is on screen.
+
+To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
+is seen above the figure with the sentences of the key, “Grey: ...”, and the rest opens on a click),
+and give it
+
+- `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
+- `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
+  sources of the view that it leaves out are empty;
+- `sentence(results)`: one sentence on the figure in plain words;
+- `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+
+The scene of the controls, jobs and the measured signal are in `parts`, on the page; what a view
+begins with them it begins in `attach(parts)`.
+
+The grey curves are of the bearing without its defect, ``{grey}`` in `about`. Those of compared
+scenes are layers of `plots.compared_curves`; the key with their names follows by itself.
+
+`data`, `sentence` and `table` may run in a worker thread: they touch no model.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+import numpy as np
+import panel as pn
+import param
+from bokeh.models import LayoutDOM, Plot
+
+from bearing_explorer.kit.assets import asset_path, asset_text, scripts
+from bearing_explorer.kit.compute.jobs import Jobs
+from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT, CurveKey
+from bearing_explorer.kit.plots.element_words import with_elements_of
+from bearing_explorer.kit.plots.zoom import zoomable
+from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.python_lines import lines_of
+from bearing_explorer.kit.widgets.facts import sentence_html, table_to_read
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
+from bearingcore import Scene
+from bearingcore.common.table import as_csv
+
+#: {source: {column: array}}
+Sources = dict[str, dict[str, np.ndarray]]
+#: {range: (start, end)}
+Ranges = dict[str, tuple[float, float]]
+
+
+class Caption(LiveComponent):
+    """Head of a view: its title, its content in a line, and a menu for exports."""
+
+    title = param.String()
+    #: its content, and the rest of that, which opens on a click
+    line = param.String()
+    rest = param.String()
+    #: files are called bearing- and this
+    name_of_files = param.String()
+    #: whether the view draws an SVG of the class "picture" by itself
+    picture = param.Boolean(default=False)
+    #: ids of the models of Bokeh's figures in the view, for pictures
+    figures = param.List(default=[])
+    #: name, left, right, bottom and top of the cells that it enlarges one by one
+    cells = param.List(default=[])
+    #: a small one: a title that leads to the tab of this name, and a sentence
+    compact = param.Boolean(default=False)
+    leads_to = param.String()
+
+    #: whether there are no numbers behind it yet, so that none are offered
+    empty = param.Boolean(default=False)
+    #: whether there is nothing at all to take along, no lines of Python either
+    nothing = param.Boolean(default=False)
+
+    _esm = scripts("element.js", "figure_export.js", "enlarge.js", "caption.html", "caption.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("menu.css"), asset_text("caption.css")]
+
+
+class Sentence(LiveComponent):
+    """One live sentence: HTML that screen readers announce, set without a layout pass."""
+
+    text = param.String()
+
+    _esm = asset_path("sentence.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
+
+
+@dataclass(frozen=True)
+class SessionParts:
+    """Parts of the session for the views that are attached to it; each half adds its own.
+
+    Parameters
+    ----------
+    jobs
+        the background of the session.
+    draw
+        requests a drawing.
+    """
+
+    jobs: Jobs
+    draw: Callable[[], None]
+
+
+C = TypeVar("C", bound=Content)
+
+
+class View(Generic[C]):
+    """One picture of the scene. The head of this module lists the parts of a subclass."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    about: ClassVar[str] = ""
+    needs: frozenset[str] = frozenset()
+    #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
+    picture: ClassVar[bool] = False
+    #: whether its figures are drawings, in which circles are round
+    equal_aspect: ClassVar[bool] = False
+    #: whether it is in a report; one without `needs` only with the result of its job
+    in_report: ClassVar[bool] = True
+    #: whether it is drawn only once the slider rests, and does not follow a drag
+    at_rest: ClassVar[bool] = False
+    #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
+    compact: ClassVar[bool] = False
+    #: "unseen": for screen readers alone; "large"
+    sentence_looks: ClassVar[tuple[str, ...]] = ()
+    leads_to: ClassVar[str] = ""
+    #: name and sides of the cells of its drawing, one of which at a time can fill the screen
+    cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
+    #: parts of the session that its half has, on the page alone
+    parts: Any = None
+    #: result of a job of the view
+    found: Any = None
+    #: whether `choose` computes the content of the view
+    computes: ClassVar[bool] = False
+
+    def __init__(self, packed: PackedSource) -> None:
+        self._results: C | None = None
+        self._has_drawn = False
+        self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        #: parts of the content that are hidden without numbers
+        self._pictures: list[pn.Column] = []
+        self._withheld: list[tuple[pn.Column, list[pn.viewable.Viewable]]] = []
+        others = set(packed.columns)
+        body = self.build(packed)
+        #: its sources without numbers
+        self._empty: Sources = {
+            name: dict.fromkeys(columns, np.zeros(0))
+            for name, columns in packed.columns.items()
+            if name not in others
+        }
+        body = stack(*body) if isinstance(body, list) else pn.panel(body, margin=0)
+        #: Bokeh's figures, in the order of the page
+        self.figures = [
+            plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
+        ]
+        if self.figures and _only_figures(body):
+            # whether a figure's own pane is visible is taken back from the figure
+            body = body if isinstance(body, pn.Column) else stack(body)
+            self._pictures.append(body)
+        if not self.needs:
+            for picture in self._pictures:
+                self.withhold(picture)
+        line, rest = parts_of(self.caption())
+        self._caption = Caption(
+            title=self.title,
+            line=line,
+            rest=rest,
+            name_of_files=self.name,
+            figures=[plot.id for plot in self.figures],
+            picture=self.picture,
+            cells=[list(cell) for cell in self.cells],
+            compact=self.compact,
+            leads_to=self.leads_to,
+        )
+        self._caption.on_msg(self._answer)
+        #: the names of compared scenes, a key a figure that draws them
+        self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
+        for plot in self.figures:
+            zoomable(plot, self.equal_aspect)
+        self.panel: pn.viewable.Viewable = stack(
+            self._caption,
+            body,
+            self._sentence,
+            css_classes=["view", f"view-{self.name}", *(["compact"] if self.compact else [])],
+            stylesheets=[asset_text("view.css")],
+            **({"sizing_mode": "stretch_both"} if self.compact else {}),
+        )
+
+    def attach(self, parts: SessionParts) -> None:
+        """Take parts of the session, once, before the view is first on screen."""
+        self.parts = parts
+
+    def build(self, packed: PackedSource) -> Any:
+        """Make the figures, once; return one of them, a layout, or a list of what is stacked."""
+        raise NotImplementedError
+
+    def only_with_numbers(self, *parts: Any, **params: Any) -> pn.Column:
+        """The parts below one another, hidden while there are no numbers; for `build`.
+
+        A view of figures alone has them so by itself.
+        """
+        self._pictures.append(stack(*parts, stylesheets=[AS_HIGH_AS_SHOWN], **params))
+        return self._pictures[-1]
+
+    def withhold(self, hidden: pn.Column) -> None:
+        """Keep what a hidden layout holds from the browser, which would build it, till `bring`."""
+        self._withheld.append((hidden, list(hidden.objects)))
+        hidden.objects = []
+
+    def bring(self) -> None:
+        """Put what was withheld where it belongs. On the event loop only."""
+        for hidden, content in self._withheld:
+            hidden.objects = content
+        self._withheld = []
+
+    def data(self, results: C) -> tuple[Sources, Ranges]:
+        """Sources and ranges for these results; none where nothing comes in the packed source."""
+        return {}, {}
+
+    def all_data(self, results: C) -> tuple[Sources, Ranges]:
+        """`data`, with all sources of the view."""
+        sources, ranges = self.data(results)
+        return {**self._empty, **sources}, ranges
+
+    def sentence(self, results: C) -> str:
+        """One sentence on the figure as it is now, numbers with units."""
+        raise NotImplementedError
+
+    def table(self, results: C) -> dict[str, np.ndarray]:
+        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        raise NotImplementedError
+
+    def say(self, results: C | None, sentence: str) -> None:
+        """Show the sentence and keep the results for the table. On the event loop only.
+
+        Without results the last ones stay, as the last picture does. Before the first picture, and
+        where it has no numbers, the sentence stands in its place, and no empty axes.
+        """
+        self._results = results or self._results
+        if results is not None:
+            self._has_drawn = not self.is_empty
+        if self._has_drawn:
+            self.bring()
+        if self._pictures:
+            for picture in self._pictures:
+                picture.visible = self._has_drawn
+            self._sentence.css_classes = list(self.sentence_looks) if self._has_drawn else []
+            # hidden figures are not to be saved
+            shown = [plot.id for plot in self.figures] if self._has_drawn else []
+            self._caption.put(figures=shown)
+        self._sentence.put(text=sentence_html(sentence))
+        self._caption.put(
+            empty=self._results is None or self.is_empty, nothing=self._results is None
+        )
+        if results is not None:
+            bearing = results.scene.bearing
+            about = self.caption(results.grey.name)
+            line, rest = parts_of(with_elements_of(bearing, about))
+            title = with_elements_of(bearing, self.title)
+            self._caption.put(title=title, line=line, rest=rest)
+            for key in self._keys:
+                key.show([one.name for one in results.compared])
+
+    @classmethod
+    def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
+        """The text above the figure; `grey` is the name of what is drawn in grey."""
+        return cls.about.replace("{grey}", grey)
+
+    def put_away(self) -> None:
+        """It is off screen: let go of the results, of which a motion alone is megabytes."""
+        self._results = None
+
+    def end(self) -> None:
+        """The session is over: cancel timers."""
+
+    @property
+    def compares(self) -> bool:
+        """Whether it draws compared scenes."""
+        return bool(self._keys)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there are no numbers behind the figure: views of jobs before the first."""
+        return False
+
+    def csv(self) -> str:
+        """The table of the current figure as comma-separated values; empty before the first."""
+        return "" if self._results is None else as_csv(self.table(self._results))
+
+    def python(self) -> str:
+        """Lines of Python that make the current figure; empty before the first."""
+        return "" if self._results is None else lines_of(self, self._results)
+
+    # Outside of the page: see `views.still_figure`
+
+    def scene_drawn(self, results: C) -> Scene:
+        """The scene that is drawn: the result of a job may be of an earlier one."""
+        return results.scene
+
+    def choices(self) -> dict[str, Any]:
+        """Choices made in the view itself, as plain values, for `choose`."""
+        return {}
+
+    def choose(self, choices: Mapping[str, Any], results: C) -> None:
+        """Take `choices`, and compute as the page does when they are made."""
+
+    def lines_before(self) -> list[str]:
+        """Lines of Python between those of the scene and of the figure."""
+        return []
+
+    def more_arguments(self) -> dict[str, str]:
+        """Arguments of the figure that these lines have made: parameters and expressions."""
+        return {}
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        """Bokeh's figures, once `data` is in them."""
+        return self.figures
+
+    def _answer(self, event: Any) -> None:
+        if event.data == "csv":
+            self._caption.send({"csv": self.csv()})
+        if event.data == "table":
+            columns = {} if self._results is None else self.table(self._results)
+            table, count = table_to_read(columns)
+            self._caption.send({"table": table, "count": count})
+        if event.data == "python":
+            self._caption.send({"python": self.python()})
+
+
+def _only_figures(body: pn.viewable.Viewable) -> bool:
+    """Whether there is nothing in a layout but figures: nothing to choose or to press."""
+    leaves = [part for part in body.select() if not isinstance(part, pn.layout.ListPanel)]
+    return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
+
+
+_BETWEEN = re.compile(r"(?<=[.!?])\s+(?=[A-Z“])")
+_IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
+
+
+def parts_of(text: str) -> tuple[str, str]:
+    """The part of a caption that is seen, and the part that opens on a click.
+
+    The first sentence and the key are seen: sentences such as “Grey: the healthy bearing.”
+    """
+    first, *others = _BETWEEN.split(text)
+    key = [sentence for sentence in others if _IS_KEY.match(sentence)]
+    rest = [sentence for sentence in others if sentence not in key]
+    return " ".join([first, *key]), " ".join(rest)
+
+
+def figures_in(layout: Any) -> list[Plot]:
+    """Bokeh's figures in one of its layouts. Looked for here: `select` looks at all models."""
+    if isinstance(layout, Plot):
+        return [layout]
+    return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]

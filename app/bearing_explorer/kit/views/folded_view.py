@@ -1,0 +1,63 @@
+"""Views that are folded at first: computed and drawn once they are opened."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import C, Ranges, SessionParts, Sources, View
+from bearing_explorer.kit.widgets.form import button
+
+
+class FoldedView(View[C]):
+    """A view behind a button on the page; elsewhere, in reports and scripts, it is open."""
+
+    def __init__(self, packed: PackedSource) -> None:
+        super().__init__(packed)
+        self.opened = True
+        self._opener = button("", self._turn, css_classes=["unfold"])
+        self._body = list(self.panel)[1:]  # below its caption
+        self.panel.insert(1, self._opener)
+        self._show_fold()
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.opened = False
+        self._show_fold()
+
+    def _turn(self) -> None:
+        self.opened = not self.opened
+        self._show_fold()
+        if self.parts is not None:
+            self.parts.draw()
+
+    def _show_fold(self) -> None:
+        self.needs = type(self).needs if self.opened else frozenset()
+        self._opener.visible = self.parts is not None
+        self._opener.name = "Hide" if self.opened else f"Show: {self.title}"
+        if not self.opened:
+            for part in self._body:
+                part.visible = False
+
+    def all_data(self, results: C) -> tuple[Sources, Ranges]:
+        return super().all_data(results) if self.opened else (self._empty, {})
+
+    def say(self, results: C | None, sentence: str) -> None:
+        for part in self._body:
+            part.visible = self.opened
+        super().say(results, sentence)
+        self._show_fold()
+
+    def words(self, results: C) -> str:
+        """`View.sentence` of what is drawn."""
+        raise NotImplementedError
+
+    def sentence(self, results: C) -> str:
+        return self.words(results) if self.opened else ""
+
+    @property
+    def is_empty(self) -> bool:
+        return not self.opened or super().is_empty
+
+    def choices(self) -> dict[str, Any]:
+        return {}

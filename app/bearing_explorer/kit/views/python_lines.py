@@ -1,0 +1,137 @@
+"""Lines of Python that make the figure of a view: runnable as they stand, without the page."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+from bearingcore import Defect, Scene, presets
+
+if TYPE_CHECKING:
+    from bearing_explorer.kit.views.base import C, View
+
+FILE = "bearing-scene.toml"
+LONGEST_SCENE = 6000
+"""Characters up to which a scene is part of the lines; a longer one is read from its file."""
+NOTHING_YET = "# Nothing has been computed in this view yet."
+_DEGREES = frozenset({"extent", "center", "contact_angle"})
+
+
+def lines_of(view: View[C], content: C) -> str:
+    """Lines that make the scene, the figure of a view and its numbers."""
+    scene = view.scene_drawn(content)
+    body = [f"scene = {scene_code(scene)}", *view.lines_before()]
+    choices = {"choices": code_of(chosen)} if (chosen := view.choices()) else {}
+    arguments = {**content.arguments(view), **choices, **view.more_arguments()}
+    if view.is_empty and not choices:
+        body.append(NOTHING_YET)
+    else:
+        given = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
+        call = f"drawn = figures.{view.name.replace('-', '_')}({', '.join(given)})"
+        if len(call) > 88 or "\n" in call:
+            call = call.partition("(")[0] + "(\n" + "".join(f"    {one},\n" for one in given) + ")"
+        body += [call, "print(drawn.sentence)", "columns = drawn.table()  # as in the CSV file"]
+        if view.figures or view.computes:
+            body.append("drawn.show()  # in the browser")
+    text = "\n".join(body)
+    core = [name for name in ("Recording", "Scene", "presets", "read_table", "simulate")
+            if f"{name}(" in text or f"{name}[" in text or f"{name}." in text]  # fmt: skip
+    imports = [
+        "import math\n" if "math." in text else "",
+        "from pathlib import Path\n" if "Path(" in text else "",
+        "\n" if "math." in text or "Path(" in text else "",
+        "from bearing_explorer import figures\n",
+        f"from bearingcore import {', '.join(core)}\n",
+    ]
+    return f"{''.join(imports)}\n{text}\n"
+
+
+def changed_fields(value: Any, usual: Any) -> dict[str, Any]:
+    """Fields of a dataclass that are not as usual."""
+    return {
+        field.name: getattr(value, field.name)
+        for field in dataclasses.fields(value)
+        if getattr(value, field.name) != getattr(usual, field.name)
+    }
+
+
+def scene_code(scene: Scene) -> str:
+    """An expression that makes `scene`: a preset with changes where that is the very same."""
+    name = min(presets, key=lambda one: len(_differences(scene, presets[one])))
+    changes = _differences(scene, presets[name])
+    plain = all(value is None or isinstance(value, str | int | float) or
+                (isinstance(value, tuple) and all(isinstance(one, str) for one in value))
+                for value in changes.values())  # fmt: skip
+    try:
+        same = plain and presets[name].replace(**changes) == scene
+    except ValueError:
+        same = False
+    if same:
+        given = [f"{field}={_field_code(field, value)}" for field, value in changes.items()]
+        if not given:
+            return f'presets["{name}"]'
+        line = f'presets["{name}"].replace({", ".join(given)})'
+        broken = f'presets["{name}"].replace(\n    ' + ",\n    ".join(given) + ",\n)"
+        return line if len(line) <= 80 else broken
+    text = scene.to_toml()
+    if len(text) > LONGEST_SCENE:
+        return f'Scene.from_toml(Path("{FILE}").read_text())  # “Scene (TOML)” of Download'
+    escaped = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
+    return f'Scene.from_toml("""\n{escaped}""")'
+
+
+def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
+    """Values of `scene` that `base` has otherwise, by the names that `Scene.replace` takes."""
+    parts: list[tuple[Any, Any]] = [
+        (scene, base), (scene.load, base.load), (scene.support, base.support),
+        (scene.bearing, base.bearing),
+    ]  # fmt: skip
+    if isinstance(scene.defect, Defect) and isinstance(base.defect, Defect):
+        parts.append((scene.defect, base.defect))
+    found: dict[str, Any] = {}
+    for own, other in parts:
+        found |= changed_fields(own, other)
+    if len(parts) == 5:
+        found.pop("defect", None)
+    return {name: v for name, v in found.items() if name not in ("load", "support", "bearing")}
+
+
+def _field_code(name: str, value: Any) -> str:
+    """A value of a scene as people write it, where that is the very same number."""
+    if isinstance(value, float):
+        degrees = float(f"{math.degrees(value):.12g}")
+        if name in _DEGREES and math.radians(degrees) == value:
+            return f"math.radians({degrees:.12g})"
+        hertz = float(f"{value / (2.0 * math.pi):.12g}")
+        if name == "shaft_speed" and hertz * (2.0 * math.pi) == value:
+            return f"{hertz:.12g} * (2.0 * math.pi)"
+    return code_of(value)
+
+
+def code_of(value: Any) -> str:
+    """A plain value as an expression, strings in double quotes."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, float):
+        return short(value)
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{code_of(k)}: {code_of(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        inner = ", ".join(map(code_of, value))
+        if isinstance(value, list):
+            return f"[{inner}]"
+        return f"({inner},)" if len(value) == 1 else f"({inner})"
+    return repr(value)
+
+
+def short(value: float) -> str:
+    """The shortest text that is this float, such as 50e-6."""
+    text = repr(float(value))
+    if value and math.isfinite(value) and (abs(value) < 1e-2 or abs(value) >= 1e5):
+        power = 3 * math.floor(math.log10(abs(value)) / 3.0)
+        engineering = f"{float(f'{value / 10.0**power:.12g}'):.12g}e{power}"
+        if float(engineering) == value:
+            return engineering
+    return text

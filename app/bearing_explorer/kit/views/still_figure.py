@@ -1,0 +1,161 @@
+"""A view of one scene made once, outside of the page: for reports, notebooks and scripts."""
+
+from __future__ import annotations
+
+import html
+import tempfile
+import webbrowser
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Generic
+
+import numpy as np
+from bokeh.document import Document
+from bokeh.embed import components
+from bokeh.events import DocumentReady
+from bokeh.models import Column, CustomJS
+from bokeh.resources import Resources
+
+from bearing_explorer.kit.serve.packed_source import Columns, PackedSource
+from bearing_explorer.kit.views.base import C, View
+
+_FOLLOW = """
+for (const range of ranges) for (const end of ["start", "end"]) range.properties[end].change.emit()
+for (const source of sources) source.properties.data.change.emit()
+"""
+
+
+class FilledSources(PackedSource):
+    """Sources and ranges that hold their numbers, where those of the page are sent them.
+
+    Labels with prefixes, pictures and words are derived from them in the browser, after changes;
+    the callback that `fill` returns derives them from the first numbers.
+    """
+
+    def fill(
+        self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
+    ) -> CustomJS:
+        """Put numbers into sources and ranges; returns a callback for the ready browser."""
+        for name, columns in data.items():
+            self._block(name, columns)  # refuses what does not fit
+            rows = {column: np.asarray(v, np.float32).ravel() for column, v in columns.items()}
+            self._sources[name].data = rows
+        for name, (start, end) in ranges.items():
+            self._ranges[name].update(start=start, end=end, reset_start=start, reset_end=end)
+        args = {"sources": list(self._sources.values()), "ranges": list(self._ranges.values())}
+        return CustomJS(args=args, code=_FOLLOW)
+
+
+class Figure(Generic[C]):
+    """A view with the numbers of one scene in it.
+
+    Attributes
+    ----------
+    results
+        everything that is known about what is drawn; of a scene its attributes are results of
+        `bearingcore`.
+    sentence
+        the sentence on the figure.
+    layout
+        the Bokeh layout of its figures.
+    document
+        the Bokeh document that holds the layout.
+
+    Parameters
+    ----------
+    choices
+        choices in the view itself, by its fields: computations are made anew with them.
+    prepare
+        called with the view, before it is asked for anything.
+    found
+        the result of the computation of the view, where that is known already.
+    computed
+        whether a view of a computation without `found` makes it.
+
+    Raises
+    ------
+    ValueError
+        where there is no such figure for this scene, with the reason.
+    """
+
+    def __init__(
+        self,
+        kind: type[View[C]],
+        results: C,
+        *,
+        choices: Mapping[str, Any] | None = None,
+        prepare: Callable[[View[C]], None] = lambda _: None,
+        found: Any = None,
+        computed: bool = True,
+    ) -> None:
+        self.results = results
+        sources = FilledSources()
+        self.view = kind(sources)
+        prepare(self.view)
+        if found is not None:
+            self.view.found = found
+        elif choices is not None or (computed and self.view.computes):
+            self.view.choose(choices or {}, results)
+        data, ranges = self.view.all_data(results)
+        self.sentence = self.view.sentence(results)
+        self.view.say(results, self.sentence)
+        follow = sources.fill(data, ranges)
+        for plot in self.view.figures:
+            plot.frame_align = False  # or all would leave as much room as the one that needs most
+        plots = [] if self.view.is_empty else list(self.view.still_figures())
+        self.layout = Column(children=plots, sizing_mode="stretch_width")
+        self.document = Document()
+        self.document.add_root(self.layout)
+        self.document.js_on_event(DocumentReady, follow)
+
+    def table(self) -> dict[str, np.ndarray]:
+        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        return self.view.table(self.results)
+
+    def page(self) -> str:
+        """A page with the figure that needs nothing from outside."""
+        title = html.escape(self.view.title)
+        return (
+            f"<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{title}</title></head>"
+            f"<body>{bokeh_scripts()}{self._place()}</body></html>\n"
+        )
+
+    def _place(self) -> str:
+        """Where the figure goes, the script that draws it, and its sentence."""
+        words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
+        if not self.layout.children:
+            return words
+        script, place = components(self.layout)
+        return f"{place}{script}{words}"
+
+    def save(self, path: str | Path) -> None:
+        """Write `page` to a file."""
+        Path(path).write_text(self.page(), encoding="utf-8")
+
+    def show(self) -> None:
+        """Open the figure in the browser; where there is none, its path is printed."""
+        with tempfile.NamedTemporaryFile(
+            "w", suffix=f"-{self.view.name}.html", delete=False, encoding="utf-8"
+        ) as file:
+            file.write(self.page())
+        if not webbrowser.open(Path(file.name).as_uri()):
+            print(file.name)
+
+    def _repr_html_(self) -> str:
+        """In a notebook; Bokeh itself comes with the first figure."""
+        return _bokeh_once() + self._place()
+
+
+_has_bokeh = False
+_BOKEH = Resources(mode="inline", components=["bokeh"])
+
+
+def _bokeh_once() -> str:
+    global _has_bokeh
+    first, _has_bokeh = not _has_bokeh, True
+    return bokeh_scripts() if first else ""
+
+
+def bokeh_scripts() -> str:
+    """Bokeh itself, without the scripts of extensions."""
+    return "".join(f"<script>{code}</script>" for code in _BOKEH.js_raw)

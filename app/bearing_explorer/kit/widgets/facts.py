@@ -1,0 +1,139 @@
+"""Facts and tables on the page, as HTML."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import zip_longest
+from typing import Any, NamedTuple
+
+import numpy as np
+import panel as pn
+from numpy.typing import NDArray
+
+from bearing_explorer.kit.assets import asset_text
+from bearingcore.common.numbers import count, number
+from bearingcore.units import UNITS
+
+
+class Fact(NamedTuple):
+    """A fact.
+
+    Attributes
+    ----------
+    name
+        its name, as HTML: symbols have subscripts.
+    value
+        number with its unit, or words.
+    note
+        its meaning, as a tooltip of the name.
+    mark
+        class of its line in the style sheet.
+    """
+
+    name: str
+    value: str
+    note: str = ""
+    mark: str = ""
+
+
+class FactGroup(NamedTuple):
+    """Facts under a heading, and a sentence below them."""
+
+    title: str
+    words: str
+    facts: list[Fact]
+
+
+def facts_pane(content: str = "", **params: Any) -> pn.pane.HTML:
+    """A pane for facts and paragraphs."""
+    return pn.pane.HTML(content, stylesheets=[asset_text("facts.css")], margin=0, **params)
+
+
+def facts_html(facts: Iterable[Fact]) -> str:
+    """Facts as a list of definitions; names are HTML, everything else is text."""
+    rows = "".join(
+        f'<div class="{fact.mark}"><dt title="{html.escape(fact.note)}">{fact.name}</dt>'
+        f"<dd>{html.escape(fact.value)}</dd></div>"
+        for fact in facts
+    )
+    return f'<dl class="facts">{rows}</dl>'
+
+
+def groups_html(groups: Iterable[FactGroup]) -> str:
+    """Groups of facts with their headings and sentences."""
+    return "".join(
+        f"<section><h3>{group.title}</h3>{facts_html(group.facts)}"
+        f"<p>{html.escape(group.words)}</p></section>"
+        for group in groups
+    )
+
+
+def html_text(words: str) -> str:
+    """Words as HTML."""
+    return html.escape(words, quote=True)
+
+
+def sentence_html(words: str) -> str:
+    """A sentence in which a stiffness, ``k_yy``, has its directions under its letter."""
+    return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
+
+
+def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool = False) -> str:
+    """A table of cells that are HTML already; `named`: the first of each row is its name."""
+    head = "".join(f"<th scope='col'>{html_text(word)}</th>" for word in heads)
+    body = ""
+    for row in rows:
+        names = [f"<th scope='row'>{cell}</th>" for cell in row[:named]]
+        body += "".join(["<tr>", *names, *(f"<td>{cell}</td>" for cell in row[named:]), "</tr>"])
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+MOST_ROWS = 300
+"""Rows of a table to read; the CSV file has all."""
+_PLACES = ("angle", "frequency", "time")
+"""Words in the names of columns that say where a row is."""
+_UNITS = {unit.suffix: name for name, unit in UNITS.items() if unit.suffix}
+
+
+def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
+    """The numbers behind a figure as a table of HTML, and words on which of its rows it has.
+
+    It begins where there is something: a column may be zero up to a time or an angle.
+    """
+    if not columns:
+        return "", "Nothing is drawn yet."
+    size = max(np.size(column) for column in columns.values())
+    said = [
+        k for n, v in columns.items() if not any(word in n for word in _PLACES) for k in _said(v)
+    ]
+    first = max(0, min(said, default=0) - 1)
+    end = min(size, first + MOST_ROWS)
+    shown = [[_cell(value) for value in np.ravel(v)[first:end]] for v in columns.values()]
+    table = html_table(map(_heading, columns), zip_longest(*shown, fillvalue=""))
+    if end - first == size:
+        return table, count(size, "row")
+    zero = "; before them all values are zero" if first else ""
+    return table, f"Rows {first + 1} to {end} of {size}{zero}; the CSV file has all."
+
+
+def _said(values: NDArray[Any]) -> NDArray[np.intp]:
+    """The first row, if any, in which a column has more to say than zero or NaN."""
+    flat = np.ravel(values)
+    return np.flatnonzero(np.nan_to_num(flat) if flat.dtype.kind in "fiu" else flat != "")[:1]
+
+
+def _heading(name: str) -> str:
+    """``ball_load_n`` is "ball load (N)"."""
+    suffixes = [suffix for suffix in _UNITS if name.endswith(f"_{suffix}")]
+    suffix = max(suffixes, key=len, default="")
+    bare = name.removesuffix(f"_{suffix}").replace("_", " ")
+    return f"{bare} ({_UNITS[suffix]})" if suffix else bare
+
+
+def _cell(value: Any) -> str:
+    """A number to six digits; everything else as it is."""
+    if isinstance(value, float | np.number):
+        return number(float(value), 6)
+    return html_text(str(value))

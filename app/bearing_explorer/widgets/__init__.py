@@ -1,1 +1,0 @@
-"""Parts of the page around the figures: controls, tabs, status, share bar."""

@@ -1,0 +1,465 @@
+"""A measurement of one's own: brought in pieces, judged, asked about; and simulated ones."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import math
+import struct
+import zlib
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from bearing_explorer.diagnosis.form import guess, read_form
+from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.session import (
+    MOST_NUMBERS,
+    Measurement,
+    read_file,
+    simulated,
+    with_pit,
+)
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.upload import (
+    LONGEST_NAME,
+    MOST_BYTES,
+    NAME_IN_LINE,
+    PIECE,
+    shown_name,
+    without_middle,
+)
+from bearing_explorer.kit.simulated_signals import PITS
+from scipy.io import savemat, wavfile
+
+from bearingcore import Scene, catalogue, presets, read_table
+from tests.helpers.loops import run
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.reading import read_in_this_process
+
+RIG = presets["fan-rig"]
+NOISE = np.random.default_rng(2).standard_normal((2000, 2))
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files are read in this process; that of their own has its tests with the core."""
+    read_in_this_process(monkeypatch)
+
+
+def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
+    time = np.arange(len(columns)) / rate
+    rows = [",".join(f"{v:.6g}" for v in (t, *row)) for t, row in zip(time, columns, strict=True)]
+    return "\n".join([heading, *rows] if heading else rows).encode()
+
+
+def wav_of(columns: np.ndarray, rate: int = 8000) -> bytes:
+    file = io.BytesIO()
+    wavfile.write(file, rate, columns.astype(np.float32))
+    return file.getvalue()
+
+
+def mat_of(**variables: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    savemat(file, variables)
+    return file.getvalue()
+
+
+async def settled(measurement: Measurement) -> None:
+    while measurement._tasks:
+        await asyncio.sleep(0.005)
+
+
+async def bring(measurement: Measurement, name: str, content: bytes) -> None:
+    """As the browser does: the pieces that are asked for, one after the other."""
+    wanted: list[tuple[int, int]] = []
+    measurement.want = lambda begin, of: wanted.append((begin, of))
+    measurement.begin_upload(name, len(content))
+    while wanted:
+        begin, of = wanted.pop()
+        measurement.take_piece(content[begin : begin + PIECE], of)
+    await settled(measurement)
+
+
+def brought(
+    name: str,
+    content: bytes,
+    before: Measured | None = None,
+    scene: Callable[[], Scene] = lambda: presets["fan-rig"],
+) -> Measurement:
+    async def all_of_it() -> Measurement:
+        made = measuring(before, scene)
+        await bring(made, name, content)
+        return made
+
+    return run(all_of_it())
+
+
+# -- good files ------------------------------------------------------------------------------------
+
+
+def test_the_scene_of_a_signal_can_have_a_small_pit_and_balls_with_mass() -> None:
+    motor = presets["6205"].replace(extent=0.2, race="inner")
+    pitted = with_pit(motor, PITS["0.3"])
+    assert (pitted.balls, pitted.defect.race) == ("with mass", "inner")
+    assert pitted.defect.extent * pitted.bearing.inner_raceway_radius == pytest.approx(3e-4)
+    assert with_pit(motor, PITS["scene"]) is motor
+
+
+def test_a_file_from_elsewhere_is_understood_without_a_word():
+    """In g, with a clock 0.1 % off, offset and drift: columns and rate are found."""
+    rate = 16_000.0 * 6 / 5 * 1.001
+    time = np.arange(len(NOISE)) / rate
+    signal = 0.1 * NOISE + 0.4 + 0.3 * time[:, None]
+    rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
+    made = brought("rig.csv", ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode())
+    assert not made.state.bad
+    assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
+    measured = made.measured
+    assert measured is not None
+    assert measured.directions == ("x", "y")
+    assert measured.recording.sample_rate == pytest.approx(rate, rel=1e-6)
+    assert measured.shaft_speed is None  # not the sliders'
+    assert measured.bearing is None
+    answer(made, unit="m/s²", speed="given", shaft_speed="720 rpm")
+    assert made.measured is not None
+    assert made.measured.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, measured.recording.acceleration
+    )
+
+
+def test_large_files_come_in_pieces_that_the_websocket_takes():
+    columns = np.random.default_rng(0).standard_normal((400_000, 2))
+    content = wav_of(columns, 51_200)
+    assert len(content) > 3 * PIECE
+    made = brought("long.wav", content)
+    assert "nothing says where" in made.state.reasons["y"]  # two channels may be of two places
+    answer(made, x="0", y="1")
+    assert made.measured is not None
+    np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
+    assert made.state.scaled
+    assert made.state.open == ["unit"]
+    assert made.state.proposed == ""  # what full scale stands for may be anything
+    answer(made, unit="g", full_scale="50")
+    assert not made.state.open
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, 50.0 * 9.80665 * columns, rtol=1e-6
+    )
+
+
+def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
+    """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
+    made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())
+    assert made.measured is not None
+    assert not made.measured.in_si
+    assert not made.state.bad
+    np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
+    assert made.state.open == ["unit"]
+    assert made.state.proposed == "g"
+    assert "g is likely: a root mean square of 0.3" in made.state.words
+    answer(made, sure="yes")  # agreeing to guesses is no answer to this
+    assert made.state.open == ["unit"]
+    assert not made.measured.in_si
+    answer(made, unit="g")
+    assert made.measured.in_si
+    assert not made.state.open
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
+    )
+    answer(made, unit="")  # taken back
+    assert not made.measured.in_si
+    said = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))  # not asked where the file says it
+    assert said.measured is not None
+    assert said.measured.in_si
+    assert not said.state.open
+
+
+def test_what_the_file_does_not_tell_is_asked_for():
+    before = signal()
+    made = brought("two.mat", mat_of(a=NOISE), before)
+    assert made.measured is None  # no old figure under a new name
+    assert "sample rate is missing" in made.state.refused["sample_rate"]
+    assert "sample rate is missing" in made.state.words
+    assert set(made.state.open) == {"y", "unit"}
+    answer(made, sample_rate="12 800", x="0", y="1")
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == 12_800.0
+    assert not made.state.bad
+    assert made.state.open == ["unit"]
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "told"),
+    [
+        ("sample_rate", "fast", "must be a number, not “fast”"),
+        ("sample_rate", "-5", "possible: 10 to 1·10⁷ Hz"),
+        ("shaft_speed", "0", "possible:"),
+        ("shaft_speed", "rpm", "is missing"),
+        ("full_scale", "0", "possible"),
+        ("unit", "furlongs", "one of m/s², g, mg"),
+        ("x", "2", "same column"),
+        ("y", "99", "no such column"),
+        ("x", "3", "same number throughout"),
+    ],
+)
+def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
+    columns = np.hstack([NOISE, np.ones((len(NOISE), 1))])
+    made = brought("a.csv", csv_of(columns, "time,x,y,still"))
+    before = made.measured
+    answer(made, **{field: text})
+    assert made.measured is before is not None
+    assert made.state.bad
+    assert any(told in sentence for sentence in made.state.refused.values())
+
+
+@pytest.mark.parametrize(
+    ("text", "hertz"),
+    [("25,5 Hz", 25.5), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
+)
+def test_shaft_speeds_are_read_with_their_units(text, hertz):
+    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
+    asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
+    assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
+    with pytest.raises(FormError, match="at least one direction"):
+        read_form(table, {**guess(table), "x": "", "y": ""}, Machine())
+
+
+def test_more_numbers_than_a_session_keeps_are_left_out():
+    rows = MOST_NUMBERS // 2 + 1000
+    content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
+    assert len(content) < MOST_BYTES
+    found = read_file("long.wav", content, Machine())
+    assert found.table.columns.size == MOST_NUMBERS
+    assert "Only the first" in found.cut
+    assert found.asked is None  # two channels: which are x and y is asked
+    asked = read_form(found.table, {**found.form, "x": "0", "y": "1"}, Machine())
+    assert asked.recording.sample_rate == 8000.0
+
+
+def answer(made: Measurement, **values: str) -> None:
+    """The form with other values; `sure` presses the button below it.
+
+    A shaft speed is given where nothing else is said of it.
+    """
+    if "shaft_speed" in values:
+        values = {"speed": "given", **values}
+
+    async def asked() -> None:
+        sure = bool(values.pop("sure", ""))
+        made.take_form({**made.state.values, **values}, sure)
+        await settled(made)
+
+    run(asked())
+
+
+def case_western(**more: np.ndarray) -> bytes:
+    """As the drive end, fan end and base of one motor are stored."""
+    sides = {f"X105_{side}_time": NOISE[:, :1] * 0.3 for side in ("DE", "FE", "BA")}
+    return mat_of(**sides, X105RPM=np.array([[1797]], dtype="u2"), **more)
+
+
+def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
+    made = brought("105.mat", case_western(), signal())
+    assert made.measured is not None
+    assert made.measured.bearing == catalogue()["6205-2RS, CWRU drive end"].bearing
+    assert made.state.line == (
+        "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
+    )
+    assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
+    answer(made, sample_rate="48000", unit="m/s²", bearing="scene")
+    assert made.source_of("unit") == "Given"
+    assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
+    assert made.state.whole_name == ""
+    answer(made, x="1")
+    assert "two places (drive end and fan end)" in made.state.refused["x"]
+    assert made.state.line  # what is drawn stays
+
+
+def test_sensors_at_several_places_are_asked_about_and_never_mixed():
+    sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
+    made = brought("12k_105.mat", mat_of(**sides))
+    assert made.measured is None
+    assert set(made.state.open) == {"y", "unit"}
+    assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
+    assert made.state.columns[1] == ["0", "DE (drive end)"]
+    answer(made, x="", y="0")
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == 12_000.0
+    assert "12 kHz?" in made.state.line
+
+
+def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
+    made = brought("run.mat", mat_of(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
+    assert made.measured is not None
+    assert made.measured.machine.bearing_name == "NICE, MFPT"  # which has these frequencies
+    turn = 2.0 * math.pi
+    made = brought("other.mat", mat_of(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
+    assert made.measured is not None
+    bearing = made.measured.bearing
+    assert bearing is not None
+    assert bearing.n_balls == 8
+    assert bearing.bpfo(25.0 * turn) == pytest.approx(76.3, rel=1e-3)
+    assert made.state.values["bpfi"] == "123.7 Hz"
+    answer(made, bpfo="3.585 x", bpfi="5.415x")
+    assert made.measured.bearing is not None
+    assert made.measured.bearing.n_balls == 9
+    answer(made, bpfo="60")
+    assert "nearly a whole number" in made.state.refused["bearing"]
+
+
+def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
+    made = brought("run.mat", mat_of(bearing=run_))
+    assert made.state.load == pytest.approx(150 * 4.4482216)
+    taken: list[dict] = []
+    made.change_scene = taken.append
+    made.take_load()
+    assert taken == [{"typed": {"fy_n": "-667.233"}}]
+
+
+def test_voltages_need_their_sensor():
+    made = brought("v.csv", csv_of(NOISE[:, :1], "time [s],ch1 [mV]"))
+    assert made.measured is not None
+    assert made.state.open == ["sensitivity"]  # a voltage says nothing without it
+    assert not made.measured.in_si
+    answer(made, sensitivity="100")
+    assert made.measured.in_si
+    level = made.measured.recording.acceleration.std()
+    assert level == pytest.approx(NOISE[:, 0].std() / 100.0 * 9.80665, rel=1e-4)
+    answer(made, sensitivity="10 mV/g")
+    assert made.measured.recording.acceleration.std() == pytest.approx(10.0 * level)
+    answer(made, sensitivity="0")
+    assert "sensitivity" in made.state.refused
+
+
+def test_columns_in_two_units_are_not_read_in_one():
+    made = brought("two.csv", csv_of(NOISE, "time,x [g],y [m/s²]"))
+    assert made.measured is None
+    assert "two units (g and m/s²)" in made.state.refused["x"]
+    answer(made, x="", unit="m/s²")
+    assert made.measured is not None
+
+
+# -- bad files -------------------------------------------------------------------------------------
+
+
+def bomb() -> bytes:
+    """A MATLAB file of some kB that unpacks to 64 MB."""
+    packed = zlib.compress(bytes(2**26), 9)
+    return b"MATLAB 5.0".ljust(124) + b"\x00\x01IM" + struct.pack("<II", 15, len(packed)) + packed
+
+
+def with_nan() -> bytes:
+    lines = csv_of(NOISE, "time,x,y").decode().splitlines()
+    lines[900] = "0.0899,nan,inf"
+    return "\n".join(lines).encode()
+
+
+BAD = {
+    "words": ("w.csv", b"hello world\nhow are you", "a table of numbers"),
+    "not finite": ("n.csv", with_nan(), "the acceleration is not a finite number in 1 sample"),
+    "still": ("k.csv", csv_of(np.ones((2000, 2)), "time,x,y"), "same number throughout"),
+    "bomb": ("z.mat", bomb(), "damaged or unknown part"),
+}
+
+
+@pytest.mark.parametrize(("name", "content", "told"), BAD.values(), ids=BAD)
+def test_a_bad_file_gets_a_sentence_and_the_signal_before_it_stays(name, content, told):
+    made = brought(name, content, before := signal())
+    assert made.measured is before
+    assert made.state.bad
+    assert not made.state.busy
+    assert told in made.state.words
+    assert name in made.state.words
+    assert made.state.words.endswith(f"{before.recording.name} stays.")
+
+
+def test_a_huge_file_is_refused_before_it_is_sent():
+    made = measuring()
+    wanted: list[int] = []
+    made.want = lambda begin, of: wanted.append(begin)
+    made.begin_upload("h.csv", MOST_BYTES + 1)
+    assert "at most 24 MB" in made.state.words
+    assert not wanted
+
+
+@pytest.mark.parametrize("piece", [b"", bytes(PIECE + 1), bytes(101)])
+def test_pieces_that_cannot_be_of_the_file_end_it(piece):
+    made = measuring(signal())
+    made.begin_upload("a.csv", 100)
+    made.take_piece(piece, 1)
+    assert "was not received in full" in made.state.words
+    said = made.state.words
+    made.take_piece(bytes(10), 1)  # nobody asked for it
+    assert made.state.words == said
+
+
+def test_what_is_not_offered_changes_nothing():
+    made = measuring(signal())
+    made.simulate("20", "another")
+    made.take_load()
+    made.take_form({}, True)
+    made.begin_upload("a", -3)
+    assert "has no size" in made.state.words
+    assert made.measured is signal()
+    assert not made._tasks
+
+
+def test_names_of_files_are_shown_in_short_and_without_tricks():
+    assert shown_name("  a \n b\x00\u202e.csv ") == "a b.csv"
+    assert shown_name("") == "The file"
+    long = shown_name("x" * 300 + "-end.csv")
+    assert len(long) <= LONGEST_NAME
+    assert long.endswith("-end.csv")
+
+
+def test_what_was_asked_last_wins():
+    async def two() -> Measurement:
+        made = measuring()
+        first, second = csv_of(NOISE, "time,x,y"), csv_of(NOISE[:1000], "time,x,y")
+        made.begin_upload("first.csv", len(first))
+        made.take_piece(first, 1)  # is being read ...
+        made.begin_upload("second.csv", len(second))
+        made.take_piece(first, 1)  # late
+        made.take_piece(second, 2)
+        await settled(made)
+        return made
+
+    made = run(two())
+    assert made.measured is not None
+    assert made.measured.recording.name == "second.csv"
+    assert made.state.words.startswith("second.csv")
+
+
+# -- simulated measurements ------------------------------------------------------------------------
+
+
+def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
+    quiet = simulated(RIG, math.inf, False, 1)
+    noisy = simulated(RIG, 20.0, False, 1)
+    assert quiet.true_extent == RIG.defects[0].extent
+    clean, with_noise = quiet.recording.acceleration, noisy.recording.acceleration
+    ratio = np.std(with_noise - clean, axis=0) / np.sqrt(np.mean(clean**2, axis=0))
+    assert ratio == pytest.approx([0.1, 0.1], rel=0.03)
+    assert quiet.recording.duration * RIG.bearing.bpfo(RIG.shaft_speed) > 50.0
+
+
+@pytest.mark.parametrize("scene", [RIG.replace(dofs=("z",), fz=10.0), RIG.replace(fy=0.0)])
+def test_scenes_that_do_not_move_are_refused_in_a_sentence(scene):
+    with pytest.raises(ValueError, match="Not possible"):
+        simulated(scene, math.inf, False, 1)
+
+
+def test_a_long_file_name_loses_its_middle_and_keeps_its_end() -> None:
+    assert without_middle("105.mat", NAME_IN_LINE) == "105.mat"
+    long = "12k_Drive_End_Bearing_Fault_Data_IR_007_105_0.mat"
+    short = without_middle(long, NAME_IN_LINE)
+    assert len(short) == NAME_IN_LINE
+    head, tail = short.split("…")
+    assert long.startswith(head)
+    assert tail == "7_105_0.mat"
+    made = brought(long, case_western(), signal())
+    assert made.state.line.startswith(f"{short} · 167 ms")
+    assert made.state.whole_name == long

@@ -1,0 +1,307 @@
+"""The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.session import simulated
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.diagnosis.views.part_lines import (
+    FAINT,
+    STRONG,
+    Zoom,
+    named,
+    window,
+)
+from bearing_explorer.explorer.messages import LessonChange
+from bearing_explorer.kit.messages import take
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.page import SECTIONS, Halves
+
+from bearingcore import Diagnosis, Recording, presets
+from tests.helpers.measuring import at, measuring
+
+MOTOR = presets["6205"]
+MODEL = Model(MOTOR)
+SCENES = {
+    "outer race": MOTOR,
+    "inner race": MOTOR.replace(race="inner"),
+    "none": MOTOR.replace(extent=0.0),
+}
+TURN = 2.0 * math.pi
+
+
+@cache
+def heard(truth: str, noise_db: float = 20.0) -> Measured:
+    return simulated(SCENES[truth], noise_db, False, 1)
+
+
+@cache
+def diagnosed(truth: str, noise_db: float = 20.0) -> Diagnosis:
+    found = answered(Question.about(heard(truth, noise_db)))
+    assert isinstance(found, Diagnosis)
+    return found
+
+
+def asked(truth: str) -> Question:
+    return Question.about(heard(truth))
+
+
+def view_of(measured: Measured | None = None, answer: Diagnosis | str | None = None):
+    view = PartDiagnosis(PackedSource())
+    view.measure(measuring(measured))
+    if measured is not None and answer is not None:
+        view.measurement.diagnoses.keep(Question.about(measured), answer)
+    return view
+
+
+def shown(truth: str):
+    """A view that knows its answer and has said it."""
+    view = view_of(heard(truth), diagnosed(truth))
+    view.all_data(MODEL)
+    view.say(MODEL, view.sentence(MODEL))
+    return view
+
+
+# -- the answer ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("truth", "mood", "headline"),
+    [
+        ("outer race", "fault", "The outer race is probably damaged"),
+        ("inner race", "fault", "The inner race is damaged"),
+        ("none", "healthy", "No damage seen"),
+    ],
+)
+def test_the_part_is_named_and_marked(truth, mood, headline):
+    view = shown(truth)
+    state = view.part.state
+    assert (state["mood"], state["headline"]) == (mood, headline)
+    assert state["part"] == ("" if truth == "none" else truth)
+    assert state["bearing"]["n_balls"] == 9
+    rests = dict(state["facts"])
+    assert rests["Slip"] == "balls up to 2 % slower or faster, assumed"
+    assert rests["Bearing"].startswith("9 balls of 7.94 mm on 39.04 mm")
+    assert "turns a minute" in rests["Shaft"]
+    sentence = view.sentence(MODEL)
+    assert diagnosed(truth).detail in sentence
+    assert "turns a minute (of the simulation" in sentence
+    truthful = "the bearing is healthy" if truth == "none" else f"the {truth} is damaged"
+    assert f"The signal is simulated: {truthful}." in sentence
+
+
+def test_a_step_is_on_the_page_once_there_is_a_signal():
+    form, *steps = next(one for one in SECTIONS if one.name == "diagnosis").views
+    waiting = [kind for kind in steps if issubclass(kind, MeasuredView)]
+    assert len(waiting) == 9
+    for kind in (form, *waiting):
+        view = kind(PackedSource())
+        view.measure(measuring(None))
+        view.say(MODEL, view.sentence(MODEL))
+        assert view.panel.visible == (kind is form)
+    view = shown("outer race")
+    assert view.panel.visible
+    view.measure(measuring(None))
+    view.say(MODEL, "")
+    assert not view.panel.visible
+
+
+@pytest.mark.parametrize("truth", list(SCENES))
+def test_words_have_sensible_digits_and_nothing_is_certain(truth):
+    state = panel_state(asked(truth), diagnosed(truth))
+    words = " ".join(
+        [
+            *(str(state[key]) for key in ("headline", "probability", "plain", "pass_on")),
+            *(" ".join(row) for row in state["facts"]),
+            str(part_words.evidence_rows(diagnosed(truth))),
+        ]
+    )
+    assert not re.search(r"100 %|nan|inf\b|no value|None|e-\d|\d\.\d{4}", words), words
+    assert "±" not in state["pass_on"]
+
+
+def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
+    question, found = asked("none"), diagnosed("none")
+    bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
+    machine = dataclasses.replace(question.measured.machine, bearing=bearing)
+    estimated = Question.about(dataclasses.replace(question.measured, machine=machine))
+    state = panel_state(estimated, found)
+    assert part_words.COUNTED.format("balls") in state["plain"]
+    assert part_words.COUNTED.format("balls") in state["pass_on"]
+    assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
+    counted = panel_state(question, found)
+    assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
+
+
+def test_a_part_that_is_hardly_told_is_only_probably_damaged():
+    found = dataclasses.replace(diagnosed("inner race"), probability=0.8)
+    assert part_words.headline(found) == "The inner race is probably damaged"
+    ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
+    assert part_words.headline(ball) == "A ball is damaged"
+    assert "ball-spin frequency" in part_words.plain(ball, asked("inner race"))
+    assert panel_state(asked("inner race"), ball)["part"] == "ball"
+
+
+def test_nothing_is_marked_where_it_cannot_be_told():
+    short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), at(MOTOR))
+    found = answered(Question.about(short))
+    assert isinstance(found, Diagnosis)
+    view = view_of(short, found)
+    sources, ranges = view.all_data(MODEL)
+    assert not ranges
+    assert all(not column.size for columns in sources.values() for column in columns.values())
+    view.say(MODEL, view.sentence(MODEL))
+    state = view.part.state
+    assert (state["mood"], state["part"], state["probability"]) == ("unknown", "", "")
+    assert state["headline"] == "No clear result"
+    assert "ball passes" in state["plain"]
+    assert view.evidence.object == ""
+
+
+def test_a_refusal_is_a_sentence():
+    still = Measured(heard("none").recording, at(MOTOR, 0.0))
+    answer = answered(Question.about(still))
+    assert isinstance(answer, str)
+    assert "shaft speed" in answer
+    view = view_of(still, answer)
+    assert view.sentence(MODEL) == answer
+    view.say(MODEL, answer)
+    assert view.part.state["plain"] == answer
+
+
+# -- the lines -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("truth", ["outer race", "inner race"])
+def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
+    found = diagnosed(truth)
+    sources, ranges = view_of(heard(truth), found).all_data(MODEL)
+    for one in found.evidence:
+        key = one.part.replace(" ", "_")
+        lines = sources[f"diagnosis_{key}_lines"]
+        own = one.part == truth
+        first = one.frequency if own else one.nominal_frequency
+        np.testing.assert_allclose(lines["frequency"], first * np.arange(1, 7))
+        assert (lines["alpha"] == (STRONG if own else FAINT)).all()
+        assert bool(sources[f"diagnosis_{key}_points"]["frequency"].size) == own
+        beside = sources[f"diagnosis_{key}_sidebands"]["frequency"]
+        assert bool(beside.size) == (own and truth == "inner race")
+    own = found.of(truth)
+    points = sources[f"diagnosis_{truth.replace(' ', '_')}_points"]
+    np.testing.assert_allclose(points["level"], own.harmonics)
+    spectrum = sources["diagnosis_spectrum"]
+    at = np.abs(spectrum["frequency"] - own.frequency).argmin()
+    assert spectrum["level"][at - 2 : at + 3].max() > own.noise + 5.0
+    low, high = ranges["diagnosis_frequency"]
+    assert (low, high > 6.0 * found.of("inner race").nominal_frequency) == (0.0, True)
+    orders = ranges["diagnosis_order"]
+    assert orders[1] == pytest.approx(high / 29.95, rel=0.01)
+    assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
+
+
+def test_a_zoom_shows_a_line_with_what_stands_beside_it():
+    found = diagnosed("inner race")
+    one = found.of("inner race")
+    low, high = window(found, Zoom("inner race", 2))
+    assert low < 2.0 * one.frequency - one.sideband_spacing
+    assert high > 2.0 * one.frequency + one.sideband_spacing
+    assert high - low < one.frequency
+    view = view_of(heard("inner race"), found)
+    view.look_changed("zoom", "inner race 2")
+    assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
+
+
+def test_the_shaft_speed_can_be_rough_or_unknown():
+    measurement = shown("outer race").measurement
+    measurement.take_form({"speed": ""})
+    assert measurement.question().speed is None
+    assert "speed?" in measurement.state.line
+    measurement.take_form({"speed": "rough"})
+    low, high = measurement.question().speed
+    assert low < heard("outer race").shaft_speed < high
+    measurement.take_form({"speed": "simulated"})
+    assert measurement.question() == asked("outer race")
+
+
+@pytest.mark.parametrize("first", [3.0, 40.3, 107.4, 162.2, 900.0])
+@pytest.mark.parametrize("low", [0.0, 100.0])
+@pytest.mark.parametrize("high", [150.0, 1000.0])
+def test_names_of_lines_stand_clear_of_each_other(first, low, high):
+    multiples = np.arange(1.0, 7.0)
+    places = named(multiples, first, low, high) * first
+    assert ((places >= low) & (places <= high)).all()
+    assert np.diff(places).min(initial=math.inf) >= 0.04 * (high - low)
+
+
+# -- the evidence ----------------------------------------------------------------------------------
+
+
+def test_the_evidence_is_listed_for_each_part():
+    rows = part_words.evidence_rows(diagnosed("inner race"))
+    assert [row["part"] for row in rows] == ["outer race", "inner race", "ball"]
+    (lead,) = [row for row in rows if row["leads"]]
+    own = diagnosed("inner race").of("inner race")
+    assert lead["part"] == "inner race"
+    assert lead["order"] == f"{own.order:.3f}"
+    assert [one["clear"] for one in lead["harmonics"]] == [True] * 6
+    assert lead["spacing"].endswith("Hz, shaft")
+    assert lead["probability"] == "99 %"
+    assert rows[0]["sidebands"] == "none expected"
+    assert not any(row["leads"] for row in part_words.evidence_rows(diagnosed("none")))
+
+
+def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():
+    """Nor on whether it is an acceleration or a velocity: what is whitened has no slope left."""
+    truth, known = heard("inner race"), diagnosed("inner race")
+    velocity = np.cumsum(truth.recording.acceleration, axis=0)
+    velocity = dataclasses.replace(truth.recording, acceleration=velocity - velocity.mean(axis=0))
+    unknown = Measured(velocity, truth.machine, in_si=False)
+    question = Question.about(unknown)
+    found = answered(question)
+    assert found.fault == known.fault
+    rests = dict(panel_state(question, found)["facts"])
+    assert rests["Unit"] == "not known; the part does not depend on it"
+    assert "Unit" not in dict(panel_state(asked("inner race"), known)["facts"])
+
+
+# -- simulated measurements ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("preset", "noise_db"), [("fan-rig", 40.0), ("fan-rig", 10.0), ("6205", 20.0)]
+)
+def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
+    scene = presets[preset].replace(extent=0.0)
+    measured = simulated(scene, noise_db, True, 3)
+    found = answered(Question.about(measured))
+    assert found.fault == "none seen"
+
+
+# -- the tab ---------------------------------------------------------------------------------------
+
+
+def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
+    halves = Halves()
+    explorer = halves.explorer
+    halves.session.draw = lambda: None  # type: ignore[method-assign]
+    wishes = []
+    halves.diagnosis.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
+        (wish, explorer.scene.defects[0].race)
+    )
+    wish = {"noise": "20", "machine": "same"}
+    change = explorer.requests.change_lesson
+    for junk in ("now", None, 3):
+        take(change, LessonChange, {"mark": 1, "simulate": junk})
+    take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
+    assert wishes == [(("20", "same", "scene"), "inner")]

@@ -1,0 +1,94 @@
+"""The extent of a spall on the Diagnosis tab: measured once the part is named."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from functools import cache
+
+import pytest
+from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered, extent_of
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views.extent import BEFORE, SpallExtent
+from bearing_explorer.diagnosis.views.signal_figure import figure_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+
+from bearingcore import MeasuredExtent, Recording, presets
+from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
+from tests.helpers.measuring import at, measuring
+
+SCENE = presets["6205"].replace(shaft_speed=SPEED)
+MODEL = Model(SCENE)
+
+
+@cache
+def measured(entry: float = 1.0) -> Measured:
+    return Measured(Recording(signal(entry=entry), RATE, ("y",)), at(SCENE), in_si=False)
+
+
+def view_of(entry: float = 1.0) -> SpallExtent:
+    """The view with the answer it asks for."""
+    made = SpallExtent(PackedSource())
+    made.measure(measuring(measured(entry)))
+    about = Question.about(measured(entry))
+    made.measurement.diagnoses.keep(about, answered(about))
+    question = made.question()
+    made.measurement.extents.keep(question, extent_of(question))
+    made.say(MODEL, made.sentence(MODEL))
+    return made
+
+
+def test_the_answer_is_one_line_with_entry_and_exit_marked():
+    view = view_of()
+    found = view.answer()
+    assert found.measured
+    assert view.status.line == {**view.status.line, "mood": "good", "words": found.answer}
+    assert found.answer in view.sentence(MODEL)
+    sources, ranges = view.all_data(MODEL)
+    spacing = math.degrees(MOTOR.ball_spacing)
+    assert ranges["extent_angle"] == pytest.approx((-BEFORE * spacing, (1 - BEFORE) * spacing))
+    entry, leave = sources["extent_edges"]["angle"]
+    assert entry == 0.0
+    assert leave == pytest.approx(math.degrees(found.separation), abs=0.3)
+    best = sources["extent_pass_0"]
+    highest = best["angle"][best["envelope"].argmax()]
+    assert min(abs(highest - entry), abs(highest - leave)) < 0.3
+    assert view.csv().startswith("race,status,extent_deg")
+    assert view.found is found
+
+
+def test_where_there_is_none_the_page_says_why_and_draws_the_pass():
+    view = view_of(entry=0.0)
+    assert view.status.line["mood"] == "bad"
+    assert view.sentence(MODEL) == view.answer().sentence
+    assert not view.all_data(MODEL)[0]["extent_edges"]["angle"].size
+    assert view.all_data(MODEL)[0]["extent_pass_0"]["angle"].size
+
+
+def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():
+    async def go():
+        view = SpallExtent(PackedSource())
+        view.measure(measuring(measured()))
+        view.say(MODEL, view.sentence(MODEL))
+        assert view.measurement.extents.wanted is None
+        assert view._sentence.text == BUSY
+        about = Question.about(measured())
+        view.measurement.diagnoses.keep(about, answered(about))
+        view.say(MODEL, view.sentence(MODEL))
+        question = view.measurement.extents.wanted
+        while view.measurement.extents.of(question) is None:
+            await asyncio.sleep(0.02)
+        return view.answer()
+
+    assert asyncio.run(go()).measured
+
+
+def test_the_race_may_be_known_and_a_figure_alone_needs_no_session():
+    view = view_of()
+    view.look_changed("race", "inner")
+    assert view.choices() == {"race": "inner"}
+    assert view.question().race == "inner"
+    drawn = figure_of(SpallExtent, SCENE, recording=measured().recording, choices={"race": "outer"})
+    assert "outer race" in drawn.sentence
+    assert isinstance(drawn.view.found, MeasuredExtent)

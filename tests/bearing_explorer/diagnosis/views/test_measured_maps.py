@@ -1,0 +1,88 @@
+"""Condition indicators, kurtogram, spectrogram and order map of a measured signal."""
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
+from bearing_explorer.diagnosis.views.measured_kurtogram import CELLS, MeasuredKurtogram, picture
+from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.kit.serve.packed_source import PackedSource
+
+from bearingcore import Recording, presets
+from tests.helpers.measuring import measuring
+
+MODEL = Model(presets["fan-rig"])
+RATE = 6000.0
+TIME = np.arange(int(8 * RATE)) / RATE
+FIRST, LAST = 15.0, 35.0
+"""[Hz] of a shaft that runs up evenly."""
+
+
+def run_up(duration: float = 8.0, *, in_si: bool = True) -> Measured:
+    """A tone at order 3.58 of that shaft in noise, with single knocks."""
+    turns = FIRST * TIME + (LAST - FIRST) * TIME**2 / (2.0 * TIME[-1])
+    signal = np.sin(2.0 * math.pi * 3.58 * turns)
+    signal += 0.1 * np.random.default_rng(1).standard_normal(TIME.size)
+    signal = signal[: round(duration * RATE)]
+    recording = Recording(signal[:, None], RATE, ("y",))
+    return Measured(recording, Machine(2.0 * math.pi * FIRST), in_si=in_si)
+
+
+def view_of(kind: type[MeasuredView], measured: Measured | None) -> MeasuredView:
+    view = kind(PackedSource())
+    view.measure(measuring(measured))
+    return view
+
+
+def rows_of_the_line(view: MeasuredView) -> np.ndarray:
+    """Order of the highest cell of each column."""
+    table = view.table(MODEL)
+    columns = len(np.unique(table["turns"]))
+    order, level = (table[name].reshape(columns, -1) for name in ("order", "level_db"))
+    return order[np.arange(columns), level.argmax(axis=1)]
+
+
+def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
+    view = view_of(MeasuredSpectrogram, run_up())
+    view.look_changed("map", "orders")
+    assert np.ptp(rows_of_the_line(view)) > 3.0
+    view.look_changed("last", f"{LAST}")
+    assert rows_of_the_line(view) == pytest.approx(3.58, abs=0.1)
+    assert view.choices() == {"map": "orders", "last": f"{LAST:g}"}
+    assert "from 15 Hz to 35 Hz" in view.sentence(MODEL)
+    view.look_changed("map", "spectrogram")
+    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
+    view.look_changed("last", "")
+    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"].size == 0
+
+
+def test_the_kurtogram_is_drawn_where_its_bands_are():
+    measured = run_up()
+    found = measured.kurtogram("y")
+    cells = picture(found, 0.5 * RATE)
+    middles = (np.arange(CELLS) + 0.5) * 0.5 * RATE / CELLS
+    for band, kurtosis in zip(found.bands, found.kurtosis, strict=True):
+        inside = (middles > band.low) & (middles < band.high)
+        assert (cells[:, inside] == kurtosis).all(axis=1).any()
+    view = view_of(MeasuredKurtogram, measured)
+    (low,), (high,) = view.all_data(MODEL)[0]["kurtogram_band"].values()
+    assert f"from {1e3 * low:.0f} to {1e3 * high:.0f} Hz" in view.sentence(MODEL)
+
+
+def test_without_a_unit_there_is_neither_velocity_nor_zone():
+    known, unknown = (view_of(MeasuredIndicators, run_up(in_si=si)) for si in (True, False))
+    for view in (known, unknown):
+        view.look_changed("machine", "medium, rigid")
+        view.say(MODEL, view.sentence(MODEL))
+    assert known.sentence(MODEL).startswith("Zone A of ISO 20816-3 with")
+    assert "15 to 300 kW on a rigid support, boundaries 1.4, 2.8 and 4.5" in known.sentence(MODEL)
+    assert "mm/s" in known._facts.object
+    assert "unit of the signal is not known" in unknown.sentence(MODEL)
+    assert "mm/s" not in unknown._facts.object
+    assert not [name for name in unknown.table(MODEL) if "velocity" in name]
+    assert "rms_as_in_file" in unknown.table(MODEL)

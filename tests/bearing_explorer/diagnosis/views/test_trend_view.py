@@ -1,0 +1,155 @@
+"""Several files as a trend: good ones read, bad ones named, numbers as a table and in Python."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+from collections.abc import Callable, Iterator
+from functools import cache
+
+import numpy as np
+import pytest
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.upload import PIECE
+from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.serve.packed_source import PackedSource
+
+from bearingcore import presets
+from tests.helpers.loops import run
+from tests.helpers.measuring import measuring, signal
+from tests.helpers.reading import read_in_this_process
+
+MODEL = Model(presets["fan-rig"])
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    """Files are read in this process; that of their own has its tests with the core."""
+    with pytest.MonkeyPatch.context() as patched:
+        read_in_this_process(patched)
+        yield
+
+
+NOW = SceneNow(lambda: presets["fan-rig"])
+RATE = 5000.0
+LOUD = (1.0, 2.0, 6.0)
+"""How loud the good files are, in their order."""
+
+
+@cache
+def files() -> dict[str, bytes]:
+    """Three recordings of 1 s, louder and louder, between them one that cannot be read."""
+    rng = np.random.default_rng(3)
+    time = np.arange(int(RATE)) / RATE
+    made = {}
+    for day, loud in enumerate(LOUD, 1):
+        file = io.StringIO()
+        noise = rng.standard_normal(time.size)
+        signal = loud * (noise - noise.mean()) / noise.std()
+        np.savetxt(file, np.column_stack([time, signal]), "%.7g", ",", header="time (s),y (m/s2)",
+                   comments="")  # fmt: skip
+        made[f"day{day}.csv"] = file.getvalue().encode()
+    first, *others = made.items()
+    return dict([first, ("broken.csv", b"x,y\n1,2\nhello,3"), *others])
+
+
+async def bring_all(made: Measurement, after: Callable[[int], None] = lambda number: None) -> None:
+    """As the browser does; `after` is called when a file is read and the next may come."""
+    waiting = list(enumerate(files().items(), 1))
+    current = b""
+
+    def begin() -> None:
+        nonlocal current
+        number, (name, current) = waiting.pop(0)
+        made.begin_upload(name, len(current), number, len(files()), len(files()))
+
+    def want(begin: int, of: int) -> None:
+        made.take_piece(current[begin : begin + PIECE], of)
+
+    def more() -> None:
+        after(len(files()) - len(waiting))
+        begin()
+
+    made.want, made.more = want, more
+    begin()
+    while made._tasks:
+        await asyncio.sleep(0.005)
+
+
+@cache
+def brought() -> Measurement:
+    made = measuring()
+    run(bring_all(made))
+    return made
+
+
+def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> str:
+    """The job of the view here and now: its sentence."""
+    work = Work()
+    if stopped:
+        work.stop()
+    words = view.prepare({"baseline": baseline}, NOW)(work)
+    (view.found,) = work.taken()
+    return words
+
+
+def view_of(made: Measurement) -> TrendOfFiles:
+    view = TrendOfFiles(PackedSource())
+    view.measure(made)
+    view.say(MODEL, view.sentence(MODEL))
+    return view
+
+
+@pytest.fixture(scope="module")
+def view() -> TrendOfFiles:
+    made = view_of(brought())
+    assert computed(made) == "3 of 3 files are in it."
+    return made
+
+
+def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFiles) -> None:
+    made = brought()
+    assert [table.name for table in made.series.tables] == ["day1.csv", "day2.csv", "day3.csv"]
+    assert made.measured is not None
+    assert made.measured.recording.name == "day3.csv"
+    sentence = view.sentence(MODEL)
+    assert "3 recordings along y" in sentence
+    assert "6 times that of the baseline, day1.csv" in sentence
+    assert "Left out: broken.csv" in sentence
+    sources, ranges = view.data(MODEL)
+    rms = sources["trend"]["rms"]
+    np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
+    assert ranges["trend_rms"][1] > rms[-1]
+    assert len(view.table(MODEL)["rms_m_per_s2"]) == 3
+
+
+def test_another_baseline_needs_no_file_again(
+    view: TrendOfFiles, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(brought(), "recordings", None)
+    before = view.found
+    assert computed(view, "2") == "Compared with file 2."
+    np.testing.assert_allclose(view.found.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4)
+    monkeypatch.undo()
+    with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
+        view.prepare({"baseline": "9"}, NOW)(Work())
+    view.found = before
+
+
+def test_cancel_while_files_are_read_keeps_the_signal_before() -> None:
+    made = measuring(signal())
+    read: list[int] = []
+
+    def cancel(number: int) -> None:
+        read.append(number)
+        made.cancel()
+
+    run(bring_all(made, cancel))
+    assert read == [1]
+    assert made.measured is signal()
+    assert made.series.tables == ()
+    assert not made.state.busy
+    assert made.state.words == f"Cancelled. {signal().recording.name} stays."

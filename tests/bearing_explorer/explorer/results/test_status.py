@@ -1,0 +1,46 @@
+"""The line under the page: how the newest answer went."""
+
+import math
+
+import pytest
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import status_of
+from bearing_explorer.explorer.state.settings import Settings
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.orbit import SteadyOrbit
+
+from bearingcore import presets
+
+
+def test_the_status_line_says_what_happened() -> None:
+    good = status_of(Results(presets["fan-rig"]), 0.0123)
+    assert (good["mood"], good["words"]) == ("good", "Converged")
+    assert good["details"][1:] == [
+        "2 degrees of freedom: x y",
+        "361 cage angles",
+        "12.3 ms of computing",
+    ]
+    assert "residual at most" in good["details"][0]
+    bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
+    assert bad["mood"] == "bad"
+    assert "nothing touches" in bad["words"]
+
+
+@pytest.mark.parametrize(
+    ("hertz", "mood", "words"),
+    [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: period doubling (flip)")],
+)
+def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
+    """An orbit that no machine stays on is not "Converged", though its static states are."""
+    rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
+    results = Results(rig)
+    line = status_of(results, 0.0, SteadyOrbit.needs)
+    assert (line["mood"], line["words"]) == (mood, words)
+    assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Converged"
+
+
+def test_a_motion_that_breaks_off_is_not_converged() -> None:
+    by_hand = Results(presets["fan-rig"], settings=Settings(step_rate=1024.0, duration=0.2))
+    line = status_of(by_hand, 0.0, frozenset({"motion"}))
+    assert line["mood"] == "bad"
+    assert "diverged after" in line["words"]

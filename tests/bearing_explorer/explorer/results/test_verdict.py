@@ -1,0 +1,66 @@
+"""The status line and the sentences of the views say the same of a scene without an equilibrium."""
+
+from __future__ import annotations
+
+import pytest
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import status_of, verdict
+from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.widgets.limits import rows_of
+
+from bearingcore import Load, Scene, limits, presets
+
+CONE = presets["30206-back-to-back"].bearing.replace(rows=())
+RIG = presets["nu208"].healthy()
+SHOWN = frozenset({"equilibrium", "now", "endurance", "motion", "orbit"})
+
+
+def cone(fy: float, fz: float, dofs: tuple[str, ...] | None) -> Results:
+    load = Load(0.0, fy, fz)
+    return Results(Scene(CONE, RIG.defect, load, RIG.shaft_speed, RIG.support, dofs=dofs), 0.1)
+
+
+@pytest.mark.parametrize(
+    ("fy", "fz", "dofs", "missing"),
+    [
+        (-4000.0, 4000.0, None, "tilts that are held"),
+        (0.0, -500.0, None, "500 N press the inner ring out"),
+        (-4000.0, 500.0, ("x", "y", "z"), "more axial load"),
+    ],
+)
+def test_nothing_is_called_converged_where_a_cone_leaves_its_cup(
+    fy: float, fz: float, dofs: tuple[str, ...] | None, missing: str
+) -> None:
+    results = cone(fy, fz, dofs)
+    for shown in (frozenset({"equilibrium"}), SHOWN):
+        line = status_of(results, 0.01, shown)
+        assert line["mood"] == "bad"
+        assert line["words"].startswith("No answer: no contact can carry this load")
+        assert missing in line["words"]
+        assert "onverged" not in " ".join([line["words"], *line["details"]])
+    for kind in (LoadDistribution, NaturalFrequencies):
+        assert missing in kind(PackedSource()).sentence(results)
+    facts = {fact.name: fact.value for group in groups_of(results) for fact in group.facts}
+    assert facts["Life L<sub>10</sub>"] == "not known"
+    assert facts["at the speed of the scene"] == "not known"
+    assert missing in " ".join(group.words for group in groups_of(results))
+    assert missing in LifeOfBearing(PackedSource()).sentence(results)
+
+
+def test_no_equilibrium_between_the_cage_angles_of_the_curves_is_seen_too() -> None:
+    results = cone(-4000.0, 4000.0, ("x", "y", "z"))
+    assert verdict(results, SHOWN - {"orbit", "motion"}).words == "Converged"
+    lost = cone(-4000.0, 500.0, ("x", "y", "z"))
+    results.__dict__["now"] = lost.now
+    said = verdict(results, frozenset({"now"}))
+    assert said.mood == "bad"
+    assert said.words.startswith("No answer at this cage angle: no contact")
+
+
+def test_too_little_thrust_stands_first_among_the_limits() -> None:
+    first = rows_of(limits(cone(-4000.0, 1100.0, ("x", "y", "z")).scene))[0]
+    assert first["state"] == "crossed"
+    assert first["sentence"].startswith("The axial load is below the one it induces (1.26 kN)")

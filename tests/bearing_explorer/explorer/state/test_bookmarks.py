@@ -1,0 +1,134 @@
+"""What a session remembers: steps, compared scenes, the address; and what strangers ask of it."""
+
+import pytest
+from bearing_explorer.explorer.state.bookmarks import (
+    LONGEST_NAME,
+    Bookmarks,
+    name_of,
+    open_request_of,
+    read_request,
+)
+from bearing_explorer.explorer.state.scene_editor import SceneEditor, read_file
+from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
+
+from bearingcore import Scene, presets
+
+
+@pytest.fixture
+def editor() -> SceneEditor:
+    return SceneEditor("fan-rig")
+
+
+@pytest.fixture
+def bookmarks(editor: SceneEditor) -> Bookmarks:
+    return Bookmarks(editor)
+
+
+def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: Bookmarks) -> None:
+    seen = [editor.snapshot()]
+
+    def note(message: dict) -> None:
+        bookmarks.follow(message)
+        seen.append(editor.snapshot())
+        assert seen[-1] != seen[-2]
+
+    editor.choose({"floor": "rough"})
+    note({"choose": {"floor": "rough"}})
+    editor.set({"rms_height_um": 7})
+    note({"typed": {"rms_height_um": 7}})
+    editor.take_floor("wear.txt", *read_file("250 0\n265 60\n280 0\n"))
+    bookmarks.step()
+    seen.append(editor.snapshot())
+    editor.choose({"defect": "add"})
+    note({"choose": {"defect": "add"}})
+    editor.choose({"numbers": "drawing"})
+    note({"choose": {"numbers": "drawing"}})
+    editor.choose({"preset": "6205"})
+    note({"choose": {"preset": "6205"}})
+    for kept in seen[-2::-1]:
+        assert bookmarks.go({"undo": True})
+        assert editor.snapshot() == kept
+        assert editor.values == kept.values
+    for kept in seen[1:]:
+        assert bookmarks.go({"redo": True})
+        assert editor.snapshot() == kept
+    assert not bookmarks.go({"redo": True})
+
+
+def test_looking_at_another_defect_is_no_step(editor: SceneEditor, bookmarks: Bookmarks) -> None:
+    editor.choose({"defect": "add"})
+    bookmarks.follow({"choose": {"defect": "add"}})
+    editor.choose({"defect": "0"})
+    bookmarks.follow({"choose": {"defect": "0"}})
+    bookmarks.go({"undo": True})
+    assert len(editor.defects) == 1
+
+
+def test_no_more_scenes_are_compared_than_there_are_colours(bookmarks: Bookmarks) -> None:
+    for _ in range(MOST_COMPARED + 1):
+        bookmarks.change_compared({"compare_here": ""})
+    assert len(bookmarks.compared) == MOST_COMPARED
+    assert "remove one first" in bookmarks.state()["said"]["words"]
+
+
+def test_a_link_holds_the_compared_scenes(editor: SceneEditor, bookmarks: Bookmarks) -> None:
+    bookmarks.change_compared({"compare_here": "as it was & is"})
+    editor.take_preset("liew-lim")
+    editor.choose({"defect": "add"})
+    editor.set({"extent_deg": 40.1})
+    bookmarks.change_compared({"compare_here": ""})
+    editor.choose({"floor": "rough"})
+    bookmarks.change_compared({"compare_here": ""})
+    address = bookmarks.state()["address"]
+    again = Bookmarks(other := SceneEditor("fan-rig"), address + "&tab=load")
+    assert again.compared == bookmarks.compared
+    assert other.scene == editor.scene
+    assert again.state()["address"] == address + "&tab=load"
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "compare5.extent_deg=1",
+        "compare1.tab=load",
+        "compare1.compare2.extent_deg=1",
+        "compare1.v=1",
+    ],
+)
+def test_what_compares_nothing_is_passed_over(editor: SceneEditor, address: str) -> None:
+    bookmarks = Bookmarks(editor, f"v=1&preset=6205&{address}")
+    assert bookmarks.compared == ()
+    assert "ignored" in bookmarks.state()["said"]["words"]
+
+
+def test_a_file_is_the_scene_and_a_bad_one_a_sentence(
+    editor: SceneEditor, bookmarks: Bookmarks
+) -> None:
+    file = bookmarks.toml()
+    assert Scene.from_toml(file["text"]) == editor.scene
+    for text, words in (
+        (presets["6205"].to_toml(), "is open"),
+        ("nonsense [", "allowed: TOML"),
+        ("version = 7", "version"),
+        ('[bearing]\nn_balls = "many"', "bearing"),
+        (file["text"].replace("n_balls = 14", "n_balls = 1000000000"), "number of balls"),
+        (presets["fan-rig"].replace(fy=-1e9).to_toml(), "out of range"),
+        ("x" * 3_000_000, "longer"),
+    ):
+        before = editor.snapshot()
+        request = open_request_of({"file": {"name": "scene.toml", "text": text}})
+        assert request is not None
+        taken = bookmarks.take(request, read_request(request))
+        assert words in bookmarks.state()["said"]["words"]
+        assert bookmarks.state()["said"]["words"].startswith("scene.toml")
+        assert taken == (words == "is open")
+        assert taken or editor.snapshot() == before
+    assert editor.preset == "6205", "the preset whose bearing it has"
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("", "Unnamed"), ("\n\t\0", "Unnamed"), (" a  b ", "a b"), ("x" * 999, "x" * LONGEST_NAME)],
+)
+def test_names_are_short_and_on_one_line(text: str, name: str) -> None:
+    assert name_of(text) == name

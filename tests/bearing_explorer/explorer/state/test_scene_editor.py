@@ -1,0 +1,183 @@
+"""What a person builds on the page, and what is refused on the way."""
+
+import math
+import re
+from itertools import pairwise
+
+import pytest
+from bearing_explorer.explorer.state.scene_editor import (
+    LARGEST_FILE,
+    MOST_DEFECTS,
+    SceneEditor,
+    read_file,
+)
+
+from bearingcore import RoughFloor, presets
+
+
+@pytest.fixture
+def editor() -> SceneEditor:
+    return SceneEditor("fan-rig")
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_a_preset_is_taken_as_it_is_and_one_number_moves_nothing_else(name: str) -> None:
+    editor = SceneEditor(name)
+    assert editor.scene == presets[name]
+    assert not editor.changed
+    refused, changed = editor.set({"outer_mass": 3.25})
+    assert (refused, changed) == ({}, {"outer_mass": 3.25})
+    assert editor.scene == presets[name].replace(outer_mass=3.25)
+
+
+def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
+    assert editor.choose({"numbers": "drawing"}) == {}
+    drawn = editor.scene.bearing
+    assert drawn.is_drawn
+    assert drawn.inner_groove_radius == pytest.approx(0.52 * drawn.ball_diameter)
+    assert drawn.outer_groove_radius == pytest.approx(0.53 * drawn.ball_diameter)
+    assert "0.52" in editor.state()["effects"]["numbers"]
+    hidden = editor.state()["hidden"]
+    assert "load_deflection_factor" in hidden
+    assert "inner_groove_radius_mm" not in hidden
+    refused, changed = editor.set({"inner_groove_radius_mm": 4.2})
+    assert refused == {}
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(440e-6)
+    assert editor.scene.bearing.load_deflection_factor < drawn.load_deflection_factor
+    assert changed["groove_center_distance_um"] == pytest.approx(440.0)
+    refused, _ = editor.set({"inner_groove_radius_mm": 3.9})
+    assert "inner groove radius" in refused["inner_groove_radius_mm"]
+    editor.choose({"numbers": "direct"})
+    assert not editor.scene.bearing.is_drawn
+    assert editor.scene.bearing.groove_center_distance == pytest.approx(440e-6)
+    assert editor.state()["effects"] == {}
+
+
+def test_grooves_go_with_their_ball() -> None:
+    editor = SceneEditor("6205")
+    before = editor.scene.bearing
+    refused, changed = editor.set({"ball_diameter_mm": 9.0})
+    after = editor.scene.bearing
+    assert refused == {}
+    for race in ("inner", "outer"):
+        name = f"{race}_groove_radius"
+        assert getattr(after, name) / after.ball_diameter == pytest.approx(
+            getattr(before, name) / before.ball_diameter
+        )
+        assert changed[f"{name}_mm"] == pytest.approx(1e3 * getattr(after, name))
+        limit = editor.limits[f"{name}_mm"]
+        assert limit.least < 1e3 * getattr(after, name) < limit.most
+
+
+def test_what_is_typed_past_a_slider_stretches_it_until_it_is_back(editor: SceneEditor) -> None:
+    assert editor.set({"extent_deg": "300"})[0] == {}
+    assert editor.limits["extent_deg"].most == 360.0
+    assert "out of range" in editor.set({"extent_deg": "400"})[0]["extent_deg"]
+    assert editor.scene.defect.extent == pytest.approx(math.radians(300.0))
+    usual = editor.limits["fy_n"]
+    editor.set({"fy_n": "-100000"})
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == [], "the number is still outside"
+    kept = editor.snapshot()
+    editor.set({"fy_n": -200})
+    assert editor.limits["fy_n"] != usual, "a hand may still be on the slider"
+    assert editor.narrow() == ["fy_n"]
+    assert editor.limits["fy_n"] == usual
+    editor.restore(kept)
+    assert editor.limits["fy_n"].least <= -100000
+    assert editor.narrow() == []
+
+
+def test_an_optional_number_may_be_left_open(editor: SceneEditor) -> None:
+    assert editor.state()["values"]["contact_damping"] is None
+    editor.set({"contact_damping": "250"})
+    assert editor.scene.contact_damping == 250.0
+    refused, _ = editor.set({"contact_damping": ""})
+    assert refused == {}
+    assert editor.scene.contact_damping is None
+    refused, _ = editor.set({"stiffness_x": ""})
+    assert "missing" in refused["stiffness_x"]
+
+
+def test_defects_are_added_chosen_moved_and_removed(editor: SceneEditor) -> None:
+    first = editor.scene.defect
+    assert editor.choose({"defect": "add"}) == {}
+    assert editor.selected == 1
+    assert editor.scene.defects[0] == first
+    assert editor.scene.defects[1].center == pytest.approx(math.pi / 2)  # opposite the first
+    editor.choose({"race": "inner"})
+    editor.set({"extent_deg": 20, "center_deg": 45})
+    assert [d.race for d in editor.scene.defects] == ["outer", "inner"]
+    assert editor.scene.defects[0] == first
+    assert editor.scene.defects[1].extent == pytest.approx(math.radians(20))
+    editor.choose({"defect": "0"})
+    assert editor.values["extent_deg"] == pytest.approx(12.9)
+    assert editor.state()["choices"]["race"] == "outer"
+    assert editor.state()["defects"]["names"] == ["outer race at 270°", "inner race at 45°"]
+    editor.choose({"defect": "remove"})
+    assert len(editor.scene.defects) == 1
+    assert editor.scene.defect.race == "inner"
+    editor.choose({"defect": "remove"})
+    assert len(editor.defects) == 1, "the last one stays: its sliders do"
+
+
+def test_the_list_of_defects_ends_and_a_race_can_be_full(editor: SceneEditor) -> None:
+    for _ in range(MOST_DEFECTS - 1):
+        assert editor.choose({"defect": "add"}) == {}
+    assert len(editor.scene.defects) == MOST_DEFECTS
+    assert "the most there can be" in editor.choose({"defect": "add"})["defect"]
+    edges = sorted((d.center - 0.5 * d.extent, d.center + 0.5 * d.extent) for d in editor.defects)
+    assert all(end < start for (_, end), (start, _) in pairwise(edges))
+    full = SceneEditor("fan-rig")
+    full.set({"extent_deg": 360})
+    assert "no room" in full.choose({"defect": "add"})["defect"]
+
+
+def test_defects_that_run_together_keep_to_what_the_core_allows(editor: SceneEditor) -> None:
+    editor.choose({"defect": "add"})
+    editor.choose({"floor": "rough"})
+    before = editor.scene
+    refused, _ = editor.set({"center_deg": 268})
+    assert "flat floors where defects touch" in refused["center_deg"]
+    assert editor.scene == before
+    editor.choose({"floor": "flat"})
+    assert editor.set({"center_deg": 262})[0] == {}
+    editor.choose({"edge": "exact"})
+    assert {d.edge for d in editor.scene.defects} == {"exact"}
+
+
+def test_a_rough_floor_is_the_same_surface_for_the_same_seed(editor: SceneEditor) -> None:
+    editor.set({"rms_height_um": 7.0})
+    assert editor.scene.defect.floor is None, "a flat floor has no roughness"
+    editor.choose({"floor": "rough"})
+    editor.set({"correlation_length_um": 150, "seed": 3})
+    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
+    assert "seed" not in editor.state()["hidden"]
+    assert "whole number" in editor.set({"seed": 2.5})[0]["seed"]
+    editor.choose({"floor": "flat"})
+    assert editor.scene == presets["fan-rig"]
+    editor.choose({"floor": "rough"})
+    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "2 or more lines"),
+        ("1 2\n3 x\n", "line 2"),
+        ("1 2\n1 3\n", "different angles"),
+        ("0 10\n500 10\n", "within one turn"),
+        ("1 1\n" * LARGEST_FILE, "longer than"),
+        ("1 9000\n30 9000\n", "ball radius"),
+    ],
+)
+def test_a_file_that_is_no_floor_is_refused_in_words(
+    editor: SceneEditor, text: str, words: str
+) -> None:
+    before = editor.scene
+    editor.take_floor("x" * 300, *read_file(text))
+    assert editor.scene == before
+    floor = editor.state()["floor"]
+    assert floor["bad"]
+    assert len(floor["words"]) < 300
+    assert re.search(words, floor["words"]), floor["words"]

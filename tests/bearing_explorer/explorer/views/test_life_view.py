@@ -1,0 +1,101 @@
+"""Life, pressure and film on the page: the core's numbers, and a sentence where there are none."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.life import groups_of
+from bearing_explorer.kit.widgets.limits import rows_of
+
+from bearingcore import (
+    Limit,
+    contact_pressures,
+    dynamic_load_rating,
+    life,
+    presets,
+)
+from bearingcore.statics.validity import looked_at
+
+
+def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
+    groups = groups_of(Results(presets[name], life_inputs=inputs))
+    return {
+        group.title: {fact.name: fact.value for fact in group.facts} | {"words": group.words}
+        for group in groups
+    }
+
+
+def test_the_numbers_are_those_of_the_core() -> None:
+    scene = presets["6205"]
+    said = facts("6205")
+    lasts = life(scene.healthy(), dynamic_load_rating(scene.bearing), positions="all")
+    healthy = said["Life of the healthy bearing"]
+    assert "computed from the dimensions by ISO 281" in healthy["Dynamic load rating C<sub>r</sub>"]
+    turns = number(healthy["Life L<sub>10</sub>"])
+    assert turns == pytest.approx(lasts.million_revolutions, rel=5e-3)
+    hours = number(healthy["at the speed of the scene"])
+    assert hours == pytest.approx(1e6 * lasts.million_revolutions / (1797.0 * 60.0), rel=5e-3)
+    inner = float(said["Greatest contact pressure"]["Inner race"].split()[0])
+    expected = contact_pressures(scene).inner.greatest_pressure
+    assert inner == pytest.approx(expected / 1e9, rel=1e-2)
+    assert "upper limit" in healthy["words"], "what the standard leaves out is said"
+    damaged = life(scene, dynamic_load_rating(scene.bearing), positions="all")
+    assert f"{100.0 * damaged.share_of_healthy:.0f} % of that" in healthy["words"]
+
+
+def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
+    scene = presets["fan-rig"]
+    assert not scene.bearing.knows_contacts
+    found = endurance(scene, LifeInputs())
+    assert found.healthy is not None
+    assert found.pressures is not None
+    assert "Assumed" in facts("fan-rig")["Life of the healthy bearing"]["words"]
+    usual = with_usual_grooves(scene)
+    assert usual is not None
+    loads = [looked_at(one).ball_load for one in (scene, usual)]
+    np.testing.assert_allclose(loads[1], loads[0], atol=1e-9)
+    assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
+
+
+def number(text: str) -> float:
+    return float(text.split(" ")[0].replace("\u202f", ""))
+
+
+def film_limit(inputs: LifeInputs) -> Limit:
+    limits = Results(presets["nu208"], life_inputs=inputs).limits
+    return next(limit for limit in limits if limit.name == "film parameter")
+
+
+def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() -> None:
+    assumed = film_limit(LifeInputs())
+    assert math.isnan(assumed.value)
+    row = next(row for row in rows_of((assumed,)))
+    assert row["state"] == "unknown"
+    assert "under Life" in row["sentence"]
+    assert film_limit(LifeInputs(viscosity=1e-3)).crossed
+    assert not film_limit(LifeInputs(viscosity=1.0)).crossed
+    rollers = facts("nu208")
+    assert "profile of ISO 16281" in rollers["Life of the healthy bearing"]["words"]
+    assert "assumed viscosity" in rollers["Oil film"]["words"]
+    assert "assumed" not in facts("nu208", LifeInputs(viscosity=1.0))["Oil film"]["words"]
+
+
+@pytest.mark.parametrize("name", list(presets))
+def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
+    found = endurance(presets[name], LifeInputs())
+    for answer, words in (
+        (found.life, found.no_life),
+        (found.pressures, found.no_pressures),
+        (found.film, found.no_film),
+    ):
+        assert (answer is None) == bool(words)
+        assert words == "" or words.endswith(".")
+    rated = endurance(presets[name], LifeInputs(dynamic_load_rating=40e3))
+    if presets[name].bearing.knows_contacts:
+        assert rated.life is not None
+        assert math.isfinite(rated.life.million_revolutions)
+        assert rated.pressures is not None

@@ -1,0 +1,141 @@
+"""The overview: what its sentence says is what the core gives, and only what matters is lively."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+from bearing_explorer.explorer.results.chain import Chain, Peak
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import BEFORE, Reference
+from bearing_explorer.explorer.views.overview.change import LastChange
+from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
+from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness, free_terms
+from bearing_explorer.explorer.views.overview.words import story
+from bearing_explorer.kit.serve.packed_source import PackedSource
+
+from bearingcore import DOF_NAMES, Scene, equilibrium, presets
+
+FAN_RIG = presets["fan-rig"]
+LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
+
+
+def told(now: Scene, before: Scene | None) -> str:
+    return LastChange(PackedSource()).sentence(
+        Results(now, before=before and Reference(before, BEFORE))
+    )
+
+
+def test_a_ball_spacing_longer() -> None:
+    """Of numbers that `test_chain.py` holds against the core, for both scenes."""
+    now, before = Results(LONGER).chain, Results(FAN_RIG).chain
+    fall, rise = (now.stiffness[term] / before.stiffness[term] for term in ("k_yy", "k_xx"))
+    (low, high), (low0, high0) = now.bands["y1"], before.bands["y1"]
+    assert told(LONGER, FAN_RIG) == (
+        "Defect longer by one ball spacing (12.9 → 38.61°): load shifts to balls farther from the "
+        "load line, "
+        f"k_yy falls by {100 * (1 - fall):.0f} %, k_xx rises by {100 * (rise - 1):.0f} %, "
+        f"the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
+        "and the spectrum's peak with it, "
+        f"from {before.peaks['y'].frequency:.0f} to {now.peaks['y'].frequency:.0f} Hz."
+    )
+    assert now.off_line > before.off_line
+
+
+def test_only_what_really_changed_is_said() -> None:
+    assert told(FAN_RIG.replace(depth=50.001e-6), FAN_RIG) == (
+        "Depth (50 → 50.001 µm): nothing changes, as no ball is pressed against "
+        "the floor of the defect at either depth."
+    )
+    shallow = FAN_RIG.replace(depth=1e-6)
+    assert "hardly anything changes" in told(shallow.replace(depth=1.001e-6), shallow)
+    heavier = told(FAN_RIG.replace(inner_mass=4.0), FAN_RIG)
+    assert "the y₁ band sinks" in heavier
+    assert "k_" not in heavier
+    assert "load" not in heavier, "static answers do not depend on the mass"
+    faster = told(FAN_RIG.replace(shaft_speed=2.0 * FAN_RIG.shaft_speed), FAN_RIG)
+    assert not {"band", "k_yy", "load"} & set(re.split(r"\W+", faster)), "nor on the speed"
+    assert "dB higher" in faster
+
+
+def test_what_has_no_answer_is_said_too() -> None:
+    loose = FAN_RIG.replace(fy=0.0)
+    assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
+    assert told(FAN_RIG, None).startswith("With the defect: "), "before the first change"
+    assert "now there is an equilibrium" in told(FAN_RIG, loose)
+    still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
+    assert still.endswith("there is no spectrum: nothing turns.")
+
+
+CHAIN = Chain(
+    1.0, "", 0.5, -1.57, 40.0, 4.0, {"k_xx": 2e7, "k_yy": 4e7},
+    {"x1": (365.0, 480.0), "y1": (615.0, 678.0), "y2": (1790.0, 1840.0)},
+    {"x": Peak(448.0, -44.0, 32.0), "y": Peak(672.0, -22.0, 32.0)}, "",
+)  # fmt: skip
+
+
+def changed(**news: object) -> str:
+    return story("So", dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("news", "words"),
+    [
+        ({}, "So: nothing changes."),
+        ({"off_line": 0.53}, "So: load shifts to balls farther from the load line."),
+        ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
+        ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
+        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
+        ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
+         "So: the y₁ band widens from 615–678 to 600–690 Hz."),
+        # a peak goes with a band only where it lies in it, both times, and goes its way
+        ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
+          "peaks": {"y": Peak(576.0, -22.0, 32.0)}},
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak with it, "
+         "from 672 to 576 Hz."),
+        ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
+          "peaks": {"y": Peak(1088.0, -30.0, 32.0)}},
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak along y moves "
+         "from 672 to 1088 Hz, 8 dB lower."),
+        ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
+         "So: the spectrum's peak at 672 Hz is 3 dB higher."),
+        # next to almost nothing decibels say nothing
+        ({"peaks": {"y": Peak(640.0, -76.0, 32.0)}},
+         "So: the spectrum's peak at 672 Hz falls to almost none."),
+        ({"peaks": {}, "silent": "nothing turns"},
+         "So: at rest hardly anything changes; there is no spectrum: nothing turns."),
+        # what is said is not only what happens where the housing is loudest
+        ({"peaks": {**CHAIN.peaks, "x": Peak(448.0, -34.0, 32.0)}},
+         "So: the spectrum's peak along x at 448 Hz is 10 dB higher."),
+        ({"answered": 0.75, "reason": "why"},
+         "So: nothing changes; at 25 % of the cage angles there is no "
+         "equilibrium (why)."),
+    ],
+)  # fmt: skip
+def test_each_link_in_words(news: dict, words: str) -> None:
+    assert changed(**news) == words
+
+
+def test_only_terms_that_matter_are_lively() -> None:
+    view = OverviewStiffness(PackedSource())
+    terms = view.data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
+    lively = {i for i, yes in enumerate(terms["lively"]) if yes}
+    assert lively == {0, 1, 5}, "k_xx, k_xy and k_yy: the ring moves along x and y alone"
+    assert terms["now"][5] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
+    assert free_terms(("x", "y", "z")) == {"k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz"}
+    all_of = OverviewStiffness(PackedSource()).data(Results(presets["liew-lim"], 0.1))[0]
+    assert all_of["overview_terms"]["lively"].sum() > 10
+    held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
+    assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
+
+
+@pytest.mark.parametrize("name", ["liew-lim", "3208"])
+def test_names_of_bands_in_a_line_are_apart(name: str) -> None:
+    top = 3500.0
+    named = named_bands(Results(presets[name], 0.0), top)
+    for line in np.unique(named["line"]):
+        own = named["line"] == line
+        assert np.all(np.diff(named["name_at"][own]) >= 0.999 * BAND_NAME_WIDTH * top)
+        assert np.all(np.abs(named["name_at"][own] - named["low"][own]) < 0.05 * top)

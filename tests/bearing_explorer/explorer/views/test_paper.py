@@ -1,0 +1,63 @@
+"""The paper's figures: what is printed against what comes out, their layout and their links."""
+
+from __future__ import annotations
+
+import pytest
+from bearing_explorer import figures
+from bearing_explorer.explorer.state.address import read
+from bearing_explorer.explorer.views.paper import TAB_TITLES
+from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
+from bearing_explorer.page import SECTIONS
+
+from bearingcore import presets
+
+BY_NUMBER = {one.number: one for one in FIGURES}
+
+
+def ours(figure: int) -> dict[str, str]:
+    """Our values by their names."""
+    one = BY_NUMBER[figure]
+    return {printed.name: printed.ours(one.scenes) for printed in one.printed}
+
+
+def test_all_figures_from_3_to_10_are_there() -> None:
+    assert [one.number for one in FIGURES] == list(range(3, 11))
+    assert {one.tab for one in FIGURES} <= {section.name for section in SECTIONS}
+
+
+@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
+def test_each_has_the_sentence_of_the_model_and_every_value(figure: PaperFigure) -> None:
+    assert figure.slip.endswith(".")
+    assert all(value and "no value" not in value for value in ours(figure.number).values())
+
+
+def test_what_the_paper_says_comes_out() -> None:
+    assert ours(3)["Balls in the defect at 5°, 40° and 70°"] == "0 or 1, 1 or 2, 2 or 3"
+    assert ours(5)["Mean k_yy is least at an extent of"] == "63.75°"
+    assert ours(6)["Fewest balls carry load at an extent of"] == "63.50°"
+    assert ours(9)["From entry to exit"].startswith("12.45 ms")
+    assert ours(9)["Ball that leaves after ball 9 has entered"] == "9, 10"
+
+
+def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
+    figure = BY_NUMBER[4]
+    place = read(figure.link(figure.tab, compared=True))
+    assert place is not None
+    assert (place.tab, place.scene) == ("stiffness", figure.scenes[-1])
+    assert [one.scene for one in place.compared] == figure.scenes[1:-1]
+    assert [one.name for one in place.compared] == ["5°, 50 µm", "40°, 50 µm"]
+    alone = read(figure.link("paper", compared=False))
+    assert alone is not None
+    assert alone.compared == ()
+
+
+def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
+    shown = figures.paper(presets["6205"], choices={"figure": 8})
+    assert shown.table()["paper"][0] == "25.7°"
+    assert "the tab Frequencies draws it" in shown.sentence
+    with pytest.raises(ValueError, match="figure is 2"):
+        figures.paper(presets["6205"], choices={"figure": 2})
+
+
+def test_every_tab_of_a_figure_has_its_title() -> None:
+    assert {one.tab for one in FIGURES} == set(TAB_TITLES)

@@ -1,0 +1,110 @@
+"""Vibration in time and in frequency."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from bearing_explorer.diagnosis.views import frequency_lines
+from bearing_explorer.diagnosis.views.frequency_lines import of_rows
+from bearing_explorer.explorer.results.excerpt import Event
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
+from bearing_explorer.explorer.views.vibration_spectrum import (
+    VibrationSpectra,
+    pass_frequencies,
+    passed,
+)
+from bearing_explorer.explorer.views.vibration_time import VibrationInTime, event_rows
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bearingcore import Defect, presets
+from bearingcore.bearings.designation import read_designation
+
+FAN_RIG = presets["fan-rig"]
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return Results(FAN_RIG)
+
+
+@given(st.lists(st.floats(0.0, 1.0), max_size=15))
+def test_labels_of_events_never_overlap_and_stay_inside(times: list[float]) -> None:
+    events = tuple(Event(time, 0, True) for time in sorted(times))
+    rows = event_rows(events, 0.0, 1.0, presets["fan-rig"].bearing)
+    labelled = np.isfinite(rows["label_at"])
+    assert labelled.sum() >= min(len(times), EVENT_ROWS)
+    for at in set(rows["label_at"][labelled]):
+        left = np.sort(rows["label_from"][rows["label_at"] == at])
+        assert np.all(np.diff(left) >= LABEL_WIDTH - 1e-9)
+        assert left[-1] + LABEL_WIDTH <= 1.0 + 1e-9
+
+
+def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Results) -> None:
+    view = VibrationInTime(PackedSource())
+    sources, ranges = view.data(results)
+    top = np.nanmax(np.abs(results.excerpt.acceleration["y"]))
+    drawn = sources["vibration_motion"]["y"]
+    assert np.nanmax(np.abs(drawn)) == top
+    low, high = ranges["vibration_acceleration"]
+    assert low == -high
+    rows = sources["vibration_events"]["label_at"]
+    lowest = low + (high - low) * np.nanmin(rows)
+    assert lowest > top
+    assert ranges["vibration_load"][1] >= results.excerpt.ball_load.max()
+
+
+def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> None:
+    marks = pass_frequencies(FAN_RIG, 2500.0)["frequency"]
+    assert marks[0] == pytest.approx(40.289, abs=1e-3)
+    np.testing.assert_allclose(np.diff(marks), marks[0])
+    assert 2500.0 - marks[0] < marks[-1] <= 2500.0
+    still = pass_frequencies(FAN_RIG.replace(shaft_speed=0.0), 2500.0)
+    assert still["frequency"].size == 0
+
+
+def test_lines_of_an_estimated_inside_have_their_error() -> None:
+    assert not pass_frequencies(FAN_RIG, 2500.0)["spread"].any()
+    bearing = read_designation("6208").bearing
+    scene = presets["6205"].replace(bearing=bearing)
+    spread = pass_frequencies(scene, 2500.0)["spread"]
+    assert spread[0] == pytest.approx(bearing.bpfo(scene.shaft_speed) * 0.0140, rel=0.02)
+    inner = bearing.bpfi(scene.shaft_speed) * bearing.frequency_spread("bpfi")
+    assert of_rows(scene)[0]["bpfi_spread"] == pytest.approx(inner)
+    columns = frequency_lines.columns("lines", of_rows(scene), ("bpfi",), 1000.0, 200.0)
+    assert columns["lines_bpfi_names"]["spread"][0] == pytest.approx(inner)
+
+
+def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
+    pair = presets["7208-back-to-back"]
+    assert len(passed(pair)) == 1
+    low, high = pair.bearing.rows
+    rows = (low, dataclasses.replace(high, n_balls=11))
+    scene = pair.replace(bearing=pair.bearing.replace(rows=rows), row=None)
+    rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
+    assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
+    assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
+    columns = frequency_lines.columns("own", of_rows(scene), ("bpfo",), 3000.0, 400.0)
+    names = columns["own_bpfo_names"]
+    assert set(names["of"]) == {1.0, 2.0}
+    assert np.unique(names["row"]).size == 2, "each row has its names at a height of their own"
+
+
+def test_defects_of_both_races_are_both_marked_and_named() -> None:
+    both = FAN_RIG.replace(defect=(FAN_RIG.defect, Defect(0.1, 50e-6, 1.0, "inner")))
+    results = Results(both)
+    sources, _ = VibrationSpectra(PackedSource()).data(results)
+    first = sources["spectrum_first_pass"]
+    assert first["inner"].tolist() == [0.0, 1.0]
+    assert first["frequency"] == pytest.approx([40.289, 57.711], abs=1e-3)
+    words = VibrationSpectra(PackedSource()).sentence(results)
+    assert "outer race at 40.29 Hz and of the inner race at 57.71 Hz" in words
+
+
+def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> None:
+    up = Results(FAN_RIG.replace(fy=100.0))
+    assert up.excerpt.static_load.max() == 0.0
+    _, ranges = VibrationInTime(PackedSource()).data(up)
+    assert ranges["vibration_load"][1] > 35.0

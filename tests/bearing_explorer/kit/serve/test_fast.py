@@ -1,0 +1,90 @@
+"""The private names of Bokeh and Panel: whether they are there, and what happens without them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import panel as pn
+import pytest
+from bearing_explorer.kit.serve import fast
+from bokeh.core.property.descriptors import PropertyDescriptor
+from bokeh.core.serialization import Serializer
+from bokeh.document import Document
+from bokeh.models import Range1d, Spacer
+from bokeh.server import session as bokeh_session
+from bokeh.server.session import ServerSession
+from panel.viewable import Viewable
+
+from tests.helpers.loops import run
+
+
+def test_this_version_has_all_of_them() -> None:
+    """The names that are gone, and of which version, are in the message when this fails."""
+    assert fast.missing() == []
+    assert hasattr(bokeh_session, "_needs_document_lock")
+    assert fast.sockets_of(session_of(Document(), Socket()))
+    for owner, name in (
+        (Document().callbacks, "_held_events"),
+        (Document().models, "_new_models"),
+        (Serializer(), "_references"),
+        (Viewable, "_preprocessing_hooks"),
+        (pn.Template(""), "_render_items"),
+        (Spacer(), "_property_values"),
+        (Spacer(), "_unstable_default_values"),
+        (Spacer(), "_event_callbacks"),
+    ):
+        assert hasattr(owner, name), name
+
+
+def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(PropertyDescriptor, "has_unstable_default")
+    (sentence,) = fast.missing()
+    assert sentence.startswith("PropertyDescriptor.has_unstable_default is gone from bokeh 3.")
+
+
+class Socket:
+    """A websocket that remembers what it was sent."""
+
+    def __init__(self) -> None:
+        self.sent: list[Any] = []
+
+    async def send_message(self, message: Any) -> None:
+        self.sent.append(message)
+
+
+class Connection:
+    """A browser that listens to a session."""
+
+    def __init__(self, socket: Socket) -> None:
+        self._socket = socket
+
+
+def session_of(document: Document, socket: Socket) -> ServerSession:
+    """A session with one browser."""
+    session = ServerSession("one", document)
+    session.subscribe(Connection(socket))  # type: ignore[arg-type]
+    return session
+
+
+def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
+    """What a browser is sent when a range is moved to 1 to 2, and the range."""
+    document, socket = Document(), Socket()
+    moved = Range1d(0, 1)
+    document.add_root(moved)
+
+    async def live() -> None:
+        session = session_of(document, socket)
+
+        async def change(doc: Document) -> None:
+            await fast.send_changes(session, doc, lambda: moved.update(start=1, end=2))
+
+        await act(session, change)
+
+    run(live())
+    return socket.sent, moved
+
+
+def test_all_changes_are_one_message() -> None:
+    sent, moved = changed()
+    assert (moved.start, moved.end) == (1, 2)
+    assert [len(message.content["events"]) for message in sent] == [2]

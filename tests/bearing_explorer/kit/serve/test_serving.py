@@ -1,0 +1,382 @@
+"""Access, the messages a browser may send, and the answers it gets."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import re
+import signal
+from pathlib import Path
+from socket import IPPROTO_TCP, TCP_NODELAY
+from typing import Any
+
+import panel as pn
+import pytest
+from bearing_explorer.kit.serve.allowed_messages import by_id, component_message, is_allowed
+from bearing_explorer.kit.serve.headers import policy
+from bearing_explorer.kit.serve.pages import message_page
+from bearing_explorer.kit.serve.serving import Limits
+from bearing_explorer.kit.serve.websocket import LiveSocket
+from bokeh.document import Document
+from bokeh.model import util as model_util
+from bokeh.models import CustomJS, Spacer
+from tornado.httpclient import HTTPClientError
+from tornado.websocket import websocket_connect
+
+from tests.browser.helpers import explorer_server, free_port
+from tests.browser.helpers import serving as server_up
+from tests.helpers.loops import run
+from tests.helpers.page_client import PageClient
+from tests.helpers.proxies import Proxy
+from tests.helpers.served import SMALL, closed, get, origin, served, session_of, wait_until
+
+
+def test_every_answer_has_the_headers_and_no_more_than_it_needs() -> None:
+    async def look(url: str, server: Any) -> None:
+        missing = ("nothing/here", "autoload.js", "static/%00", "static/..%2f..%2fpyproject.toml")
+        for path in ("", "liveness", "static/js/bokeh.min.js", *missing):
+            answer = await get(url + path)
+            headers = answer.headers
+            assert headers["X-Content-Type-Options"] == "nosniff"
+            assert headers["X-Frame-Options"] == "SAMEORIGIN"
+            assert headers["Referrer-Policy"] == "same-origin"
+            assert "camera=()" in headers["Permissions-Policy"]
+            content = headers["Content-Security-Policy"]
+            assert "default-src 'self'" in content
+            assert "object-src 'none'" in content
+            assert "Server" not in headers
+            assert "Traceback" not in answer.body.decode("utf-8", "replace")
+            assert answer.code in ((403, 404) if path in missing else (200,)), path
+        assert b"no such page" in (await get(url + "metadata")).body
+        before = len(session_of(server))
+        assert (await get(url, method="HEAD")).code == 200
+        assert len(session_of(server)) == before, "asking whether it is there makes no session"
+
+    served(look)
+    allowed = policy(("'self'", "https://lms.example.org"))
+    assert allowed.endswith("frame-ancestors 'self' https://lms.example.org")
+    assert "&lt;b&gt;" in message_page("<b>", "")
+
+
+def test_names_of_sessions_cannot_be_made_up() -> None:
+    async def forge(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        client.token = client.token[:-3] + ("AAA" if client.token[-3:] != "AAA" else "BBB")
+        socket = await websocket_connect(
+            url.replace("http", "ws") + "ws", subprotocols=["bokeh", client.token]
+        )
+        assert await socket.read_message() is None
+        await client.open_page()
+        with pytest.raises(HTTPClientError):
+            await client.open_socket("http://another.example")
+
+    served(forge)
+
+
+@pytest.mark.parametrize(
+    ("origins", "comes_from", "connects"),
+    [
+        ((), "http://127.0.0.1:{port}", True),
+        (("127.0.0.1:{port}",), "http://127.0.0.1:{port}", True),
+        (("127.0.0.1:{port}",), "https://127.0.0.1:{port}", True),
+        (("https://lab.example.org",), "https://lab.example.org", True),
+        (("https://lab.example.org",), "http://lab.example.org", False),
+        (("lab.example.org",), "https://lab.example.org", True),
+        (("lab.example.org",), "https://lab.example.org.evil.example", False),
+        ((), "https://localhost:{port}", False),
+        ((), "http://localhost:{port}", True),
+        ((), "null", False),
+    ],
+)
+def test_pages_connect_from_where_they_may_have_come(
+    origins: tuple[str, ...], comes_from: str, connects: bool
+) -> None:
+    """An https page is none of this server's own, which speaks http, unless its host is named."""
+
+    async def connect(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        try:
+            await client.open_socket(comes_from.format(port=server.port))
+        except HTTPClientError:
+            assert not connects
+        else:
+            assert connects
+            await client.close()
+
+    port = free_port()
+    served(connect, origins=[one.format(port=port) for one in origins], port=port)
+
+
+NEW_MODEL = {"type": "object", "name": "CustomJS", "id": "x1", "attributes": {"code": "alert(1)"}}
+
+
+def component_event(model: Any, data: Any) -> dict[str, Any]:
+    """A message to a component, as BokehJS writes it."""
+    values = {"type": "map", "entries": [["model", model], ["data", data]]}
+    event = {"type": "event", "name": "data_event", "values": values}
+    return {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+
+
+def changed(attribute: str, new: Any, model: Any = "known") -> dict[str, Any]:
+    return {"kind": "ModelChanged", "model": model, "attr": attribute, "new": new}
+
+
+@pytest.mark.parametrize(
+    "event",
+    [
+        {"kind": "TitleChanged", "title": "mine"},
+        {"kind": "RootAdded", "model": NEW_MODEL},
+        changed("tags", [NEW_MODEL]),
+        changed("code", "alert(1)"),
+        changed("width", 1, NEW_MODEL),
+        changed("width", 1, {"id": "other"}),
+        changed("css_classes", ["a"] * 50_000),
+        changed("width", {"type": "ndarray"}),
+        {"kind": "ColumnDataChanged", "model": {"id": "known"}, "attr": "data", "data": {}},
+        {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": NEW_MODEL},
+        "text",
+        None,
+    ],
+)
+def test_new_models_and_code_are_dropped(event: Any) -> None:
+    document, known, script = Document(), Spacer(), CustomJS()
+    for root in (known, script):
+        document.add_root(root)
+    if isinstance(event, dict) and event.get("model") == "known":
+        event = event | {"model": {"id": known.id}}
+    assert component_message(event, {}) is None
+    assert not is_allowed(event, document.models)
+    assert is_allowed(changed("width", 300, {"id": known.id}), document.models)
+    assert not is_allowed(changed("code", "alert(1)", {"id": script.id}), document.models)
+
+
+def test_only_choices_that_are_offered_are_taken() -> None:
+    document = Document()
+    plain = pn.widgets.Select(options={"one": "1", "two": "2"}).get_root(document)
+    grouped = pn.widgets.Select(groups={"few": {"one": "1"}, "many": {"ten": "10"}}).get_root()
+    boxes = pn.widgets.CheckBoxGroup(options=["a", "b"]).get_root()
+    for root in (plain, grouped, boxes):
+        document.add_root(root)
+
+    def taken(model: Any, attribute: str, new: Any) -> bool:
+        return is_allowed(changed(attribute, new, {"id": model.id}), document.models)
+
+    assert taken(plain, "value", "2")
+    assert taken(grouped, "value", "10")
+    assert taken(boxes, "active", [0, 1])
+    for wrong in ("3", "two", None, 1, ["1"], {"type": "map", "entries": []}):
+        assert not taken(plain, "value", wrong)
+        assert not taken(grouped, "value", wrong)
+    for outside in ([2], [-1], [True], ["a"], "a", None):
+        assert not taken(boxes, "active", outside)
+    assert not taken(plain, "options", ["3"])
+    assert not taken(boxes, "labels", [])
+
+
+def test_a_button_that_is_written_out_is_taken_by_its_id() -> None:
+    values = {"type": "map", "entries": [["model", NEW_MODEL]]}
+    click = {"type": "event", "name": "button_click", "values": values}
+    event = {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": click}
+    assert not is_allowed(event, Document().models)
+    assert is_allowed(by_id(event), Document().models)
+    assert is_allowed(by_id(event | {"more": NEW_MODEL}), Document().models) is False
+
+
+@pytest.mark.parametrize("model", [{"id": "p1"}, NEW_MODEL])
+def test_a_message_reaches_a_component_by_its_id_alone(model: dict[str, Any]) -> None:
+    """BokehJS writes a component out in full that came with a second tab."""
+    data = {"type": "map", "entries": [["a", [1, {"type": "number", "value": "nan"}]]]}
+    name, read = component_message(component_event(model, data), {})
+    assert name == model["id"]
+    assert str(read) == "{'a': [1, nan]}"
+    piece = {"type": "bytes", "data": {"id": "b1"}}
+    assert component_message(component_event(model, piece), {"b1": b"abc"}) == (name, b"abc")
+    for wrong in (NEW_MODEL, {"type": "ndarray"}, [0] * 6000, piece):
+        with pytest.raises(ValueError, match=r"plain|too much|form"):
+            component_message(component_event(model, wrong), {})
+
+
+def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptureFixture) -> None:
+    async def attack(url: str, server: Any) -> None:
+        mine, other = PageClient(url), PageClient(url)
+        for client in (mine, other):
+            await client.open_page()
+            await client.connect()
+            assert await client.until_drawn()
+        documents = [session.document for session in session_of(server)]
+        [document] = [one for one in documents if one.models.get_by_id(mine.ids["packet"])]
+        unpack = document.models.get_by_id(mine.ids["unpack"])
+        code, count = unpack.code, len(document.models)
+        for new in ("alert(1)", NEW_MODEL, [NEW_MODEL]):
+            await mine.patch(
+                changed("code", new, {"id": unpack.id}),
+                {"kind": "RootAdded", "model": NEW_MODEL},
+                changed("x", 1, {"id": "p0"}),
+                changed("visible", False, {"id": other.ids["Controls"]}),
+            )
+        # a message reaches one's own controls, and not another session's
+        await mine.ask(set={"extent_deg": 33.0})
+        assert await mine.until_drawn()
+        mine.ids["Controls"] = other.ids["Controls"]
+        await mine.ask(set={"extent_deg": 77.0})
+        await asyncio.sleep(0.3)
+        assert unpack.code == code
+        assert len(document.models) == count
+        assert not other.closed
+        # as an angle: 77 alone may be milliseconds or digits of a residual
+        assert [words for words in map(str, other.words.values()) if "77°" in words] == []
+        assert other.drawn == 0
+
+    with caplog.at_level(logging.WARNING):
+        served(attack)
+    assert "Traceback" not in caplog.text
+
+
+def test_behind_a_proxy_that_strips_its_path() -> None:
+    """A browser test goes through one that keeps it."""
+
+    async def through(url: str, server: Any) -> None:
+        proxy = Proxy(server.port, "/bearing/", strip=True)
+        await proxy.start()
+        client = PageClient(f"http://127.0.0.1:{proxy.port}/bearing/")
+        assert await client.open_page() == 200
+        for path in set(
+            re.findall(r'(?:src|href)="([^":]+\.(?:js|css)[^"]*)"', client.body.decode())
+        ):
+            assert not path.startswith("/"), f"{path} does not know where the page is"
+            assert (await get(client.url + path)).code == 200, path
+        assert (await get(client.url + "favicon.ico")).code == 200
+        await client.connect()
+        await client.ask(set={"extent_deg": 25.0})
+        assert await client.until_drawn()
+        await client.close()
+        await proxy.stop()
+
+    served(through)
+
+
+@pytest.mark.proof
+def test_two_processes_share_the_port_and_end_together() -> None:
+    async def many(url: str) -> None:
+        people = [PageClient(url) for _ in range(6)]
+
+        async def come(client: PageClient) -> None:
+            assert await client.open_page() == 200
+            await client.connect()
+            await client.ask(set={"extent_deg": 30.0})
+            assert await client.until_drawn()
+
+        await asyncio.gather(*(come(client) for client in people))
+        for client in people:
+            await client.close()
+
+    with server_up(explorer_server("--num-procs", "2", "--log-level", "info")) as server:
+        tasks = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
+        children = [int(pid) for pid in tasks.read_text().split()]
+        run(many(server.url))
+        assert server.stop(signal.SIGTERM) in (0, 143)
+        log = server.log
+    assert len(children) >= 2, log
+    assert "Traceback" not in log
+    assert len(set(re.findall(r" INFO update session=(\S+)", log))) >= 6
+    for child in children:
+        wait_until(lambda child=child: not Path(f"/proc/{child}").exists())
+
+
+def test_models_are_found_as_bokeh_finds_them() -> None:
+    """The quick walk through a document sees what the slow one sees, but no mere defaults."""
+
+    async def look(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.connect()
+        assert await client.until_drawn()
+        [session] = session_of(server)
+        found = _slow_walk(session.document)
+        assert {model.id for model in found} == set(session.document.models._models)
+        assert len(found) > 150
+        session.document.validate()
+
+    served(look)
+
+
+def _slow_walk(document: Any) -> set[Any]:
+    quick = model_util.visit_immediate_value_references
+
+    def visit(value: Any, visitor: Any) -> None:
+        for name in {*value._property_values, *value._unstable_default_values}:
+            model_util.visit_value_and_its_immediate_references(getattr(value, name), visitor)
+
+    model_util.visit_immediate_value_references = visit
+    try:
+        return {model for root in document.roots for model in root.references()}
+    finally:
+        model_util.visit_immediate_value_references = quick
+
+
+def test_those_who_come_too_late_are_asked_to_come_back() -> None:
+    async def fill(url: str, server: Any) -> None:
+        there = [PageClient(url) for _ in range(SMALL.sessions)]
+        for client in there:
+            assert await client.open_page() == 200
+        late = await get(url)
+        assert late.code == 503
+        assert late.headers["Retry-After"] == "60"
+        assert "room for 3 people" in late.body.decode()
+        await there[0].open_socket(origin(url))
+        assert not there[0].closed, "those who are in can connect"
+        assert (await get(url + "?bokeh-session-id=mine")).code == 400
+        assert (await get(url + "?v=" + "x" * 20_000)).code == 302
+
+    served(fill)
+
+
+BAD_FRAMES: tuple[tuple[str | bytes, ...], ...] = (
+    ("no json", "{}", "{}"),
+    ('{"msgid": "1", "msgtype": "PUSH-DOC"}', "{}", '{"doc": {}}'),
+    (b"\x00\x01", "{}", "{}"),
+    ("[" * 100_000, "{}", "{}"),
+    ('{"msgid": "1", "msgtype": "PATCH-DOC"}', "{}", '"' + "x" * 290_000 + '"'),
+    (
+        *('{"msgid": "1", "msgtype": "PATCH-DOC", "num_buffers": 9}', "{}", '{"events": []}'),
+        *('{"id": "a"}', b"x" * 200_000, '{"id": "b"}', b"x" * 200_000),
+    ),
+)
+
+
+def test_bad_frames_end_the_connection_with_a_sentence(caplog: pytest.LogCaptureFixture) -> None:
+    async def attack(url: str, server: Any) -> None:
+        for frames in BAD_FRAMES:
+            client = PageClient(url)
+            await client.open_page()
+            await client.open_socket(origin(url))
+            await client.send_frames(*frames)
+            await closed(client)
+            assert client._socket is not None
+            assert client._socket.close_code in (1002, 1008, 1009), frames
+            assert not client.errors
+        assert (await get(url)).code == 200, "others are not concerned"
+
+    with caplog.at_level(logging.WARNING):
+        served(attack, Limits(sessions=20, message=300_000, idle=3600.0))
+    assert "Traceback" not in caplog.text
+
+
+@pytest.mark.proof
+def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
+    async def wait(url: str, server: Any) -> None:
+        client = PageClient(url)
+        await client.open_page()
+        await client.connect()
+        assert await client.until_drawn()
+        for socket in LiveSocket.connected:
+            stream = socket.ws_connection.stream.socket
+            assert stream.getsockopt(IPPROTO_TCP, TCP_NODELAY), "a message is sent at once"
+            socket.last_message_at -= 61.0  # a minute passes
+        await closed(client)
+        assert client._socket is not None
+        assert "The page was not used for 1 min." in str(client._socket.close_reason)
+
+    served(wait, Limits(idle=60.0))

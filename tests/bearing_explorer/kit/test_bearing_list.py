@@ -1,0 +1,130 @@
+"""Bearings by designation, and a workshop's own table."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from bearing_explorer.explorer.state import address
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.kit.bearing_list import BearingTable
+
+from bearingcore import catalogue, equilibrium, limits
+
+
+def test_a_published_bearing_is_put_into_the_scene() -> None:
+    editor = SceneEditor("6205")
+    load = editor.scene.load
+    assert editor.choose({"bearing": "209, Harris"}) == {}
+    assert editor.scene.bearing == catalogue()["209, Harris"].bearing
+    assert editor.scene.load == load
+    assert editor.name == "209, Harris"
+    assert "Harris, Rolling Bearing Analysis" in editor.note
+    editor.choose({"bearing": "6804RS, FEMTO-ST"})
+    assert "Assumed here: an inner groove of 0.52 ball diameters" in editor.note
+
+
+def found(text: str) -> list[tuple[str, str]]:
+    return [(one["label"], one["mark"]) for one in BearingTable().search(text)["entries"]]
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        ("6208", ("6208", "estimated")),
+        ("6208-2RS/C3", ("6208-2RS/C3", "estimated")),
+        ("7208 bep", ("7208 BEP", "estimated")),  # 40°, and the preset has 15°
+        ("7208", ("7208, angular contact, 15°", "")),
+        ("6205 C3", ("6205 C3", "estimated")),
+        ("7208 pair", ("7208 pair, back to back (O)", "")),
+        ("nu", ("NU 208, cylindrical rollers", "")),
+        ("30206", ("30206 pair, tapered rollers, back to back", "")),
+        ("32208", ("32208", "estimated")),
+        ("30308 face to face", ("30308 face to face", "estimated")),
+        ("0.235 in", ("NICE, MFPT", "")),
+        ("5,97 mm", ("NICE, MFPT", "")),
+        ("paderborn", ("6203, Paderborn", "")),
+    ],
+)
+def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
+    assert found(text)[0] == first
+
+
+def test_a_search_without_a_match_says_what_is_known() -> None:
+    answer = BearingTable().search("22208")
+    assert answer["entries"] == []
+    assert "60, 62, 63" in answer["words"]
+    assert "60, 62, 63" in SceneEditor("6205").choose({"bearing": "<script>"})["bearing"]
+
+
+def test_every_entry_can_be_taken() -> None:
+    for text in ("", "62", "nj 3", "12", "73", "323"):
+        for one in BearingTable().search(text)["entries"]:
+            assert SceneEditor("fan-rig").choose(one["choose"]) == {}
+
+
+def test_a_row_with_a_contact_angle_gets_the_axial_load_that_it_needs() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "7208 BEP"})
+    assert editor.scene.load.fz == pytest.approx(
+        2.0 * math.tan(math.radians(40.0)) * 100.0, rel=0.01
+    )
+    assert "168 N" in editor.state()["effects"]["preset"]
+    assert equilibrium(editor.scene).converged.all()
+    editor.choose({"bearing": "7308 BEP"})
+    assert "preset" not in editor.state()["effects"]  # the scene has an axial load by now
+
+
+def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "6208-2RS/C3"})
+    assert editor.name == "6208-2RS/C3 (inside estimated)"
+    assert "Estimated" in editor.note
+    link = address.write(address.place_of(editor))
+    again = SceneEditor("6205")
+    address.opened(link, again)
+    assert again.name == editor.name
+    assert again.scene == editor.scene
+    editor.choose({"kind": "back-to-back"})
+    assert editor.scene.bearing.estimated
+    assert any("inside dimensions" in one.name for one in limits(editor.scene))
+    for name in ("n_balls", "ball_diameter_mm", "pitch_diameter_mm"):
+        editor.set({name: editor.values[name] * 0.999 if name != "n_balls" else 8})
+    assert editor.scene.bearing.estimated == ()
+    assert "estimated" not in editor.name
+    assert not any("inside dimensions" in one.name for one in limits(editor.scene))
+
+
+def test_a_pair_in_tandem_gets_the_axial_load_that_it_needs() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.choose({"bearing": "7208 BECBP DT"})
+    assert editor.scene.bearing.arrangement == "tandem"
+    assert editor.scene.load.fz > 100.0
+    assert equilibrium(editor.scene).converged.all()
+
+
+def test_a_suffix_that_is_not_known_says_what_may_be_written() -> None:
+    for name, words in (("2x7208", "DB (back to back)"), ("6308 E", "reinforced")):
+        answer = BearingTable().search(name)
+        assert answer["entries"] == []
+        assert words in answer["words"]
+        assert words in SceneEditor("6205").choose({"bearing": name})["bearing"]
+
+
+def test_balls_of_another_material_are_chosen_and_kept_in_links() -> None:
+    editor = SceneEditor("6205")
+    steel = editor.scene
+    assert editor.choose({"ball_material": "silicon nitride"}) == {}
+    assert editor.state()["choices"]["ball_material"] == "silicon nitride"
+    assert editor.scene.bearing.density == 3200.0
+    again = SceneEditor("fan-rig")
+    address.opened(address.write(address.place_of(editor)), again)
+    assert again.scene == editor.scene
+    editor.set({"ball_youngs_modulus_gpa": 250.0})
+    assert editor.state()["choices"]["ball_material"] == ""
+    assert editor.choose({"ball_material": "steel"}) == {}
+    assert editor.scene == steel
+    editor.choose({"ball_material": "silicon nitride"})
+    assert editor.choose({"numbers": "direct"}) == {}
+    assert not editor.scene.bearing.is_hybrid
+    assert "ball_material" in editor.state()["hidden"]

@@ -1,0 +1,21 @@
+"""A session of the scene's half alone, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bearing_explorer.explorer.front import Explorer
+from bearing_explorer.kit.half import Section
+from bearing_explorer.kit.session import Session
+
+
+class SceneSession(Session):
+    """A session with these tabs; what it does not have itself is of its half."""
+
+    def __init__(self, sections: Sequence[Section], preset: str = "fan-rig", **given: Any) -> None:
+        self.explorer = Explorer(sections, preset, **given)
+        super().__init__(dict.fromkeys(sections, self.explorer))
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.explorer, name)

@@ -78,6 +78,41 @@ export function render({ model }) {
     if (to > from) requestAnimationFrame(step)
   }
 
+  // What is dragged in a drawing of the bearing (see grab.js) moves the sliders.
+  let selected = 0, hold = null
+  const inside = (name, value) => {
+    const { least, most } = panel.limits[name]
+    return Math.min(most, Math.max(least, Number(value.toPrecision(4))))
+  }
+  const around = (name, value) => {
+    const { least } = panel.limits[name]
+    return Number((least + (((value - least) % 360) + 360) % 360).toFixed(2))
+  }
+  const follow_hand = ({ kind, defect, began, released, turn, stretch }) => {
+    if (began) {
+      const own = kind === "load" || defect === selected
+      hold = own ? { ...values, turn: 0 } : null
+      if (!own) send({ choose: { defect: String(defect) } })
+      return
+    }
+    if (released) return hold && panel.release()
+    if (kind !== "load" && defect !== selected) return  // not before the sliders are its own
+    hold ??= { ...values, turn }
+    const by = turn - hold.turn
+    if (kind === "load") {
+      const size = stretch * Math.hypot(hold.fx_n, hold.fy_n)
+      const angle = Math.atan2(hold.fy_n, hold.fx_n) + by * Math.PI / 180
+      const along = (share) => Math.abs(share) < 0.01 ? 0 : size * share  // by hand nothing is upright
+      panel.move_all({ fx_n: inside("fx_n", along(Math.cos(angle))), fy_n: inside("fy_n", along(Math.sin(angle))) })
+    } else if (kind === "middle") panel.move("center_deg", around("center_deg", hold.center_deg + by))
+    else {
+      const side = kind === "end" ? 1 : -1
+      const extent = inside(spec.extent, hold[spec.extent] + side * by)
+      const center = hold.center_deg + side * (extent - hold[spec.extent]) / 2
+      panel.move_all({ [spec.extent]: extent, center_deg: around("center_deg", center) })
+    }
+  }
+
   // The defects: which one the sliders move, one more, one less.
   const defects = element("div", { class: "defects", role: "group", "aria-label": "Defects" })
   const list_defects = ({ names, selected, most }) => {
@@ -152,6 +187,7 @@ export function render({ model }) {
     show_named()
   })
   on_event("typed", form, (typed) => send({ typed }))  // what is clicked at in a figure
+  on_event("grabbed", form, follow_hand)
   on_event("longer", form, lengthen)
   show_named()
   const take = (state) => {
@@ -161,6 +197,7 @@ export function render({ model }) {
     search.follow_state(state)
     if (state.defects) {
       many = state.defects.names.length
+      selected = state.defects.selected
       list_defects(state.defects)
     }
     if (state.floor) {

@@ -128,9 +128,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     if (held && !on) release()
     held = on
   }
-  const push = (name, value) => {
-    rows[name].asked = asked() + 1
-    pending = { ...pending, [name]: value }
+  const push = (name, value) => push_all({ [name]: value })
+  const push_all = (set) => {
+    for (const name of Object.keys(set)) rows[name].asked = asked() + 1
+    pending = { ...pending, ...set }
     keep_waiting(send_now)
     if (!waiting) pump()
   }
@@ -185,10 +186,13 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     if (row && row.number.getAttribute("aria-invalid") === "true" && !drafted.includes(name))
       write_in(row.number, format(values[name] ?? null, limits[name].step))
   }
-  const move = (name, value) => {
-    refuse(name, "")
-    put(name, value, true)
-    push(name, value)
+  const move = (name, value) => move_all({ [name]: value })
+  const move_all = (set) => {
+    for (const [name, value] of Object.entries(set)) {
+      refuse(name, "")
+      put(name, value, true)
+    }
+    push_all(set)
   }
 
   const control = ({ name, label, symbol, unit, about }) => {
@@ -343,6 +347,6 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     return made
   }
 
-  return { rows, selects, values, limits, control, choice, group_box, form, take, listen, refuse, send, push, put, move, release,
+  return { rows, selects, values, limits, control, choice, group_box, form, take, listen, refuse, send, push, put, move, move_all, release,
            drawn: () => asked() <= drawn() || late() }
 }

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
 from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearing_explorer.kit.plots.heat_map import color_bar
@@ -34,6 +35,7 @@ NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle 
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
+ARROW_LENGTH = 0.82  # of the radius of the bore
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 PLACE_AND_SIZE = ("x", "y", "radius")
@@ -187,6 +189,8 @@ class BearingDrawing(View):
     prefix: ClassVar[str] = "bearing"
     #: whether words about the load are short
     short: ClassVar[bool] = False
+    #: whether the defects and the arrow can be dragged
+    grabbed: ClassVar[bool] = True
 
     def build(self, packed: PackedSource) -> Any:
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
@@ -223,6 +227,8 @@ class BearingDrawing(View):
             ),
         )
         draw(plot, packed, layers(self.prefix, colors, inks, short=self.short))
+        if self.grabbed:
+            let_grab(plot, packed, f"{self.prefix}_handles")
         self._add_scale(plot, colors, load)
         return plot
 
@@ -264,6 +270,7 @@ class BearingDrawing(View):
             drop = {race: drops[own] for race, drops in results.drop.items()}
             shapes = drawn.all(now.ball_load[0, own], drop, top)
             shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
+            shapes["handles"] = drawn.handles()
             several.append(moved(shapes, (2 * row + 1) * half - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(
@@ -552,6 +559,11 @@ class Shapes:
             )
         )
 
+    def handles(self) -> dict[str, np.ndarray]:
+        """Where the defects and the arrow can be grabbed."""
+        race = {"outer": self.outer_race, "inner": self.inner_race}
+        return handles(self.scene, self.spans, self.row, race, ARROW_LENGTH * self.bore)
+
     def load_arrow(self) -> dict[str, np.ndarray]:
         """The radial load on the inner ring, from the shaft's middle; no arrow without one."""
         load = self.scene.load
@@ -560,7 +572,7 @@ class Shapes:
             return polar()
         along = np.array([load.fx, load.fy]) / size
         across = np.array([-along[1], along[0]])
-        length, half, head = 0.82 * self.bore, 0.016, 0.11
+        length, half, head = ARROW_LENGTH * self.bore, 0.016, 0.11
         shape = [
             (0.0, -half),
             (length - head, -half),

@@ -74,6 +74,7 @@ class SlowPassage(BearingDrawing):
     needs = frozenset({"excerpt"})
     prefix = "slow"
     short = True
+    grabbed = False
     at_rest = True
     in_report = False
 

@@ -1,0 +1,66 @@
+"""Handles of the drawing of the bearing: the ends and middles of defects, the tip of the arrow."""
+
+from __future__ import annotations
+
+import numpy as np
+from bokeh.models import CustomJS, Scatter
+from bokeh.plotting import figure
+
+from bearing_explorer.explorer.results.defect_shape import Span
+from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.plots.layers import Glyph, add_all, sources_of
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearingcore import Scene
+
+COLUMNS = ("x", "y", "x0", "kind", "defect")
+START, END, MIDDLE, LOAD = range(4)
+"""Kinds of handles, as `grab.js` numbers them."""
+
+
+def dots(source: str) -> Glyph:
+    """The handles of defects; that of the arrow is its tip."""
+    look = {"fill_color": "white", "line_color": "#B87A00", "line_width": 1.6, "size": "size"}
+    return Glyph(Scatter, source, ("x", "y"), look, (*COLUMNS[2:], "size"))
+
+
+def handles(
+    scene: Scene, spans: list[Span], row: int, race: dict[str, float], tip: float
+) -> dict[str, np.ndarray]:
+    """Columns of the handles of a row, about its middle at 0.
+
+    Parameters
+    ----------
+    spans
+        where the defects of the row are now.
+    race
+        radius of each raceway.
+    tip
+        distance of the tip of the arrow from the middle.
+    """
+    met = [k for k, one in enumerate(scene.defects) if one.row in (None, row)]
+    places: list[tuple[float, float, int, int]] = []
+    for number, span in zip(met, spans, strict=True):
+        if span.extent > 0.0:
+            turns = ((START, 0.0), (END, span.extent), (MIDDLE, 0.5 * span.extent))
+            places += [(race[span.race], span.start + turn, kind, number) for kind, turn in turns]
+    if np.hypot(scene.load.fx, scene.load.fy) > 0.0:
+        places.append((tip, float(np.arctan2(scene.load.fy, scene.load.fx)), LOAD, 0))
+    radius, angle, kind, defect = np.array(places, dtype=float).reshape(-1, 4).T
+    return {
+        "x": radius * np.cos(angle),
+        "y": radius * np.sin(angle),
+        "x0": np.zeros(angle.size),
+        "kind": kind,
+        "defect": defect,
+        "size": np.where(kind <= END, 9.0, 0.0),
+    }
+
+
+def let_grab(plot: figure, packed: PackedSource, name: str) -> None:
+    """Draw the handles of this source, and let them be dragged."""
+    glyph = dots(name)
+    sources = sources_of(packed, [glyph])
+    add_all(plot, sources, [glyph])
+    grab = CustomJS(args={"plot": plot, "source": sources[name]}, code=asset_text("grab.js"))
+    sources[name].js_on_change("data", grab)
+    plot.js_on_change("inner_width", grab)

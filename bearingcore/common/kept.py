@@ -17,7 +17,10 @@ Found = TypeVar("Found")
 
 
 def kept(
-    most: int, most_bytes: int, size: Callable[..., int]
+    most: int,
+    most_bytes: int,
+    size: Callable[..., int],
+    key: Callable[..., Hashable] | None = None,
 ) -> Callable[[Callable[P, Found]], Callable[P, Found]]:
     """Keep what a function returns, by its arguments, the least recently used going first.
 
@@ -29,6 +32,8 @@ def kept(
         of all that is kept. What is larger than half of it is not kept at all.
     size
         bytes of a result and what it keeps alive: called with the result, then the arguments.
+    key
+        what a result belongs to, of the arguments; None: the arguments themselves, which are kept.
     """
 
     def around(function: Callable[P, Found]) -> Callable[P, Found]:
@@ -39,18 +44,18 @@ def kept(
         @wraps(function)
         def asked(*arguments: P.args, **named: P.kwargs) -> Found:
             nonlocal total
-            key = (arguments, tuple(named.items()))
+            of = key(*arguments, **named) if key else (arguments, tuple(named.items()))
             with lock:
-                if key in held:
-                    held.move_to_end(key)
-                    return cast(Found, held[key][1])
+                if of in held:
+                    held.move_to_end(of)
+                    return cast(Found, held[of][1])
             found = function(*arguments, **named)
             bytes_ = size(found, *arguments, **named)
             if 2 * bytes_ > most_bytes:
                 return found
             with lock:
-                if key not in held:
-                    held[key] = (bytes_, found)
+                if of not in held:
+                    held[of] = (bytes_, found)
                     total += bytes_
                 while len(held) > most or total > most_bytes:
                     _, (gone, _) = held.popitem(last=False)

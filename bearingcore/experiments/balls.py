@@ -20,7 +20,7 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
 from bearingcore.dynamics.low_pass import low_passed, rows_needed
-from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.modes import highest_natural_frequency, packed_motion
 from bearingcore.dynamics.motion import default_step_rate, simulate
 from bearingcore.experiments.points import (
     NOT_WATCHED,
@@ -98,7 +98,13 @@ def _by_own_steps(
     history, place, y = _empty(scene, duration, kept * sample_rate, kept, place_parts(scene, dofs))
     every = stride // kept
     done = kernels.march_balls(
-        y, 1.0 / (stride * sample_rate), 0.0, every, ball_system(scene, dofs), history, place
+        y,
+        1.0 / (stride * sample_rate),
+        0.0,
+        every,
+        ball_system(packed_motion(scene)),
+        history,
+        place,
     )
     failure = _failure(done, every * (len(history) - 1))
     return BallMarch(_sampled(history, duration, sample_rate, kept), 4 * done, failure)
@@ -118,7 +124,7 @@ def _sampled(history: Array, duration: float, sample_rate: float, kept: int) -> 
 def _in_velocities(
     scene: Scene, stride: int, duration: float, sample_rate: float, report: Report = _unreported
 ) -> BallMarch:
-    system = ball_system(scene, scene.active_dofs, velocities=True)
+    system = ball_system(packed_motion(scene), velocities=True)
     kept = _kept(stride)
     rate, every = kept * sample_rate, stride // kept
     history, place, y = _empty(scene, duration, rate, 1, 2)
@@ -147,7 +153,7 @@ def _empty(
 
 
 def _start(scene: Scene, parts: int) -> Array:
-    start = ball_start(scene, scene.active_dofs, parts)
+    start = ball_start(packed_motion(scene), parts)
     if start is None:
         raise checks.refuse("scene", "without a static state", "one that a motion can start from")
     return start

@@ -15,6 +15,7 @@ import numpy as np
 
 from bearingcore import kernels
 from bearingcore.common.numbers import thousands
+from bearingcore.dynamics.modes import packed_motion
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
 from bearingcore.dynamics.status import MotionStatus
@@ -88,7 +89,11 @@ def _runge_kutta(*, velocities: bool) -> Marcher:
     def march(
         problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
     ) -> March:
-        system = problem.system if velocities else moving_system(problem.scene, problem.dofs)
+        system = (
+            problem.system
+            if velocities
+            else moving_system(packed_motion(problem.scene, problem.dofs))
+        )
         n_steps = intervals(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
         y = problem.start.copy()

@@ -79,6 +79,10 @@ class Contacts(NamedTuple):
     rows: Integers
     most_tilt: float
 
+    def angles_at(self, cage_angles: Array) -> Array:
+        """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
+        return cage_angles[:, None] * self.pace + self.angle
+
 
 class Path(NamedTuple):
     """The way of a ball's centre over all defects.

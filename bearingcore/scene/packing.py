@@ -1,11 +1,13 @@
 """A scene as the structs that kernels take: the one place that fills them.
 
-Tilts are carried times r_d and moments over r_d, r_d being the bearing's `groove_center_radius`.
+`pack` and `pack_motion` make all of them at once; solvers take what these return and need not come
+back. Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.scene.defect import path_tables
-from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 
 Array = NDArray[np.float64]
 
@@ -25,6 +27,9 @@ out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 STANDARD_GRAVITY = 9.80665
 """[m/s²], along −y."""
+
+HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
+"""The way of a ball's centre where there is no defect."""
 
 
 class BodyNumbers(NamedTuple):
@@ -39,6 +44,76 @@ class BodyNumbers(NamedTuple):
     outer_mass: Array
     stiffness: Array
     damping: Array
+
+
+@dataclass(frozen=True, eq=False)
+class PackedScene:
+    """A scene whose inner ring is free along `dofs`, as numbers.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was packed, and the free directions.
+    contacts, path, load
+        all contacts, the way of the balls over all defects, load and free directions.
+    units : (5,)
+        divisors of scaled displacements, see `length_units`.
+    balls
+        both contacts of each ball, its mass and weight, and its way into each race; where asked.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    contacts: kernels.Contacts
+    path: kernels.Path
+    load: kernels.StaticLoad
+    units: Array
+    balls: kernels.StaticBalls | None
+
+    @property
+    def key(self) -> tuple[Scene, tuple[str, ...]]:
+        """What all the rest follows from, for caches."""
+        return self.scene, self.dofs
+
+
+@dataclass(frozen=True, eq=False)
+class PackedMotion(PackedScene):
+    """A scene that moves along `dofs`: `PackedScene`, and both bodies."""
+
+    bodies: BodyNumbers
+    rotor: kernels.Rotor
+
+
+def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = False) -> PackedScene:
+    """A scene whose ring is free along `dofs`, as numbers; None takes its active directions.
+
+    balls: whether their masses are asked for. Their contacts have the damping 1 N·s/m, see `races`.
+    """
+    free = scene.active_dofs if dofs is None else dofs
+    every = contacts(scene.bearing)
+    units = length_units(scene)
+    load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
+    both = None
+    if balls:
+        ways = path(scene, "inner"), path(scene, "outer")
+        both = kernels.StaticBalls(every, races(scene, 1.0, weight=True), *ways)
+    return PackedScene(scene, free, every, path(scene), load, units, both)
+
+
+def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
+    """A scene that moves along `dofs`, as numbers; its contacts have no damping yet.
+
+    Balls have the damping of `pack`, if they have mass. `dynamics.modes.packed_motion` adds what
+    the scene has.
+
+    Raises
+    ------
+    ValueError
+        for a support that lacks a number.
+    """
+    bodies = body_numbers(scene, dofs)
+    packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
+    return PackedMotion(**vars(packed), bodies=bodies, rotor=rotor(scene, dofs, 0.0))
 
 
 @lru_cache(maxsize=256)
@@ -84,8 +159,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
 
 def ball_angles(bearing: Bearing, cage_angles: Array) -> Array:
     """Angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
-    one = contacts(bearing)
-    return cage_angles[:, None] * one.pace + one.angle
+    return contacts(bearing).angles_at(cage_angles)
 
 
 def path(scene: Scene, race: str | None = None) -> kernels.Path:

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.scene.defect import RACES, Defect, drop_into
-from bearingcore.scene.packing import ball_angles, contacts
+from bearingcore.scene.packing import contacts
 from bearingcore.scene.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -69,7 +70,18 @@ def drops_at(
 
     leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
     """
-    angles = ball_angles(scene.bearing, cage_angles)
+    return drops_of(scene, contacts(scene.bearing), cage_angles, race, leads)
+
+
+def drops_of(
+    scene: Scene,
+    contacts: kernels.Contacts,
+    cage_angles: NDArray[np.float64],
+    race: str | None = None,
+    leads: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """`drops_at` of a scene whose contacts are known."""
+    angles = contacts.angles_at(cage_angles)
     turned = cage_angles
     if leads is not None:
         turned = cage_angles + scene.bearing.cage_ratio * leads

@@ -35,10 +35,16 @@ from numpy.typing import NDArray
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common.kept import kept
 from bearingcore.scene.defect import Defect, floor_bytes
-from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.packing import PackedScene, pack, typical_compression
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import ANGLES_A_PERIOD, MOST_CONTACTS, Equilibrium, equilibrium
-from bearingcore.statics.passes import drops_at
+from bearingcore.statics.equilibrium import (
+    ANGLES_A_PERIOD,
+    MOST_CONTACTS,
+    Equilibrium,
+    equilibrium_of,
+    without_defects,
+)
+from bearingcore.statics.passes import drops_of
 
 Array = NDArray[np.float64]
 
@@ -116,33 +122,51 @@ def turns(scene: Scene) -> bool:
 def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
-    solve: Callable[..., Equilibrium] = equilibrium,
+    solve: Callable[..., Equilibrium] | None = None,
     *,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium at all pairs of `positions`, with their weights.
 
-    `solve` is `equilibrium`, or `static_state` for balls with mass.
+    `solve` is `static_state` for balls with mass; None solves `equilibrium`.
     """
-    found = positions(scene, n)
+    packed = pack(scene)
+    if solve is None:
+        return equilibrium_over_all(packed, n, most_contacts)
+    found = positions_of(packed, n)
     state = solve(
         scene, found.cage_angles, shaft_angles=found.shaft_angles, most_contacts=most_contacts
     )
     return dataclasses.replace(state, weights=found.weights)
 
 
-def _bytes_of(found: Positions, scene: Scene, _: int) -> int:
-    return 24 * found.weights.size + floor_bytes(scene.defects)
+def equilibrium_over_all(
+    packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
+) -> Equilibrium:
+    """`over_all_positions` of a scene that is packed."""
+    found = positions_of(packed, n)
+    state = equilibrium_of(packed, found.cage_angles, found.shaft_angles, most_contacts)
+    return dataclasses.replace(state, weights=found.weights)
 
 
-@kept(64, 16_000_000, _bytes_of)
 def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
-    """The positions of a scene.
+    """The positions of a scene, see `positions_of`."""
+    return positions_of(pack(scene), n)
+
+
+def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
+    return 24 * found.weights.size + floor_bytes(packed.scene.defects)
+
+
+@kept(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+def positions_of(packed: PackedScene, n: int) -> Positions:
+    """The positions of a scene that is packed.
 
     n : cage angles to the bearing's period, ends included, where no defect turns with the shaft.
     Else (n − 1)/ALL_AROUND to each ball spacing, all around, with one where the ball is on the line
     of the load, and further ones where it meets an edge of the outer race.
     """
+    scene = packed.scene
     bearing = scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
     if not turns(scene):
@@ -158,8 +182,8 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     on_line = math.atan2(load.fy, load.fx) - bearing.all_rows[0].turn
     even: Array = np.sort((on_line + TWO_PI / around * np.arange(around)) % TWO_PI)
     if bearing.has_one_cage_speed:
-        rows = _nodes(scene, "inner")
-        corners = _nodes(scene, "outer")
+        rows = _nodes(packed, "inner")
+        corners = _nodes(packed, "outer")
         whole = period * np.arange(round(TWO_PI / period))
         every = np.concatenate([even, (whole[:, None] - corners).ravel() % TWO_PI])
         columns = np.unique(np.round(every, 12))
@@ -170,8 +194,8 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
-    turning = scene.replace(defect=tuple(one for one in scene.defects if one.race == "inner"))
-    drops = np.round(drops_at(turning, np.zeros(rows.size), leads=rows), 14)
+    drops = drops_of(scene, packed.contacts, np.zeros(rows.size), "inner", rows)
+    drops = np.round(drops, 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
@@ -219,8 +243,9 @@ def _row_places(bearing: Bearing) -> Array:
     return np.asarray(away.argmin(axis=1) * spacing)
 
 
-def _nodes(scene: Scene, race: str) -> Array:
+def _nodes(packed: PackedScene, race: str) -> Array:
     """Race against cage [rad] over the period, rising: where balls meet an edge, and between."""
+    scene = packed.scene
     bearing, period = scene.bearing, scene.bearing.period
     found = [np.zeros(1 if race == "inner" else 0)]
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
@@ -228,7 +253,7 @@ def _nodes(scene: Scene, race: str) -> Array:
             continue
         own = bearing.of_row(k)
         balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
-        places = _places_on_edges(defect, own, _greatest_compression(scene, k))
+        places = _places_on_edges(defect, own, _greatest_compression(packed, k))
         found.append((balls[:, None] - places).ravel())
         if defect.floor is not None:
             spacings = round(period / own.ball_spacing)
@@ -246,10 +271,10 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
     return np.asarray(defect.center + np.concatenate([-away, away]))
 
 
-def _greatest_compression(scene: Scene, row: int) -> float:
+def _greatest_compression(packed: PackedScene, row: int) -> float:
     """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
-    bearing = scene.bearing
-    state = equilibrium(scene.healthy(), np.linspace(0.0, bearing.period, 13))
+    bearing = packed.scene.bearing
+    state = equilibrium_of(without_defects(packed), np.linspace(0.0, bearing.period, 13))
     loads = np.nan_to_num(state.ball_load[:, bearing.balls_of_rows[row]])
     return typical_compression(bearing.of_row(row), float(loads.max(initial=0.0)))
 

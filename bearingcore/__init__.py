@@ -12,7 +12,8 @@ from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
-from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
+from bearingcore.dynamics.damping import contact_damping
+from bearingcore.dynamics.modes import Modes, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.ross_element import to_ross

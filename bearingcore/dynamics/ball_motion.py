@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import floor_bytes
 from bearingcore.scene.packing import PackedMotion, PackedScene, pack
 from bearingcore.scene.scene import DOF_NAMES, Scene
-from bearingcore.statics.equilibrium import equilibrium_of
-from bearingcore.statics.passes import drops_of
+from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.positions import equilibrium_over_all
 from bearingcore.statics.status import StaticStatus
 
@@ -56,14 +55,16 @@ def ball_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.Ba
     return kernels.BallSystem(packed.rotor._replace(variables=variables), *_balls(packed))
 
 
-def ball_start(packed: PackedMotion, parts: int | None = None) -> Array | None:
+def ball_start(
+    packed: PackedMotion, massless: Equilibrium, parts: int | None = None
+) -> Array | None:
     """State of rings and balls at rest at cage angle 0, at the scene's speed.
 
     Displacements and velocities of both rings, places of the balls, their velocities. None where
-    there is no static state.
+    there is no static state. `massless` is that of massless balls at
+    cage angle 0.
     """
     dofs = packed.dofs
-    massless = equilibrium_of(packed, [0.0])
     if massless.status[0] >= StaticStatus.NOT_CARRIED:
         return None
     system = _balls(packed)
@@ -94,6 +95,20 @@ def ball_start(packed: PackedMotion, parts: int | None = None) -> Array | None:
     return np.concatenate([rings.ravel(), moved.ravel(), np.zeros(moved.size)])
 
 
+def march_balls(
+    packed: PackedMotion, massless: Equilibrium, h: float, every: int, history: Array, place: Array
+) -> int | None:
+    """Fill `history` and `place` by steps of h [s], a row after `every` of them.
+
+    Returns the number of steps after which all was finite; None where there is no static state to
+    start from: `massless` is that of massless balls at cage angle 0.
+    """
+    y = ball_start(packed, massless)
+    if y is None:
+        return None
+    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place))
+
+
 def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
     n = bearing.contact_exponent
@@ -111,11 +126,11 @@ def resonances(scene: Scene, load: float) -> list[float]:
     ]
 
 
-@kept(
+@lru_cache_by_bytes(
     512,
     32_000_000,
     lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
-    lambda packed: packed.key,
+    lambda packed: (packed.scene, packed.dofs),
 )
 def heaviest_load(packed: PackedScene) -> float:
     """Greatest static load [N] of a ball over all positions; 0 where none is known."""
@@ -154,8 +169,9 @@ def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
 
     As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
-    resonance = max(resonances(packed.scene, heaviest_load(packed)))
-    needed = max(STEPS_A_CONTACT_CYCLE * resonance, fastest_decay(packed) / STABLE_DECAY)
+    decay, heaviest = fastest_decay(packed), heaviest_load(packed)
+    resonance = max(resonances(packed.scene, heaviest))
+    needed = max(STEPS_A_CONTACT_CYCLE * resonance, decay / STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
 
 
@@ -166,7 +182,7 @@ def loads_of_races(
 
     turning: cage angle [rad] of the first row, and from row to row.
     """
-    contacts, races, *_ = _balls(packed)
+    contacts, races, *paths = _balls(packed)
     start, turn = turning
     cage: Array = start + turn * np.arange(len(history), dtype=np.float64)
     angle = contacts.angles_at(cage)
@@ -183,7 +199,7 @@ def loads_of_races(
             r, z = r - contacts.clearance, z + contacts.offset
         else:
             r, z = -r, -z
-        drop = drops_of(packed.scene, contacts, cage, name)
+        drop = kernels.drops_of(contacts, paths[race], cage, cage)
         m = r * contacts.line_r + z * contacts.line_z - drop
         w = z * contacts.line_r - r * contacts.line_z
         A = races.distance[race]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass, field
 
@@ -10,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.damping import contact_damping
 from bearingcore.scene.defect import floor_bytes
-from bearingcore.scene.packing import PackedMotion, PackedScene, contacts, pack, pack_motion
+from bearingcore.scene.packing import PackedScene, contacts, pack
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import (
     ANGLES_A_PERIOD,
@@ -22,7 +22,6 @@ from bearingcore.statics.equilibrium import (
     Equilibrium,
     equilibrium,
     equilibrium_of,
-    without_defects,
 )
 from bearingcore.statics.positions import (
     ROUNDS,
@@ -33,10 +32,6 @@ from bearingcore.statics.positions import (
 )
 
 Array = NDArray[np.float64]
-
-DAMPING_OVER_STIFFNESS = 1e-5
-"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
-0.25e-5 to 2.5e-5 s."""
 
 
 @dataclass(frozen=True)
@@ -356,15 +351,15 @@ def highest_natural_frequency(scene: Scene) -> float:
     return highest_frequency_of(pack(scene))
 
 
-@kept(
+@lru_cache_by_bytes(
     512,
     32_000_000,
     lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
-    lambda packed: packed.key,
+    lambda packed: (packed.scene, packed.dofs),
 )
 def highest_frequency_of(packed: PackedScene) -> float:
     """`highest_natural_frequency` of a scene that is packed."""
-    scene, dofs = packed.key
+    scene, dofs = packed.scene, packed.dofs
     index = [DOF_NAMES.index(name) for name in dofs]
     K_b = equilibrium_over_all(packed, 31).stiffness[:, index][:, :, index]
     known = np.isfinite(K_b).all(axis=(1, 2))
@@ -401,57 +396,6 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
     )
     e *= state.carries[..., None]
     return np.swapaxes(e, 1, 2) @ e
-
-
-def _of_healthy(packed: PackedScene) -> tuple[object, ...]:
-    """All that the static state of a scene without its defects depends on."""
-    return packed.scene.bearing, packed.scene.load, packed.dofs
-
-
-@kept(512, 1_000_000, lambda *_: 1000, _of_healthy)
-def _mean_stiffness_a_ball(packed: PackedScene) -> float:
-    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] without defects, over a period of the curves."""
-    angles = np.arange(120) * (packed.scene.bearing.period / 120)
-    state = equilibrium_of(without_defects(packed), angles)
-    good = state.converged & (state.loaded_balls > 0)
-    if not good.any():
-        return math.nan
-    radial = state.term("k_xx")[good] + state.term("k_yy")[good]
-    return float(radial.mean() / state.loaded_balls[good].mean())
-
-
-def contact_damping(scene: Scene) -> float:
-    """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
-
-    The paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to
-    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
-    state to take it from.
-    """
-    return damping_of(pack(scene)) if scene.contact_damping is None else scene.contact_damping
-
-
-def damping_of(packed: PackedScene) -> float:
-    """`contact_damping` of a scene that is packed."""
-    if packed.scene.contact_damping is not None:
-        return packed.scene.contact_damping
-    stiffness = _mean_stiffness_a_ball(packed)
-    return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
-
-
-def packed_motion(scene: Scene, dofs: tuple[str, ...] | None = None) -> PackedMotion:
-    """A scene that moves along `dofs`, as numbers, contacts damped; None: its active directions.
-
-    Raises
-    ------
-    ValueError
-        for a support that lacks a number.
-    """
-    packed = pack_motion(scene, scene.active_dofs if dofs is None else dofs)
-    c, balls = damping_of(packed), packed.balls
-    if balls is not None:
-        balls = balls._replace(races=balls.races._replace(damping=c * balls.races.damping))
-    rotor = packed.rotor._replace(contact_damping=c)
-    return dataclasses.replace(packed, rotor=rotor, balls=balls)
 
 
 def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:

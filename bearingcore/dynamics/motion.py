@@ -14,20 +14,20 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.dynamics.ball_motion import (
-    ball_start,
     ball_step_rate,
-    ball_system,
     loads_of_races,
+    march_balls,
     place_parts,
 )
+from bearingcore.dynamics.damping import damped, packed_motion
 from bearingcore.dynamics.low_pass import bandwidth, hermite_weights, low_passed, rows_needed
-from bearingcore.dynamics.modes import highest_frequency_of, packed_motion
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedMotion, PackedScene
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import Spectrum, spectrum
-from bearingcore.statics.equilibrium import equilibrium_of
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium_of
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.status import StaticStatus
 
@@ -333,7 +333,8 @@ def simulate(
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
-    packed = packed_motion(scene)  # refuses a support that lacks a number
+    packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
+    packed = damped(packed)
     highest = highest_frequency_of(packed)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -342,6 +343,7 @@ def simulate(
             f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
             f"of {highest:.0f} Hz",
         )
+    rest = equilibrium_of(packed, [0.0])
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
         step_rate = step_rate_of(packed, sample_rate, highest)
@@ -386,31 +388,24 @@ def simulate(
         )  # fmt: skip
     h = 1.0 / step_rate
     place = filtered = None
-    y = ball_start(packed) if with_mass else static_start(packed)
     history = np.empty((rows, 6, len(dofs)))
     if with_mass:
         place = np.empty((-(-rows // kept), parts, n_balls))
-    if y is None:
-        history[:] = math.nan
-        if place is not None:
-            place[:] = math.nan
-        reason = equilibrium_of(packed, [0.0]).reason(0)
-        done, status, detail = 0, MotionStatus.NO_START, f": {reason}"
+        marched = march_balls(packed, rest, h, every, history, place)
     else:
-        if place is None:
-            system = moving_system(packed)
-            kernels.turn_smooth(y, 1.0, 0.0, system)
-            done = int(kernels.march(y, h, 0.0, system, history))
-        else:
-            done = int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place))
-        status, detail = MotionStatus.COMPLETED, ""
-        if done < n_steps:
-            history[done // every + 1 :] = math.nan
-            if place is not None:
-                place[done // a_sample + 1 :] = math.nan
-            rate = thousands(step_rate)
-            status = MotionStatus.DIVERGED
-            detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+        marched = march_from(packed, rest, h, history)
+    done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
+    if marched is None:
+        status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
+    elif done < n_steps:
+        rate = thousands(step_rate)
+        status = MotionStatus.DIVERGED
+        detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+    if status is not MotionStatus.COMPLETED:
+        first = 0 if marched is None else 1
+        history[done // every + first :] = math.nan
+        if place is not None:
+            place[done // a_sample + first :] = math.nan
     if place is not None:
         both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
         filtered, place = np.stack(both), place[:n]
@@ -432,6 +427,21 @@ def simulate(
     return motion.with_ball_loads(packed) if ball_loads else motion
 
 
+def march_from(
+    packed: PackedMotion, rest: Equilibrium, h: float, history: NDArray[np.float64]
+) -> int | None:
+    """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
+
+    Returns the number of steps after which all was finite; None where there is no static state.
+    """
+    y = static_start(packed, rest)
+    if y is None:
+        return None
+    system = moving_system(packed)
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    return int(kernels.march(y, h, 0.0, system, history))
+
+
 def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:
     """System of a scene with massless balls for the kernels; see `packing.rotor`.
 
@@ -449,15 +459,17 @@ def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.
     return kernels.System(rotor, packed.contacts, packed.path)
 
 
-def static_start(packed: PackedMotion) -> NDArray[np.float64] | None:
-    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state."""
-    start = equilibrium_of(packed, [0.0])
-    if start.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
+def static_start(packed: PackedMotion, rest: Equilibrium) -> NDArray[np.float64] | None:
+    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
+
+    `rest` is the static state at cage angle 0.
+    """
+    if rest.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
     bodies = packed.bodies
     y = np.zeros((4, len(packed.dofs)))
     y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
-    y[0] = y[2] + start.state[0, packed.load.active]
+    y[0] = y[2] + rest.state[0, packed.load.active]
     return y.ravel()
 
 

@@ -22,13 +22,14 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import (
     PASSED,
     PASSED_OF_ORBITS,
     acceleration_lines,
     hermite_weights,
 )
-from bearingcore.dynamics.modes import highest_frequency_of, packed_motion
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
@@ -284,9 +285,10 @@ def orbit(
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
     shooting = _Shooting(packed, period, steps, give_up, most_steps)
-    y = static_start(packed) if start is None else _state_at_start(start, dofs)
+    rest = equilibrium_of(packed, [0.0])
+    y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
-        why = equilibrium_of(packed, [0.0]).reason(0)
+        why = rest.reason(0)
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.own(y)
     if start is not None:
@@ -471,6 +473,9 @@ def _newton(
 def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
     """The first state of another orbit; None where it moves along other directions or is none."""
     first = start.history[0]
-    if start.dofs != dofs or not np.all(np.isfinite(first)):
-        return static_start(packed_motion(start.scene, dofs)) if start.dofs == dofs else None
+    if start.dofs != dofs:
+        return None
+    if not np.all(np.isfinite(first)):
+        packed = packed_motion(start.scene, dofs)
+        return static_start(packed, equilibrium_of(packed, [0.0]))
     return np.concatenate([first[0], first[1], first[3], first[4]])

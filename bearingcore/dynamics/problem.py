@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.dynamics.modes import highest_frequency_of, packed_motion
+from bearingcore.dynamics.damping import packed_motion
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import moving_system, static_start
 from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import Scene
@@ -67,9 +68,10 @@ def motion_problem(scene: Scene) -> MotionProblem:
     """
     checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     packed = packed_motion(scene)
-    rest = static_start(packed)
+    state = equilibrium_of(packed, [0.0])
+    rest = static_start(packed, state)
     if rest is None:
-        reason = equilibrium_of(packed, [0.0]).reason(0)
+        reason = state.reason(0)
         raise checks.refuse("scene", reason, "one with a static state to start from")
     load = float(np.linalg.norm(packed.bodies.force)) or 1.0
     compression = typical_compression(scene.bearing, load)

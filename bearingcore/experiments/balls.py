@@ -19,8 +19,9 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import low_passed, rows_needed
-from bearingcore.dynamics.modes import highest_natural_frequency, packed_motion
+from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate, simulate
 from bearingcore.experiments.points import (
     NOT_WATCHED,
@@ -35,6 +36,7 @@ from bearingcore.experiments.points import (
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 from bearingcore.signals.spectrum_difference import third_octave_edges
+from bearingcore.statics.equilibrium import equilibrium_of
 
 Array = NDArray[np.float64]
 
@@ -153,7 +155,8 @@ def _empty(
 
 
 def _start(scene: Scene, parts: int) -> Array:
-    start = ball_start(packed_motion(scene), parts)
+    packed = packed_motion(scene)
+    start = ball_start(packed, equilibrium_of(packed, [0.0]), parts)
     if start is None:
         raise checks.refuse("scene", "without a static state", "one that a motion can start from")
     return start

@@ -15,7 +15,7 @@ import numpy as np
 
 from bearingcore import kernels
 from bearingcore.common.numbers import thousands
-from bearingcore.dynamics.modes import packed_motion
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
 from bearingcore.dynamics.status import MotionStatus

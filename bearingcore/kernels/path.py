@@ -125,6 +125,19 @@ def ball_path(ball_angles, cage_angles, row, path):
     return drops
 
 
+def drops_of(contacts, path, cage_angles, turned):
+    """Drop (n, balls) [m] of each ball on a path at cage angles (n,) [rad], row after row.
+
+    turned (n,) [rad]: the cage angle at which the shaft is where it is.
+    """
+    angles, drops = contacts.angles_at(cage_angles), []
+    for row, (first, count) in enumerate(contacts.rows.tolist()):
+        own = angles[:, first : first + count]
+        cage = np.broadcast_to((contacts.pace[first] * turned)[:, None], own.shape)
+        drops.append(ball_path(own.ravel(), cage.ravel(), row, path).reshape(own.shape))
+    return np.concatenate(drops, axis=1)
+
+
 @compiled
 def fill_drops(ball_angles, cage_angles, row, path, drops):
     """Body of `ball_path`."""

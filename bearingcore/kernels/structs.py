@@ -83,6 +83,10 @@ class Contacts(NamedTuple):
         """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
         return cage_angles[:, None] * self.pace + self.angle
 
+    def compression(self, load: float, contact: int = 0) -> float:
+        """Compression [m] of a contact that carries a load [N]."""
+        return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))
+
 
 class Path(NamedTuple):
     """The way of a ball's centre over all defects.

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.files.child import read_file
 
 SAMPLES_A_LENGTH = 10
@@ -90,7 +90,7 @@ class RoughFloor:
         return np.maximum(depth + np.interp(angle * radius, place, heights), 0.0)
 
 
-@kept(16, 64_000_000, lambda heights, *_: heights.nbytes)
+@lru_cache_by_bytes(16, 64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package

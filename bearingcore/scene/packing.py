@@ -56,8 +56,12 @@ class PackedScene:
         what was packed, and the free directions.
     contacts, path, load
         all contacts, the way of the balls over all defects, load and free directions.
+    race_paths
+        the way over the defects of the inner race alone, and over those of the outer one.
     units : (5,)
         divisors of scaled displacements, see `length_units`.
+    rows
+        the bearing with the numbers of each row, see `Bearing.of_row`.
     balls
         both contacts of each ball, its mass and weight, and its way into each race; where asked.
     """
@@ -66,14 +70,11 @@ class PackedScene:
     dofs: tuple[str, ...]
     contacts: kernels.Contacts
     path: kernels.Path
+    race_paths: tuple[kernels.Path, kernels.Path]
     load: kernels.StaticLoad
     units: Array
+    rows: tuple[Bearing, ...]
     balls: kernels.StaticBalls | None
-
-    @property
-    def key(self) -> tuple[Scene, tuple[str, ...]]:
-        """What all the rest follows from, for caches."""
-        return self.scene, self.dofs
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,30 +91,45 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
     balls: whether their masses are asked for. Their contacts have the damping 1 N·s/m, see `races`.
     """
     free = scene.active_dofs if dofs is None else dofs
-    every = contacts(scene.bearing)
     units = length_units(scene)
     load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
-    both = None
-    if balls:
-        ways = path(scene, "inner"), path(scene, "outer")
-        both = kernels.StaticBalls(every, races(scene, 1.0, weight=True), *ways)
-    return PackedScene(scene, free, every, path(scene), load, units, both)
+    both = races(scene, 1.0, weight=True) if balls else None
+    defects, bearing = scene.defects, scene.bearing
+    rows = own_rows(bearing)
+    every = contacts(bearing)
+    whole = path_tables(defects, bearing)
+    cut = {defect.race for defect in defects}
+
+    def way(race: str) -> kernels.Path:
+        if cut == {race}:
+            return whole
+        return path_tables(tuple(d for d in defects if d.race == race), bearing)
+
+    ways = way("inner"), way("outer")
+    of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
+    return PackedScene(scene, free, every, whole, ways, load, units, rows, of_balls)
 
 
 def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
     """A scene that moves along `dofs`, as numbers; its contacts have no damping yet.
 
-    Balls have the damping of `pack`, if they have mass. `dynamics.modes.packed_motion` adds what
-    the scene has.
+    Balls have the damping of `pack`, if they have mass. `dynamics.damping.damped` adds what the
+    scene has.
 
     Raises
     ------
     ValueError
         for a support that lacks a number.
     """
-    bodies = body_numbers(scene, dofs)
+    bodies, undamped = body_numbers(scene, dofs), rotor(scene, dofs, 0.0)
     packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
-    return PackedMotion(**vars(packed), bodies=bodies, rotor=rotor(scene, dofs, 0.0))
+    return PackedMotion(**vars(packed), bodies=bodies, rotor=undamped)
+
+
+@lru_cache(maxsize=256)
+def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
+    """The bearing with the numbers of each row."""
+    return tuple(bearing.of_row(k) for k in range(len(bearing.all_rows)))
 
 
 @lru_cache(maxsize=256)
@@ -175,8 +191,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     would move as the published law has them: damping over stiffness alike on both sides. Alike
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
-    bearing = scene.bearing
-    owns = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
+    owns = own_rows(scene.bearing)
     softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.contact_exponent)
               for own in owns]  # fmt: skip
 
@@ -204,8 +219,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
 
 def typical_compression(bearing: Bearing, load: float) -> float:
     """Compression [m] of one contact of a bearing that carries a load [N]."""
-    one = contacts(bearing)
-    return float((load / one.factor[0]) ** (1.0 / one.exponent[0]))
+    return contacts(bearing).compression(load)
 
 
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:

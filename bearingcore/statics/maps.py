@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
@@ -251,7 +251,7 @@ def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
 
 
 # of rough floors the tables of a map may take a gigabyte
-@kept(4, 256_000_000, _bytes_of_paths)
+@lru_cache_by_bytes(4, 256_000_000, _bytes_of_paths)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> _Paths:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.scene.defect import RACES, Defect, drop_into
-from bearingcore.scene.packing import contacts
+from bearingcore.scene.packing import contacts, path
 from bearingcore.scene.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -70,28 +70,10 @@ def drops_at(
 
     leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
     """
-    return drops_of(scene, contacts(scene.bearing), cage_angles, race, leads)
-
-
-def drops_of(
-    scene: Scene,
-    contacts: kernels.Contacts,
-    cage_angles: NDArray[np.float64],
-    race: str | None = None,
-    leads: NDArray[np.float64] | None = None,
-) -> NDArray[np.float64]:
-    """`drops_at` of a scene whose contacts are known."""
-    angles = contacts.angles_at(cage_angles)
     turned = cage_angles
     if leads is not None:
         turned = cage_angles + scene.bearing.cage_ratio * leads
-    return np.concatenate(
-        [
-            ball_drop(scene, angles[:, own], turned[:, None], race, row)
-            for row, own in enumerate(scene.bearing.balls_of_rows)
-        ],
-        axis=1,
-    )
+    return kernels.drops_of(contacts(scene.bearing), path(scene, race), cage_angles, turned)
 
 
 def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:

@@ -32,10 +32,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
-from bearingcore.scene.packing import PackedScene, pack, typical_compression
+from bearingcore.scene.packing import PackedScene, pack
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import (
     ANGLES_A_PERIOD,
@@ -44,7 +45,6 @@ from bearingcore.statics.equilibrium import (
     equilibrium_of,
     without_defects,
 )
-from bearingcore.statics.passes import drops_of
 
 Array = NDArray[np.float64]
 
@@ -158,7 +158,7 @@ def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
     return 24 * found.weights.size + floor_bytes(packed.scene.defects)
 
 
-@kept(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+@lru_cache_by_bytes(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
 def positions_of(packed: PackedScene, n: int) -> Positions:
     """The positions of a scene that is packed.
 
@@ -170,7 +170,7 @@ def positions_of(packed: PackedScene, n: int) -> Positions:
     bearing = scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
     if not turns(scene):
-        columns, weights = _cage_angles(bearing, n)
+        columns, weights = _cage_angles(packed, n)
         steps = np.full((2, columns.size), columns[1] - columns[0])
         row = np.zeros(1), np.zeros(1, np.int64)
         return Positions(
@@ -190,12 +190,12 @@ def positions_of(packed: PackedScene, n: int) -> Positions:
         steps = _steps(columns, TWO_PI)
     else:
         steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
-        columns = np.add.outer(_row_places(bearing), even).ravel()
+        columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
-    drops = drops_of(scene, packed.contacts, np.zeros(rows.size), "inner", rows)
-    drops = np.round(drops, 14)
+    still, turned = np.zeros(rows.size), ratio * rows
+    drops = np.round(kernels.drops_of(packed.contacts, packed.race_paths[0], still, turned), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
@@ -220,22 +220,24 @@ def _steps(angles: Array, period: float) -> Array:
     return np.stack([np.roll(after, 1), after])
 
 
-def _cage_angles(bearing: Bearing, n: int) -> tuple[Array, Array]:
+def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
     """Cage angles [rad] over the bearing's period, ends included, and their shares of the time."""
-    weights = np.ones(n)
+    weights, bearing = np.ones(n), packed.scene.bearing
     weights[[0, -1]] = 0.5
     if bearing.has_one_cage_speed:
         return np.linspace(0.0, bearing.period, n), weights / weights.sum()
-    places = _row_places(bearing)
+    places = _row_places(packed)
     angles = (np.linspace(0.0, bearing.ball_spacing, n) + places[:, None]).ravel()
     return angles, np.tile(weights / (weights.sum() * places.size), places.size)
 
 
-def _row_places(bearing: Bearing) -> Array:
+def _row_places(packed: PackedScene) -> Array:
     """Cage angles (ROW_PLACES,) [rad], whole ball spacings, after which rows are evenly turned."""
-    others = [k for k in range(len(bearing.all_rows)) if bearing.pace(k) != bearing.pace(0)]
-    spacing = bearing.of_row(0).ball_spacing / bearing.pace(0)
-    turned = np.array([bearing.pace(k) / bearing.of_row(k).ball_spacing for k in others]) * spacing
+    pace = packed.contacts.pace[packed.contacts.rows[:, 0]]
+    spacings = np.array([own.ball_spacing for own in packed.rows])
+    spacing = spacings[0] / pace[0]
+    others = pace != pace[0]
+    turned = pace[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
     odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
     wanted = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
@@ -251,7 +253,7 @@ def _nodes(packed: PackedScene, race: str) -> Array:
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
         if defect.race != race or defect.row not in (None, k):
             continue
-        own = bearing.of_row(k)
+        own = packed.rows[k]
         balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
         places = _places_on_edges(defect, own, _greatest_compression(packed, k))
         found.append((balls[:, None] - places).ravel())
@@ -266,17 +268,19 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
     """Angles [rad] of a ball at both edges, where it meets the floor, and on the way there."""
     half = 0.5 * defect.extent
     drops = {min(share * compression, defect.depth) for share in SINKING} | {defect.depth}
-    inwards = [dataclasses.replace(defect, depth=drop).edge_row(bearing)[4] for drop in drops]
+    whole = defect.extent >= TWO_PI
+    inwards = [0.0 if whole else defect.edge_width(bearing, drop) for drop in drops]
     away = half - np.minimum(inwards, half)
     return np.asarray(defect.center + np.concatenate([-away, away]))
 
 
 def _greatest_compression(packed: PackedScene, row: int) -> float:
     """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
-    bearing = packed.scene.bearing
-    state = equilibrium_of(without_defects(packed), np.linspace(0.0, bearing.period, 13))
-    loads = np.nan_to_num(state.ball_load[:, bearing.balls_of_rows[row]])
-    return typical_compression(bearing.of_row(row), float(loads.max(initial=0.0)))
+    healthy, contacts = without_defects(packed), packed.contacts
+    state = equilibrium_of(healthy, np.linspace(0.0, packed.scene.bearing.period, 13))
+    first, count = contacts.rows[row]
+    loads = np.nan_to_num(state.ball_load[:, first : first + count])
+    return contacts.compression(float(loads.max(initial=0.0)), first)
 
 
 def _lowest(values: Array) -> NDArray[np.int64]:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.variants import system_variant
-from bearingcore.dynamics.modes import highest_natural_frequency, modes, packed_motion
+from bearingcore.dynamics.damping import packed_motion
+from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses, coefficients

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.path_fit import DIRECT, PathModel
-from bearingcore.dynamics.modes import contact_damping
+from bearingcore.dynamics.damping import contact_damping
 from bearingcore.scene.scene import Scene
 
 PATHS = (PathModel(0.6, 1.5e-3, 0.3, 9.0),)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from bearingcore import Motion, Scene, kernels, presets, simulate, spectrum
+from bearingcore import Motion, Scene, equilibrium, kernels, presets, simulate, spectrum
 from bearingcore.dynamics.ball_motion import (
     ball_start,
     ball_step_rate,
@@ -16,7 +16,7 @@ from bearingcore.dynamics.ball_motion import (
     contact_stiffness,
     heaviest_load,
 )
-from bearingcore.dynamics.modes import packed_motion
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.scene import packing
 from tests.helpers.ball_rates import ball_motion_rates
 from tests.helpers.contact_law import TwoContacts
@@ -70,7 +70,7 @@ def test_ever_lighter_balls_move_as_massless_ones() -> None:
 def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
     """At speed 0 nothing accelerates in the static state, balls' weight and all directions on."""
     scene = scene.replace(shaft_speed=0.0, balls="with mass")
-    start = ball_start(packed_motion(scene), 2)
+    start = ball_start(packed_motion(scene), equilibrium(scene, [0.0]), 2)
     assert start is not None
     system = ball_system(packed_motion(scene), velocities=True)
     rates = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
@@ -112,7 +112,7 @@ def undamped(scene: Scene) -> tuple[kernels.BallSystem, np.ndarray]:
     still = scene.replace(shaft_speed=0.0)
     system = ball_system(packed_motion(still))
     rotor = system.rotor._replace(damping=0.0 * system.rotor.damping)
-    start = ball_start(packed_motion(still))
+    start = ball_start(packed_motion(still), equilibrium(still, [0.0]))
     assert start is not None
     n = len(dofs)
     start[n : 2 * n] = 1e-3 * np.arange(1, n + 1)  # so fast that balls let go and strike
@@ -207,7 +207,7 @@ def by_scipy(method: str, law: str) -> np.ndarray:
     """The housing's velocity (n, 2) [m/s] over 6 ms while a ball enters and strikes."""
     scene = entering(law)
     system = ball_system(packed_motion(scene), velocities=True)
-    start = ball_start(packed_motion(scene), 2)
+    start = ball_start(packed_motion(scene), equilibrium(scene, [0.0]), 2)
     assert start is not None
 
     def rate(t: float, y: np.ndarray) -> np.ndarray:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 POISSON = 0.3
 """Poisson's ratio of ball and rings; the modulus is the one that gives the factor K."""
 
-USUAL_ANGLE = math.radians(10.0)
+ASSUMED_ANGLE = math.radians(10.0)
 USUAL_GROOVE = 0.53
 """Contact angle [rad] and inner groove radius over the ball that are assumed for a new one."""
 
@@ -128,7 +128,7 @@ class SelfAligning(Kind):
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         ball = bearing.ball_diameter
-        angle = bearing.contact_angle or USUAL_ANGLE
+        angle = bearing.contact_angle or ASSUMED_ANGLE
         return bearing.self_aligning(
             bearing.n_balls,
             ball,

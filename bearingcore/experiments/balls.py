@@ -59,7 +59,7 @@ AROUND = (2 / 3, 1.0, 4 / 3, 8 / 3)
 FINER = 8
 """As many times more for the second family, whose order is lower."""
 
-LEFT_OUT = (
+BALLS_LEFT_OUT = (
     "general-purpose methods, which hold to tolerances between strikes and take five times as long "
     "(tests compare with them); implicit and exponential steps of the balls alone, which lose an "
     "order whenever a contact opens or closes"
@@ -77,7 +77,7 @@ class BallMarch:
 
 Report = Callable[[float], object]
 
-Marcher = Callable[[Scene, int, float, float, Report], BallMarch]
+BallMarcher = Callable[[Scene, int, float, float, Report], BallMarch]
 """(scene, steps a sample, duration [s], sample rate [Hz], report of the part done) -> BallMarch"""
 
 MOST_KEPT = 8
@@ -166,7 +166,7 @@ def _failure(done: int, steps: int) -> str:
     return "" if done >= steps else f"diverged after {done} of {steps} steps"
 
 
-BALL_METHODS: dict[str, Marcher] = {
+BALL_METHODS: dict[str, BallMarcher] = {
     "RK4": _by_own_steps,
     "RK4 in velocities": _in_velocities,
 }
@@ -280,7 +280,7 @@ def balls_experiment(
         "evaluations of all contacts",
         {"": reference},
         (),
-        LEFT_OUT,
+        BALLS_LEFT_OUT,
     )
     return measured_in_turn(experiment, tasks, str, measure, watch, begin=_SHARE_OF_REFERENCE)
 

@@ -189,11 +189,11 @@ def by_cvode(
     def fill(t: float, y: Array, rates: Array) -> None:
         rates[:] = rate(t, y)
 
-    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_CALLS)
+    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
     return np.array(solver.solve(time, start).y)
 
 
-MOST_CALLS = 500_000
+MOST_RATES = 500_000
 """Right-hand sides after which a general-purpose method is given up."""
 
 
@@ -202,15 +202,15 @@ class _TooManyCallsError(RuntimeError):
 
 
 class _Limited:
-    """A right-hand side that counts, and gives up after MOST_CALLS."""
+    """A right-hand side that counts, and gives up after MOST_RATES."""
 
     def __init__(self, problem: MotionProblem) -> None:
         self._problem, self.calls = problem, 0
 
     def rate(self, t: float, y: Array) -> Array:
         self.calls += 1
-        if self.calls > MOST_CALLS:
-            raise _TooManyCallsError(f"more than {thousands(MOST_CALLS)} right-hand sides")
+        if self.calls > MOST_RATES:
+            raise _TooManyCallsError(f"more than {thousands(MOST_RATES)} right-hand sides")
         return self._problem.rate(t, y)
 
 

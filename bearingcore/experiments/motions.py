@@ -41,7 +41,7 @@ TOLERANCES = {
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""
 
-LEFT_OUT = (
+MOTIONS_LEFT_OUT = (
     "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
     "with the right-hand side in NumPy, five times slower with the same errors; exponential and "
     "multirate methods, as no part of the motion is slow while another is fast"
@@ -141,7 +141,9 @@ def motion_experiment(
         "right-hand sides",
         {"": reference.reference},
         (),
-        LEFT_OUT if HAS_CVODE else f"{LEFT_OUT}; CVODE, as scikit-sundae is not installed",
+        MOTIONS_LEFT_OUT
+        if HAS_CVODE
+        else f"{MOTIONS_LEFT_OUT}; CVODE, as scikit-sundae is not installed",
     )
     return measured_in_turn(
         experiment,

@@ -152,7 +152,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
                 for row, own in zip(rows, owns, strict=True)
             ]
         ),
-        pace=each(*(bearing.pace(k) for k in range(len(rows)))),
+        relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(
             *(
                 (row.place + row.facing * one.groove_center_shift) / lever
@@ -283,7 +283,7 @@ def rotor(
         variables=variables,
         tension=published,
         turning_force=float(scene.turning_force),
-        shaft_pace=1.0 / scene.bearing.cage_ratio,
+        shaft_ratio=1.0 / scene.bearing.cage_ratio,
     )
 
 

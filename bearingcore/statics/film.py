@@ -124,7 +124,7 @@ class Film:
     @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else LEFT_OUT
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else FILM_LEFT_OUT
         return f"{self.thinner.sentence} {left_out}"
 
     @property
@@ -157,12 +157,12 @@ class Film:
         )
 
 
-LEFT_OUT = (
+FILM_LEFT_OUT = (
     "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
     "starvation are left out, and all of them make the film thinner."
 )
 
-ROLLER_LEFT_OUT = LEFT_OUT.replace(
+ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
     "the edges of a defect", "the edges of a defect and of the roller"
 )
 

@@ -202,7 +202,7 @@ def stiffness_maps(
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
-    gone = _run_away(contacts, angles, load, status[start:begun])
+    gone = _unbounded_angles(contacts, angles, load, status[start:begun])
     status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
     units = packed.units
@@ -224,7 +224,7 @@ def stiffness_maps(
     )
 
 
-def _run_away(
+def _unbounded_angles(
     contacts: kernels.Contacts,
     angles: Array,
     load: kernels.StaticLoad,

@@ -90,7 +90,7 @@ class Positions:
         from each column to the one before and to the one after.
     period [rad]
         of the rows.
-    pace
+    shaft_ratio
         turning of the shaft with the cage along a row.
     """
 
@@ -102,7 +102,7 @@ class Positions:
     weights: Array
     steps: Array
     period: float
-    pace: float
+    shaft_ratio: float
 
 
 class Extremes(NamedTuple):
@@ -233,11 +233,11 @@ def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
 
 def _row_places(packed: PackedScene) -> Array:
     """Cage angles (ROW_PLACES,) [rad], whole ball spacings, after which rows are evenly turned."""
-    pace = packed.contacts.pace[packed.contacts.rows[:, 0]]
+    speeds = packed.contacts.relative_speed[packed.contacts.rows[:, 0]]
     spacings = np.array([own.ball_spacing for own in packed.rows])
-    spacing = spacings[0] / pace[0]
-    others = pace != pace[0]
-    turned = pace[others] / spacings[others] * spacing
+    spacing = spacings[0] / speeds[0]
+    others = speeds != speeds[0]
+    turned = speeds[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
     odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
     wanted = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
@@ -336,7 +336,7 @@ def extremes(
         where, back = np.unique(np.stack([cs[:, 0], us[:, 0]]), axis=1, return_index=True,
                                 return_inverse=True)[1:]  # fmt: skip
         cage = pairs[0][where].ravel()
-        shaft = found.pace * cage + pairs[1][where].ravel()
+        shaft = found.shaft_ratio * cage + pairs[1][where].ravel()
         new = evaluate(cage, shaft).reshape(q, where.size, -1)
         own = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
         own = np.where(np.isnan(own), math.inf, own)
@@ -351,4 +351,6 @@ def extremes(
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)
-    return Extremes(least[:q], -least[q:], c.reshape(2, q), (found.pace * c + u).reshape(2, q))
+    return Extremes(
+        least[:q], -least[q:], c.reshape(2, q), (found.shaft_ratio * c + u).reshape(2, q)
+    )

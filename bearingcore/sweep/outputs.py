@@ -19,7 +19,7 @@ from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
-from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.dynamics.speed_run import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
@@ -465,7 +465,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
     motion = simulate(scene, settings.duration, settings.sample_rate)
-    late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
+    late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()

@@ -16,7 +16,7 @@ import numpy as np
 
 from bearingcore.diagnosis.size.matching import Prepared, Target
 
-DRAWS = 24
+DRAWN_PASSES = 24
 """Passes with phases drawn anew."""
 
 
@@ -56,14 +56,14 @@ class ByChance:
     def __init__(self, target: Target) -> None:
         rng = np.random.default_rng(0)
         count = len(target.harmonics)
-        turns = np.exp(2j * math.pi * rng.uniform(size=(DRAWS, count)))
+        turns = np.exp(2j * math.pi * rng.uniform(size=(DRAWN_PASSES, count)))
         self._drawn = [target.harmonics * turn[:, None] for turn in turns]
         self._measured = target.harmonics
-        self._drawn_least = np.full(DRAWS, math.inf)
+        self._drawn_least = np.full(DRAWN_PASSES, math.inf)
         self._least = math.inf
         self._lock = threading.Lock()
 
-    def look(self, simulated: Prepared) -> None:
+    def explain(self, simulated: Prepared) -> None:
         """Let the drawn passes be explained by simulations, as the measured one is.
 
         From any thread: the least of all does not depend on the order.
@@ -77,4 +77,4 @@ class ByChance:
     @property
     def share(self) -> float:
         """Part of the passes, the measured one among them, explained as well as it is or better."""
-        return float((1 + np.sum(self._drawn_least <= self._least)) / (1 + DRAWS))
+        return float((1 + np.sum(self._drawn_least <= self._least)) / (1 + DRAWN_PASSES))

@@ -474,7 +474,7 @@ def _library_compared(
         for path in search.paths:
             prepared = Prepared(target, library.harmonics, path, exits)
             if against_chance:
-                by_chance.look(prepared if path.direct else prepared.some(CHANCE_STEP))
+                by_chance.explain(prepared if path.direct else prepared.some(CHANCE_STEP))
             tried.append(prepared.match(library.power).score)
         return np.array(tried)
 

@@ -46,9 +46,9 @@ def fields(
 ) -> dict[str, Any]:
     """All fields of a self-aligning `Bearing`; see `Bearing.self_aligning`."""
     angle = drawing.check_contact_angle(contact_angle)
-    checks.number("contact_angle", angle, above=0.0, unit="rad")
-    diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
-    sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
+    checks.real_number("contact_angle", angle, above=0.0, unit="rad")
+    diameter = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    sphere = checks.real_number("sphere_radius", sphere_radius, above=diameter, unit="m")
     drawing.check_groove("inner", inner_groove_radius, diameter)
     pitch = (2.0 * (sphere - 0.5 * diameter)) * math.cos(angle)
     distance = sphere + inner_groove_radius - diameter

@@ -219,8 +219,8 @@ def trend(
     chosen = band
     if chosen is None:
         chosen = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
-    low = checks.number("lower end of the band", chosen[0], above=0.0, unit="Hz")
-    high = checks.number("upper end of the band", chosen[1], above=low, unit="Hz")
+    low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
+    high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
     for one in recordings:
         speed = _speed(one, shaft_speed)
@@ -290,7 +290,7 @@ def _known_speed(shaft_speed: float | tuple[float, float] | None) -> float | Non
     """A shaft speed [rad/s] that is known; None where it is rough or unknown."""
     if shaft_speed is None or isinstance(shaft_speed, tuple):
         return None
-    return checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
+    return checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
 
 
 def _impulsive(

@@ -329,9 +329,9 @@ def simulate(
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
         it, a shaft that stands still, or a support that lacks a number.
     """
-    duration = checks.number("duration", duration, above=0.0, unit="s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
     packed = damped(packed)
@@ -514,7 +514,7 @@ def fine_step_rate(scene: Scene, sample_rate: float) -> float:
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
     """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
-    step_rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+    step_rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
     ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)
     whole = round(ratio)
     if abs(ratio - whole) > 1e-9 * ratio:

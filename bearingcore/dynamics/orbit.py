@@ -174,12 +174,12 @@ class Orbit:
 
         ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
         """
-        sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
         least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
-        resolution = checks.number(
+        resolution = checks.real_number(
             "resolution", resolution, at_least=least, at_most=0.5 * sample_rate, unit="Hz"
         )
-        duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
+        duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
         segment = round(sample_rate / resolution)
         hop = segment - segment // 2
         segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
@@ -258,7 +258,7 @@ def orbit(
     ValueError
         for a shaft that stands still or a support that lacks a number.
     """
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     shortest = common_ball_passes(scene)
     if ball_passes is None:

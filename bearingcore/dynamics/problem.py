@@ -66,7 +66,7 @@ def motion_problem(scene: Scene) -> MotionProblem:
     ValueError
         for a shaft that stands still, or where there is no static state to start from.
     """
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     packed = packed_motion(scene)
     state = equilibrium_of(packed, [0.0])
     rest = static_start(packed, state)

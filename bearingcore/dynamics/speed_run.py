@@ -133,11 +133,11 @@ def speed_run(
     if not 1 <= speeds.size <= 1000:
         raise checks.refuse("number of shaft_speeds", int(speeds.size), "1 to 1000")
     for speed in speeds:
-        checks.number("shaft_speeds", speed, above=0.0, unit="rad/s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        checks.real_number("shaft_speeds", speed, above=0.0, unit="rad/s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     most = MOST_SAMPLES / sample_rate * (1.0 - SETTLING_SHARE)
-    duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
-    resolution = checks.number(
+    duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
+    resolution = checks.real_number(
         "resolution", resolution, at_least=1.0 / duration, at_most=0.5 * sample_rate, unit="Hz"
     )
     dofs = scene.active_dofs

@@ -226,7 +226,7 @@ def balls_experiment(
     """
     if unknown := scene.bearing.kind.mass_unknown:
         raise ValueError(f"there is no model with the mass of {unknown}")
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     scene = scene.replace(balls=WITH_MASS)
     usual = default_step_rate(scene, sample_rate, highest_natural_frequency(scene))
     own = max(round(usual / sample_rate), 1)

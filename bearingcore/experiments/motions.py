@@ -117,8 +117,8 @@ def motion_experiment(
     ValueError
         for unknown methods, a shaft that stands still, or a scene without a static state.
     """
-    duration = checks.number("duration", duration, above=0.0, unit="s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     names = usable_methods() if methods is None else tuple(methods)
     for name in names:
         checks.choice("method", name, tuple(METHODS))

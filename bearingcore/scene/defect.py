@@ -78,12 +78,12 @@ class Defect:
             object.__setattr__(self, name, value)
 
         # 360° typed as a decimal must not fail on the last digit of 2π
-        extent = checks.number(
+        extent = checks.real_number(
             "extent", self.extent, at_least=0.0, at_most=TWO_PI * (1.0 + 1e-9), unit="rad"
         )
         keep("extent", min(extent, TWO_PI))
-        keep("depth", checks.number("depth", self.depth, at_least=0.0, unit="m"))
-        keep("center", checks.number("center", self.center, unit="rad"))
+        keep("depth", checks.real_number("depth", self.depth, at_least=0.0, unit="m"))
+        keep("center", checks.real_number("center", self.center, unit="rad"))
         checks.choice("race", self.race, RACES)
         checks.choice("edge", self.edge, EDGES)
         if not isinstance(self.floor, RoughFloor | MeasuredFloor | None):

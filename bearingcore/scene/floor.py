@@ -50,8 +50,8 @@ class RoughFloor:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        height = checks.number("rms_height", self.rms_height, at_least=0.0, unit="m")
-        length = checks.number("correlation_length", self.correlation_length, at_least=1e-6)
+        height = checks.real_number("rms_height", self.rms_height, at_least=0.0, unit="m")
+        length = checks.real_number("correlation_length", self.correlation_length, at_least=1e-6)
         seed = checks.whole_number("seed", self.seed, at_least=0, at_most=2**31 - 1)
         object.__setattr__(self, "rms_height", height)
         object.__setattr__(self, "correlation_length", length)

@@ -98,8 +98,8 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     """
     from scipy.signal import periodogram  # imported late: see `spectrum`
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    least = checks.number("narrowest", narrowest, at_least=0.0, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
     samples = np.asarray(signal, dtype=float)[:MOST_JUDGED]
     if samples.ndim != 1 or len(samples) < 32 * PIECES or not np.isfinite(samples).all():
         raise checks.refuse(

@@ -251,12 +251,12 @@ def film(
     ValueError
         naming the field, its value and what is allowed.
     """
-    eta = checks.number("viscosity", viscosity, above=0.0, unit="Pa·s")
-    xi = checks.number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
-    ball = checks.number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
+    eta = checks.real_number("viscosity", viscosity, above=0.0, unit="Pa·s")
+    xi = checks.real_number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
+    ball = checks.real_number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
     sigma = {
         race: math.hypot(
-            checks.number(
+            checks.real_number(
                 f"roughness_{race}",
                 value,
                 at_least=0.0,

@@ -138,7 +138,7 @@ def limits(
         another scene.
     """
     if shoulder_height is not None:
-        checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+        checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
         state = state_of_limits(scene)
     elif state.scene != scene:
@@ -148,7 +148,7 @@ def limits(
     heaviest = heaviest_balls(state)
     in_motion = None
     if dynamic_load is not None:
-        in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
+        in_motion = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     kind = scene.bearing.kind
     found: list[Limit | None] = [
         _pressure(scene.bearing, "inner", heaviest),
@@ -166,7 +166,7 @@ def limits(
     found += thrust_limits(scene, state)
     found.append(_film(scene, film))
     if step_rate is not None:
-        rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+        rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
     found.append(_estimate(scene))
     return tuple(limit for limit in found if limit is not None)

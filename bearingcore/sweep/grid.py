@@ -365,7 +365,7 @@ def _axis(name: object, given: Any) -> Axis:
     else:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
             raise checks.refuse(f"values of {name}", _short(given), allowed)
-        array = np.array([checks.number(f"value of {name}", value) for value in values])
+        array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
             array = np.array(
                 [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]

@@ -260,13 +260,15 @@ class Settings:
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
         keep("cage_angles", angles)
         for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
-            value = checks.number(name, getattr(self, name), above=0.0, at_most=most, unit=unit)
+            value = checks.real_number(
+                name, getattr(self, name), above=0.0, at_most=most, unit=unit
+            )
             keep(name, value)
-        keep("band_low", checks.number("band_low", self.band_low, above=0.0, unit="Hz"))
-        band_high = checks.number("band_high", self.band_high, above=self.band_low, unit="Hz")
+        keep("band_low", checks.real_number("band_low", self.band_low, above=0.0, unit="Hz"))
+        band_high = checks.real_number("band_high", self.band_high, above=self.band_low, unit="Hz")
         keep("band_high", band_high)
         if self.dynamic_load_rating is not None:
-            rating = checks.number(
+            rating = checks.real_number(
                 "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
             )
             keep("dynamic_load_rating", rating)

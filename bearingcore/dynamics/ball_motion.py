@@ -139,14 +139,6 @@ def heaviest_load(packed: PackedScene) -> float:
     return float(known.max()) if known.size else 0.0
 
 
-def contact_resonance(scene: Scene) -> float:
-    """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts.
-
-    Of rows that are unlike the highest at that load, whichever row it is that carries it.
-    """
-    return contact_resonance_band(scene)[1]
-
-
 @lru_cache(maxsize=512)
 def contact_resonance_band(scene: Scene) -> tuple[float, float]:
     """Contact resonances [Hz] of balls that carry between LIGHTLY of the heaviest load and all.

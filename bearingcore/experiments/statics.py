@@ -87,9 +87,9 @@ class StaticProblem:
 
 def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
-    packed = packing.contacts(scene.bearing)
-    phi = packing.ball_angles(scene.bearing, angles)
-    force, active = packing.static_load(scene, scene.active_dofs)
+    numbers = packing.pack(scene)
+    packed, (force, active) = numbers.contacts, numbers.load
+    phi = packed.angles_at(angles)
     guess = np.zeros(5)
     load = float(np.linalg.norm(force[active]))
     if load > 0.0:

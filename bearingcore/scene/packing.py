@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.scene.defect import path_tables
+from bearingcore.scene.defect import RACES, path_tables
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 
 Array = NDArray[np.float64]
@@ -56,8 +56,8 @@ class PackedScene:
         what was packed, and the free directions.
     contacts, path, load
         all contacts, the way of the balls over all defects, load and free directions.
-    race_paths
-        the way over the defects of the inner race alone, and over those of the outer one.
+    inner_path
+        the way over the defects of the inner race alone.
     units : (5,)
         divisors of scaled displacements, see `length_units`.
     rows
@@ -70,7 +70,7 @@ class PackedScene:
     dofs: tuple[str, ...]
     contacts: kernels.Contacts
     path: kernels.Path
-    race_paths: tuple[kernels.Path, kernels.Path]
+    inner_path: kernels.Path
     load: kernels.StaticLoad
     units: Array
     rows: tuple[Bearing, ...]
@@ -95,19 +95,12 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
     load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
     both = races(scene, 1.0, weight=True) if balls else None
     defects, bearing = scene.defects, scene.bearing
-    rows = own_rows(bearing)
-    every = contacts(bearing)
+    rows, every = own_rows(bearing), contacts(bearing)
     whole = path_tables(defects, bearing)
     cut = {defect.race for defect in defects}
-
-    def way(race: str) -> kernels.Path:
-        if cut == {race}:
-            return whole
-        return path_tables(tuple(d for d in defects if d.race == race), bearing)
-
-    ways = way("inner"), way("outer")
+    ways = [whole if cut == {race} else path(scene, race) for race in RACES[::-1]]
     of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
-    return PackedScene(scene, free, every, whole, ways, load, units, rows, of_balls)
+    return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
 
 
 def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
@@ -231,11 +224,6 @@ def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
     """Divisors of scaled displacements: 1 [m], or r_d for tilts [m/rad]."""
     lever = scene.bearing.groove_center_radius
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
-
-
-def static_load(scene: Scene, dofs: Sequence[str]) -> kernels.StaticLoad:
-    """The load of a scene whose ring is free along `dofs`."""
-    return kernels.StaticLoad(scene.load.vector / length_units(scene), direction_numbers(dofs))
 
 
 def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:

@@ -195,7 +195,7 @@ def positions_of(packed: PackedScene, n: int) -> Positions:
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
     still, turned = np.zeros(rows.size), ratio * rows
-    drops = np.round(kernels.drops_of(packed.contacts, packed.race_paths[0], still, turned), 14)
+    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, still, turned), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)

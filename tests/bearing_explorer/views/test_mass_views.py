@@ -13,7 +13,7 @@ from bearing_explorer.views.mechanism import WhichMechanism, in_words
 
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
-from bearingcore.dynamics.ball_motion import contact_resonance
+from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"]
@@ -60,7 +60,7 @@ def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> N
     assert ranges["mass_time"] == (found.time[0], found.time[-1])
     sources, _ = spectra.data(results)
     band = sources["mass_spectrum_resonance"]
-    assert band["high"][0] == pytest.approx(contact_resonance(FAN_RIG))
+    assert band["high"][0] == pytest.approx(contact_resonance_band(FAN_RIG)[1])
     assert band["above"][0] == 0.0
     assert sources["mass_spectrum_lines"]["frequency"][-1] < 0.5 * found.sample_rate
     sources, ranges = octaves.data(results)

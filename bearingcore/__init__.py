@@ -12,13 +12,15 @@ from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
-from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
+from bearingcore.dynamics.damping import contact_damping
+from bearingcore.dynamics.modes import Modes, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.files.floor import read_floor
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
-from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.scene.floor import MeasuredFloor, RoughFloor
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import preset_notes, presets
 from bearingcore.scene.scene import CONTACT_LAWS, DOF_NAMES, Scene

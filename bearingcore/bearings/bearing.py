@@ -133,12 +133,12 @@ class Bearing:
             "outer_raceway_radius",
             "inner_raceway_radius",
         ):
-            keep(name, checks.number(name, getattr(self, name), above=0.0))
-        keep("density", checks.number("density", self.density, above=0.0, unit="kg/m³"))
+            keep(name, checks.real_number(name, getattr(self, name), above=0.0))
+        keep("density", checks.real_number("density", self.density, above=0.0, unit="kg/m³"))
         keep("contact_angle", drawing.check_contact_angle(self.contact_angle))
         keep(
             "radial_clearance",
-            checks.number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
+            checks.real_number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
         )
         for fault in drawing.faults(vars(self)):
             raise fault
@@ -158,7 +158,9 @@ class Bearing:
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
         if self.roller_length is not None:
-            keep("roller_length", checks.number("roller_length", self.roller_length, above=0.0))
+            keep(
+                "roller_length", checks.real_number("roller_length", self.roller_length, above=0.0)
+            )
         object.__setattr__(self, "kind", _kind_of(self))
         for name in self.estimated:
             checks.choice("estimated", name, ESTIMATES)

@@ -60,7 +60,7 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
     It must pass freely around the ball, and guide it.
     """
     name = f"{race}_groove_radius"
-    return checks.number(
+    return checks.real_number(
         name,
         radius,  # type: ignore[arg-type]  # None is refused there
         above=0.5 * ball_diameter,
@@ -71,7 +71,7 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
 
 def check_contact_angle(angle: float) -> float:
     """Unloaded contact angle [rad] as a float, else ValueError."""
-    return checks.number(
+    return checks.real_number(
         "contact_angle",
         angle,
         at_least=0.0,
@@ -84,8 +84,8 @@ def check_contact_angle(angle: float) -> float:
 def check_material(name: str, value: float | None) -> float:
     """A Young's modulus [Pa] or a Poisson's ratio as a float, else ValueError."""
     if name.endswith("modulus"):
-        return checks.number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
-    return checks.number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+        return checks.real_number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
+    return checks.real_number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
 
 
 def faults(values: Mapping[str, float | None]) -> Iterator[FieldError]:
@@ -185,7 +185,7 @@ def check_clearance(
     """
     most = 2.0 * groove_center_distance
     most *= math.cos(contact_angle) - math.cos(GREATEST_CONTACT_ANGLE)
-    return checks.number(
+    return checks.real_number(
         "diametral_clearance",
         diametral_clearance,
         at_least=0.0,
@@ -210,14 +210,14 @@ def fields(
     ball_poisson: float | None = None,
 ) -> dict[str, Any]:
     """All fields of a `Bearing` but the number of balls; see `Bearing.from_drawing`."""
-    D_b = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    D_b = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
     if contact_angle is None and diametral_clearance is None:
         raise checks.refuse(
             "contact_angle", None, "a number [rad], unless diametral_clearance is given"
         )
     dimensions: dict[str, Any] = {
         "ball_diameter": D_b,
-        "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
+        "pitch_diameter": checks.real_number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
         "contact_angle": check_contact_angle(0.0 if contact_angle is None else contact_angle),
         "inner_groove_radius": check_groove("inner", inner_groove_radius, D_b),
         "outer_groove_radius": check_groove("outer", outer_groove_radius, D_b),

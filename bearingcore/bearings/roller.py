@@ -48,11 +48,13 @@ def checked_sizes(
 
     Raises ValueError where one is out of range.
     """
-    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
+    diameter = checks.real_number("roller_diameter", roller_diameter, above=0.0, unit="m")
     return {
         "ball_diameter": diameter,
-        "roller_length": checks.number("roller_length", roller_length, above=0.0, unit="m"),
-        "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m"),
+        "roller_length": checks.real_number("roller_length", roller_length, above=0.0, unit="m"),
+        "pitch_diameter": checks.real_number(
+            "pitch_diameter", pitch_diameter, above=diameter, unit="m"
+        ),
     }
 
 
@@ -68,7 +70,7 @@ def _derived(ball_diameter: float, roller_length: float, pitch_diameter: float) 
 
 def length_of(bearing: Bearing) -> float:
     """Length of the rollers [m]. ValueError where there is none."""
-    return checks.number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
+    return checks.real_number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
 
 
 class Roller(Kind):

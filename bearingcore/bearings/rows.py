@@ -83,7 +83,7 @@ class Row:
 
     def __post_init__(self) -> None:
         if self.contact_angle is not None:
-            angle = checks.number(
+            angle = checks.real_number(
                 "contact_angle of a row", self.contact_angle, at_least=0.0, unit="rad"
             )
             object.__setattr__(self, "contact_angle", check_contact_angle(angle))
@@ -92,7 +92,7 @@ class Row:
             object.__setattr__(self, "n_balls", count)
         for name in LENGTHS:
             if (length := getattr(self, name)) is not None:
-                length = checks.number(f"{name} of a row", length, above=0.0, unit="m")
+                length = checks.real_number(f"{name} of a row", length, above=0.0, unit="m")
                 object.__setattr__(self, name, length)
         if self.facing not in (-1, 1) or isinstance(self.facing, bool):
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
@@ -103,7 +103,7 @@ class Row:
             ("offset", 1e-2, "m"),
             ("turn", 2.0 * math.pi, "rad"),
         ):
-            value = checks.number(
+            value = checks.real_number(
                 f"{name} of a row", getattr(self, name), at_least=-most, at_most=most, unit=unit
             )
             object.__setattr__(self, name, value)
@@ -126,8 +126,8 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
         for an unknown arrangement, or a preload of rows in tandem, which do not press each other.
     """
     checks.choice("arrangement", arrangement, ARRANGEMENTS)
-    half = 0.5 * checks.number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
-    push = 0.5 * checks.number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
+    half = 0.5 * checks.real_number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
+    push = 0.5 * checks.real_number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
     if arrangement == "tandem":
         if push > 0.0:
             raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")

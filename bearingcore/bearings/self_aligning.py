@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 POISSON = 0.3
 """Poisson's ratio of ball and rings; the modulus is the one that gives the factor K."""
 
-USUAL_ANGLE = math.radians(10.0)
+ASSUMED_ANGLE = math.radians(10.0)
 USUAL_GROOVE = 0.53
 """Contact angle [rad] and inner groove radius over the ball that are assumed for a new one."""
 
@@ -46,9 +46,9 @@ def fields(
 ) -> dict[str, Any]:
     """All fields of a self-aligning `Bearing`; see `Bearing.self_aligning`."""
     angle = drawing.check_contact_angle(contact_angle)
-    checks.number("contact_angle", angle, above=0.0, unit="rad")
-    diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
-    sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
+    checks.real_number("contact_angle", angle, above=0.0, unit="rad")
+    diameter = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    sphere = checks.real_number("sphere_radius", sphere_radius, above=diameter, unit="m")
     drawing.check_groove("inner", inner_groove_radius, diameter)
     pitch = (2.0 * (sphere - 0.5 * diameter)) * math.cos(angle)
     distance = sphere + inner_groove_radius - diameter
@@ -128,7 +128,7 @@ class SelfAligning(Kind):
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         ball = bearing.ball_diameter
-        angle = bearing.contact_angle or USUAL_ANGLE
+        angle = bearing.contact_angle or ASSUMED_ANGLE
         return bearing.self_aligning(
             bearing.n_balls,
             ball,

@@ -132,7 +132,7 @@ class Tapered(Roller):
 
     def check(self, bearing: Bearing) -> None:
         length_of(bearing)
-        checks.number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
+        checks.real_number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
         if bearing.is_drawn:
             raise checks.refuse(
                 "inner_groove_radius", bearing.inner_groove_radius, "None of tapered rollers"

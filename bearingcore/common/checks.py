@@ -17,7 +17,7 @@ def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: f
     return FieldError(field, value, allowed, unit, numbers)
 
 
-def number(
+def real_number(
     field: str,
     value: SupportsFloat,
     *,

@@ -68,7 +68,7 @@ class Column:
 
 
 class ResultTable(Mapping[str, NDArray[Any]]):
-    """Columns of a result by name: `table["k_yy"]` its numbers, `table.unit("k_yy")` their unit.
+    """Columns of a result by name: `table["k_yy"]` its numbers, `unit("k_yy")` their unit.
 
     Columns may differ in length where a result has several kinds of rows.
     """

@@ -218,9 +218,9 @@ def trend(
     last = recordings[-1]
     chosen = band
     if chosen is None:
-        chosen = _impulsive(last, bearing, _one(_speed(last, shaft_speed)), along)
-    low = checks.number("lower end of the band", chosen[0], above=0.0, unit="Hz")
-    high = checks.number("upper end of the band", chosen[1], above=low, unit="Hz")
+        chosen = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
+    low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
+    high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
     for one in recordings:
         speed = _speed(one, shaft_speed)
@@ -241,7 +241,7 @@ def trend_point(
 ) -> TrendPoint:
     """Numbers of one recording; the arguments are those of `trend`, all of them given."""
     column = recording.directions.index(direction)
-    speed = _one(shaft_speed)
+    speed = _known_speed(shaft_speed)
     fault, probability, extent = CANNOT_TELL, math.nan, without_extent()
     lines = noise = np.full(len(LINES), math.nan)
     if bearing is not None:
@@ -286,11 +286,11 @@ def _speed(
     return recording.shaft_speed if recording.shaft_speed is not None else shaft_speed
 
 
-def _one(shaft_speed: float | tuple[float, float] | None) -> float | None:
+def _known_speed(shaft_speed: float | tuple[float, float] | None) -> float | None:
     """A shaft speed [rad/s] that is known; None where it is rough or unknown."""
     if shaft_speed is None or isinstance(shaft_speed, tuple):
         return None
-    return checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
+    return checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
 
 
 def _impulsive(

@@ -112,7 +112,7 @@ def compare_balls(
     ValueError
         where a motion has no answer.
     """
-    checks.number("budget", budget, above=0.0, unit="dB")
+    checks.real_number("budget", budget, above=0.0, unit="dB")
     motions, seconds = [], []
     for balls in (MASSLESS, WITH_MASS):
         begin = time.thread_time()  # others may be using the processor

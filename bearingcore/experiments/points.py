@@ -17,7 +17,7 @@ from bearingcore.common.table import ResultTable, table_of
 
 T = TypeVar("T")
 
-Shown = Callable[["Experiment"], object]
+ShowExperiment = Callable[["Experiment"], object]
 """Called with what there is of an experiment, after each point."""
 
 RIGHT = "right"
@@ -254,7 +254,7 @@ class Watch:
 
     progress: Progress | None = None
     cancelled: Cancelled | None = None
-    shown: Shown | None = None
+    shown: ShowExperiment | None = None
 
     def show(self, experiment: Experiment) -> None:
         """Show what there is."""

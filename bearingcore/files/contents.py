@@ -23,7 +23,7 @@ from bearingcore.files.channels import (
     choose,
     column_of,
 )
-from bearingcore.files.collections import Known, known_look
+from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES
@@ -144,7 +144,7 @@ def contents_of(table: FileColumns) -> FileContents:
         *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
     ]
     clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
-    known = known_look(table.names, len(table.columns), clock, named, table.headed, table.name)
+    known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
     moving = [
         column.role == SIGNAL and _moves(table.columns[:, index])

@@ -83,7 +83,7 @@ class Table(FileColumns):
         self._check_one_bearing(picked)
         contents = self.contents
         units = [self._unit(index, unit) for index in picked]
-        scale = checks.number("full_scale", full_scale, above=0.0, unit=unit or "")
+        scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
         first, last = self._rows(picked)
         signal = self.columns[first:last, picked] * scale
@@ -112,7 +112,7 @@ class Table(FileColumns):
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
             if kind_of(unit) == "voltage":
-                signal[:, index] /= checks.number(
+                signal[:, index] /= checks.real_number(
                     "sensitivity",
                     np.nan if sensitivity is None else sensitivity,
                     above=0.0,
@@ -163,7 +163,7 @@ class Table(FileColumns):
                     "sample_rate", None, f"a number [Hz]: the file does not say it{guess}.{why}"
                 )
             return stated.value, [trouble]
-        rate = checks.number("sample_rate", given, above=0.0, unit="Hz")
+        rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
         if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
             notes.append(

@@ -25,6 +25,7 @@ from bearingcore.kernels.path import (
     PATH_COLUMNS,
     TABLE,
     ball_path,
+    drops_of,
     roll_over,
 )
 from bearingcore.kernels.statics import (
@@ -93,6 +94,7 @@ __all__ = [
     "ball_path",
     "ball_positions",
     "between_steps",
+    "drops_of",
     "elastic_loads",
     "kept_on_disk",
     "march",

@@ -243,7 +243,7 @@ def with_factors(contacts, factor):
     """The same contacts with other load-deflection factors (n,)."""
     return Contacts(
         contacts.angle,
-        contacts.pace,
+        contacts.relative_speed,
         contacts.arm,
         contacts.reach,
         contacts.line_r,

@@ -38,9 +38,9 @@ class Contacts(NamedTuple):
     ----------
     angle [rad]
         from the first ball to the contact's, at cage angle 0.
-    pace
+    relative_speed
         cage speed of the row over that of the bearing: at cage angle φ a ball is at
-        angle + pace φ. The same for all of a row.
+        angle + relative_speed φ. The same for all of a row.
     arm
         axial place of the row's inner groove centres over r_d.
     reach
@@ -65,7 +65,7 @@ class Contacts(NamedTuple):
     """
 
     angle: Array
-    pace: Array
+    relative_speed: Array
     arm: Array
     reach: Array
     line_r: Array
@@ -78,6 +78,14 @@ class Contacts(NamedTuple):
     exponent: Array
     rows: Integers
     most_tilt: float
+
+    def angles_at(self, cage_angles: Array) -> Array:
+        """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
+        return cage_angles[:, None] * self.relative_speed + self.angle
+
+    def compression(self, load: float, contact: int = 0) -> float:
+        """Compression [m] of a contact that carries a load [N]."""
+        return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))
 
 
 class Path(NamedTuple):
@@ -246,7 +254,7 @@ class Rotor(NamedTuple):
     active : (n,)
         numbers of the directions.
     cage_speed [rad/s]
-        of the bearing; that of a row is `Contacts.pace` times it.
+        of the bearing; that of a row is `Contacts.relative_speed` times it.
     contact_damping [N·s/m]
         c of Eq. 18.
     variables
@@ -255,7 +263,7 @@ class Rotor(NamedTuple):
         whether the damper may draw a ball back, as published.
     turning_force [N]
         that turns with the shaft, along x at cage angle 0.
-    shaft_pace
+    shaft_ratio
         how fast the shaft turns, over the cage.
     """
 
@@ -270,7 +278,7 @@ class Rotor(NamedTuple):
     variables: int
     tension: bool
     turning_force: float
-    shaft_pace: float
+    shaft_ratio: float
 
 
 class System(NamedTuple):

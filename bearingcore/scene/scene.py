@@ -80,12 +80,14 @@ class Scene:
         def keep(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
-        keep("shaft_speed", checks.number("shaft_speed", self.shaft_speed, at_least=0.0))
-        keep("unbalance", checks.number("unbalance", self.unbalance, at_least=0.0, unit="kg·m"))
+        keep("shaft_speed", checks.real_number("shaft_speed", self.shaft_speed, at_least=0.0))
+        keep(
+            "unbalance", checks.real_number("unbalance", self.unbalance, at_least=0.0, unit="kg·m")
+        )
         if self.contact_damping is not None:
             keep(
                 "contact_damping",
-                checks.number("contact_damping", self.contact_damping, at_least=0.0),
+                checks.real_number("contact_damping", self.contact_damping, at_least=0.0),
             )
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)

@@ -43,9 +43,9 @@ class Support:
             if value is None and field.default is None:
                 continue
             if field.name.startswith("damping"):
-                value = checks.number(field.name, value, at_least=0.0)
+                value = checks.real_number(field.name, value, at_least=0.0)
             else:
-                value = checks.number(field.name, value, above=0.0)
+                value = checks.real_number(field.name, value, above=0.0)
             object.__setattr__(self, field.name, value)
 
     def _along(self, what: str, dofs: Iterable[str]) -> NDArray[np.float64]:

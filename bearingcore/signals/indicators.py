@@ -112,7 +112,7 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     """
     speed = recording.shaft_speed if shaft_speed is None else shaft_speed
     if speed is not None:
-        speed = checks.number("shaft_speed", speed, above=0.0, unit="rad/s")
+        speed = checks.real_number("shaft_speed", speed, above=0.0, unit="rad/s")
     signal = recording.acceleration - recording.acceleration.mean(axis=0)
     squared = signal**2
     variance = squared.mean(axis=0)
@@ -161,9 +161,11 @@ def velocity_rms(
     """
     from scipy.fft import dct  # imported late: see `spectrum`
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    low = checks.number("lower end of the band", band[0], above=0.0, unit="Hz")
-    high = checks.number("upper end of the band", band[1], above=low, at_most=0.5 * rate, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
+    high = checks.real_number(
+        "upper end of the band", band[1], above=low, at_most=0.5 * rate, unit="Hz"
+    )
     samples = np.asarray(acceleration, dtype=float)
     n = len(samples)
     velocity = np.zeros((n, samples[:1].size))
@@ -208,7 +210,7 @@ def severity_zone(velocity: float, machine: str) -> str:
     """
     if machine not in ZONES:
         raise checks.refuse("machine", machine, ", ".join(ZONES))
-    value = checks.number("velocity", velocity, at_least=0.0, unit="m/s")
+    value = checks.real_number("velocity", velocity, at_least=0.0, unit="m/s")
     return "ABCD"[sum(value > boundary for boundary in ZONES[machine])]
 
 

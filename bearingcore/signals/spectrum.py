@@ -81,8 +81,8 @@ def spectrum(
     """
     from scipy.signal import welch  # imported late: it would double the time to import this package
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    step = checks.number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    step = checks.real_number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
     samples = _samples(signal, segment, "one segment", most_samples)
     # one signal after another in memory: a third faster than along the first axis
@@ -127,13 +127,13 @@ def envelope_spectrum(
     from scipy.fft import next_fast_len  # imported late, as above
     from scipy.signal import butter, hilbert, sosfiltfilt
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     try:
         low, high = band
     except (TypeError, ValueError):
         raise checks.refuse("band", band, "two frequencies [Hz]") from None
-    low = checks.number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
-    high = checks.number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
+    low = checks.real_number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
+    high = checks.real_number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
     samples = _samples(signal, 64, "a filter's length", most_samples)
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, table_of
 from bearingcore.scene import packing
+from bearingcore.scene.packing import PackedScene
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.shortage import explanation, moved
@@ -236,28 +238,43 @@ def equilibrium(
     ValueError
         for angles that are not finite or not as many, or unknown names in `dofs`.
     """
+    packed = packing.pack(scene, scene.free_dofs(dofs))
     if cage_angles is None:
-        angles = default_cage_angles(scene)
-    else:
-        angles = checks.finite("cage_angles", cage_angles, "rad")
+        cage_angles = default_cage_angles(scene)
+    return equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+
+
+def without_defects(packed: PackedScene) -> PackedScene:
+    """The same scene without its defects, packed."""
+    return dataclasses.replace(packed, scene=packed.scene.healthy(), path=packing.HEALTHY_PATH)
+
+
+def equilibrium_of(
+    packed: PackedScene,
+    cage_angles: ArrayLike,
+    shaft_angles: ArrayLike | None = None,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """`equilibrium` of a scene that is packed."""
+    scene = packed.scene
+    angles = checks.finite("cage_angles", cage_angles, "rad")
     leads = np.zeros_like(angles)
     if shaft_angles is not None:
         leads = checks.finite("shaft_angles", shaft_angles, "rad")
         if leads.shape != angles.shape:
             raise checks.refuse("shaft_angles", leads.size, f"{angles.size}, one a cage angle")
         leads = leads - angles / scene.bearing.cage_ratio
-    free = scene.free_dofs(dofs)
-    if cost := too_many_contacts(scene, angles.size, most_contacts):
-        return _not_begun(scene, free, angles, leads, cost)
-    units = packing.length_units(scene)
-    load = packing.static_load(scene, free)
+    balls = packed.contacts.angle.size
+    if cost := too_many_contacts(balls * angles.size, most_contacts):
+        return _not_begun(packed, angles, leads, cost)
+    units = packed.units
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
-        angles, leads, packing.contacts(scene.bearing), packing.path(scene), load
+        angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units
     failed = np.flatnonzero(status)
     if failed.size:
-        _explain(scene, angles, load, status, stiffness, displacement, failed)
+        _explain(packed, angles, status, stiffness, displacement, failed)
         gone = status >= StaticStatus.NOT_CARRIED
         loads[gone] = math.nan
         loaded[gone] = 0
@@ -270,7 +287,7 @@ def equilibrium(
     stiffness *= units[:, None] * units
     return Equilibrium(
         scene=scene,
-        dofs=free,
+        dofs=packed.dofs,
         cage_angles=angles,
         displacement=displacement,
         ball_load=loads,
@@ -285,10 +302,9 @@ def equilibrium(
     )
 
 
-def too_many_contacts(scene: Scene, points: int, most: int) -> str:
-    """Cost of solving so many points of a scene in words, where it is too much; else empty."""
+def too_many_contacts(contacts: int, most: int) -> str:
+    """Cost of solving so many contacts in words, where it is too much; else empty."""
     most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
-    contacts = points * packing.contacts(scene.bearing).angle.size
     if contacts <= most:
         return ""
     return (
@@ -297,8 +313,7 @@ def too_many_contacts(scene: Scene, points: int, most: int) -> str:
 
 
 def _not_begun(
-    scene: Scene,
-    dofs: tuple[str, ...],
+    packed: PackedScene,
     angles: NDArray[np.float64],
     leads: NDArray[np.float64],
     cost: str,
@@ -310,10 +325,10 @@ def _not_begun(
         return np.broadcast_to(np.array(value, dtype=kind), (n, *shape))
 
     none = all_of(0, kind=np.int64)
-    balls = packing.contacts(scene.bearing).angle.size
+    balls = packed.contacts.angle.size
     return Equilibrium(
-        scene=scene,
-        dofs=dofs,
+        scene=packed.scene,
+        dofs=packed.dofs,
         cage_angles=angles,
         displacement=all_of(math.nan, 5),
         ball_load=all_of(math.nan, balls),
@@ -330,16 +345,15 @@ def _not_begun(
 
 
 def _explain(
-    scene: Scene,
+    packed: PackedScene,
     angles: NDArray[np.float64],
-    load: kernels.StaticLoad,
     status: NDArray[np.int8],
     stiffness: NDArray[np.float64],
     displacement: NDArray[np.float64],
     failed: NDArray[np.int64],
 ) -> None:
     """Find the true reason of each failure: the free directions, or a load nothing can carry."""
-    active = load.active
+    force, active = packed.load
     for k in failed:
         if status[k] == StaticStatus.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
@@ -350,6 +364,6 @@ def _explain(
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
         elif status[k] in UNEXPLAINED and is_unbounded(
-            scene, angles[k], active, load.force[active]
+            packed.contacts, angles[k], active, force[active]
         ):
             status[k] = StaticStatus.NOT_CARRIED

@@ -124,7 +124,7 @@ class Film:
     @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else LEFT_OUT
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else FILM_LEFT_OUT
         return f"{self.thinner.sentence} {left_out}"
 
     @property
@@ -157,12 +157,12 @@ class Film:
         )
 
 
-LEFT_OUT = (
+FILM_LEFT_OUT = (
     "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
     "starvation are left out, and all of them make the film thinner."
 )
 
-ROLLER_LEFT_OUT = LEFT_OUT.replace(
+ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
     "the edges of a defect", "the edges of a defect and of the roller"
 )
 
@@ -251,12 +251,12 @@ def film(
     ValueError
         naming the field, its value and what is allowed.
     """
-    eta = checks.number("viscosity", viscosity, above=0.0, unit="Pa·s")
-    xi = checks.number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
-    ball = checks.number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
+    eta = checks.real_number("viscosity", viscosity, above=0.0, unit="Pa·s")
+    xi = checks.real_number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
+    ball = checks.real_number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
     sigma = {
         race: math.hypot(
-            checks.number(
+            checks.real_number(
                 f"roughness_{race}",
                 value,
                 at_least=0.0,

@@ -244,7 +244,7 @@ def life(
     >>> round(found.million_revolutions), round(found.hours)
     (10797, 119961)
     """
-    C = checks.number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
+    C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
     if positions is None:

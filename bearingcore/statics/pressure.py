@@ -6,8 +6,8 @@ load of the ball                            | Q      | load              | N
 semi-axes, across and along the rolling     | a, b   | semi_axis_across, semi_axis_along | m
 greatest pressure, in the middle            | p      | greatest_pressure | Pa
 
-The contact itself is that of `bearingcore.hertz`. On the edge of a defect the ball presses harder
-than this says: a corner has no ellipse.
+The contact itself is that of `bearingcore.bearings.hertz`. On the edge of a defect the ball presses
+harder than this says: a corner has no ellipse.
 """
 
 from __future__ import annotations

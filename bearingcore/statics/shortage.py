@@ -58,7 +58,7 @@ def moved(
     defects are taken off.
     """
     one = packing.contacts(scene.bearing)
-    angle = packing.ball_angles(scene.bearing, cage_angles)
+    angle = one.angles_at(cage_angles)
     c, s = np.cos(angle), np.sin(angle)
     x, y, z, rx, ry = state.T[..., None]
     r = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
@@ -74,15 +74,15 @@ def _is_straight(scene: Scene) -> NDArray[np.bool_]:
 
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
     """Tilts that are held, thrust, or both, with which the contacts would carry the load."""
-    active = packing.direction_numbers(dofs)
-    force = packing.static_load(scene, dofs).force
-    facing = float(np.sign(packing.contacts(scene.bearing).line_z.sum()))
+    packed = packing.pack(scene, dofs)
+    force, active = packed.load
+    facing = float(np.sign(packed.contacts.line_z.sum()))
     pressed = force.copy()
     pressed[_Z] = facing * 1e3 * np.abs(force).max()
     level = np.setdiff1d(active, _TILTS)
 
     def carries(free: NDArray[np.int64], load: Array) -> bool:
-        return not is_unbounded(scene, cage_angle, free, load[free])
+        return not is_unbounded(packed.contacts, cage_angle, free, load[free])
 
     if level.size < active.size and carries(level, force):
         return _TILTS_HELD

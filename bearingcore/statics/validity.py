@@ -86,7 +86,7 @@ def usual_shoulder_height(contact_angle: float) -> float:
     return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
 
 
-def looked_at(scene: Scene) -> Equilibrium:
+def state_of_limits(scene: Scene) -> Equilibrium:
     """The static equilibrium at all positions of `limits`: fine, and always the same.
 
     A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
@@ -111,7 +111,7 @@ def limits(
     scene
         what to look at.
     state
-        its static equilibrium at cage angles of your own; None takes that of `looked_at`, so that
+        its static equilibrium at cage angles of your own; None takes `state_of_limits`, so that
         one scene has one verdict. Loads and angles are the greatest over its angles.
     dynamic_load
         greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
@@ -138,9 +138,9 @@ def limits(
         another scene.
     """
     if shoulder_height is not None:
-        checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+        checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
-        state = looked_at(scene)
+        state = state_of_limits(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     if film is not None and film.scene != scene:
@@ -148,7 +148,7 @@ def limits(
     heaviest = heaviest_balls(state)
     in_motion = None
     if dynamic_load is not None:
-        in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
+        in_motion = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     kind = scene.bearing.kind
     found: list[Limit | None] = [
         _pressure(scene.bearing, "inner", heaviest),
@@ -166,7 +166,7 @@ def limits(
     found += thrust_limits(scene, state)
     found.append(_film(scene, film))
     if step_rate is not None:
-        rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+        rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
     found.append(_estimate(scene))
     return tuple(limit for limit in found if limit is not None)
@@ -195,8 +195,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
     return np.isfinite(state.ball_load.sum(axis=1))
 
 
-LEFT_OUT = "the static model leaves it out"
-LEFT_OUT_WITH_MASS = (
+NOT_IN_STATICS = "the static model leaves it out"
+NOT_IN_STATICS_WITH_MASS = (
     "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
     "it out"
 )
@@ -373,7 +373,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
         f"{percent(effect.stiffness)}, and separates the contact angles of the two races by up to "
         f"{number(math.degrees(effect.contact_angle), 2)}°"
     )
-    left_out = LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT
+    left_out = NOT_IN_STATICS_WITH_MASS if scene.balls == WITH_MASS else NOT_IN_STATICS
     within = f"; up to {percent(limit)} it may be left out."
     return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
 

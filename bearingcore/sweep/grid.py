@@ -68,7 +68,7 @@ UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS
 
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 
-Region = tuple[slice, ...]
+Slices = tuple[slice, ...]
 
 
 class StillDirectionError(FieldError):
@@ -210,14 +210,14 @@ class Grid:
         """Number of regions of this shape along each axis; those at the ends may be smaller."""
         return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
 
-    def region(self, shape: Sequence[int], index: Sequence[int]) -> Region:
+    def region(self, shape: Sequence[int], index: Sequence[int]) -> Slices:
         """The slices of one region."""
         return tuple(
             slice(i * part, min((i + 1) * part, n))
             for i, part, n in zip(index, shape, self.shape, strict=True)
         )
 
-    def part(self, region: Region) -> Grid:
+    def part(self, region: Slices) -> Grid:
         """The grid of one region, which knows as much of the whole as it takes to compute it."""
         axes = tuple(
             Axis(axis.name, axis.values[piece])
@@ -379,7 +379,7 @@ def _axis(name: object, given: Any) -> Axis:
     else:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
             raise checks.refuse(f"values of {name}", _short(given), allowed)
-        array = np.array([checks.number(f"value of {name}", value) for value in values])
+        array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
             array = np.array(
                 [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]

@@ -19,7 +19,7 @@ from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
-from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.dynamics.speed_run import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
@@ -260,13 +260,15 @@ class Settings:
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
         keep("cage_angles", angles)
         for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
-            value = checks.number(name, getattr(self, name), above=0.0, at_most=most, unit=unit)
+            value = checks.real_number(
+                name, getattr(self, name), above=0.0, at_most=most, unit=unit
+            )
             keep(name, value)
-        keep("band_low", checks.number("band_low", self.band_low, above=0.0, unit="Hz"))
-        band_high = checks.number("band_high", self.band_high, above=self.band_low, unit="Hz")
+        keep("band_low", checks.real_number("band_low", self.band_low, above=0.0, unit="Hz"))
+        band_high = checks.real_number("band_high", self.band_high, above=self.band_low, unit="Hz")
         keep("band_high", band_high)
         if self.dynamic_load_rating is not None:
-            rating = checks.number(
+            rating = checks.real_number(
                 "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
             )
             keep("dynamic_load_rating", rating)
@@ -465,7 +467,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
     motion = simulate(scene, settings.duration, settings.sample_rate)
-    late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
+    late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, kernels
+from bearingcore.scene.packing import contacts
 from bearingcore.statics.load_capacity import descent_direction
 from tests.helpers.contact_law import Array, Balls, Long
 
@@ -286,7 +287,10 @@ def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[i
     if np.any(np.isfinite(answer.displacement[i])) or np.any(np.isfinite(answer.stiffness[i])):
         return "a state that is not has a number"
     w, share = descent_direction(
-        balls.scene, balls.cage_angle, np.array(active), balls.load[active].astype(float)
+        contacts(balls.scene.bearing),
+        balls.cage_angle,
+        np.array(active),
+        balls.load[active].astype(float),
     )
     if share < 0.5 * RESIDUAL:
         return f"called not carried, though contacts can carry all but {share:.1e} of the load"

@@ -1,6 +1,6 @@
 """The measured signal of a session: an uploaded file, or a simulated measurement.
 
-Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and is
+Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and
 opens a form with questions; its faults are sentences, and the signal before it stays.
 """
 

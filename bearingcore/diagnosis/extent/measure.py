@@ -239,9 +239,9 @@ def measure_extent(
     if race is not None:
         checks.choice("race", race, RACES)
     if load is not None:
-        load = checks.number("load", load, above=0.0, unit="N")
+        load = checks.real_number("load", load, above=0.0, unit="N")
     if clearance is not None:
-        clearance = checks.number("clearance", clearance, at_least=0.0, unit="m")
+        clearance = checks.real_number("clearance", clearance, at_least=0.0, unit="m")
     if race is None or not isinstance(shaft_speed, int | float):
         found = diagnosis or diagnose(recording, bearing, shaft_speed)
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
@@ -251,7 +251,7 @@ def measure_extent(
         nominal = found.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
-        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
+        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
         nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
         slip = SLIP
     # a pass of envelopes is averaged from its own frequency on

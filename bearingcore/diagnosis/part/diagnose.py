@@ -93,7 +93,7 @@ def _diagnose(
     most_samples: int,
     speed_source: str,
 ) -> Diagnosis:
-    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed, speed_source)
     most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
     if recording.acceleration.size > most:
@@ -120,11 +120,11 @@ def _speeds(
     if shaft_speed is None:
         given = getattr(recording, "shaft_speed", None)
         if given is not None:
-            speed = checks.number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+            speed = checks.real_number("shaft_speed", given, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:
-        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
+        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said
     try:
         first, last = shaft_speed  # type: ignore[misc]
@@ -132,8 +132,8 @@ def _speeds(
         raise checks.refuse(
             "shaft_speed", shaft_speed, "a number [rad/s], a pair of them, or None"
         ) from None
-    first = checks.number("lower shaft_speed", first, above=0.0, unit="rad/s")
-    last = checks.number("upper shaft_speed", last, at_least=first, unit="rad/s")
+    first = checks.real_number("lower shaft_speed", first, above=0.0, unit="rad/s")
+    last = checks.real_number("upper shaft_speed", last, at_least=first, unit="rad/s")
     return first / turn, last / turn, "looked for"
 
 

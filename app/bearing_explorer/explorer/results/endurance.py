@@ -22,7 +22,7 @@ from bearingcore import (
 from bearingcore import limits as limits_of
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
-from bearingcore.statics.validity import looked_at
+from bearingcore.statics.validity import state_of_limits
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
@@ -109,7 +109,7 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
             no_life = sentence_of(error)
-    state = looked_at(scene)
+    state = state_of_limits(scene)
     pressures, no_pressures = None, ""
     try:
         pressures = contact_pressures(scene, state)
@@ -171,7 +171,7 @@ def limits(
     motion; None: there is none.
     """
     compiling.need(compiling.STATICS)
-    state = looked_at(scene)
+    state = state_of_limits(scene)
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, state)

@@ -167,6 +167,15 @@ class Bearing:
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
 
+    def __repr__(self) -> str:
+        """Rolling elements and their places, in a line."""
+        rows = f", {len(self.rows)} rows" if len(self.rows) > 1 else ""
+        angle = f", {math.degrees(self.contact_angle):.4g}°" if self.contact_angle else ""
+        return (
+            f"<Bearing: {self.n_balls} {self.kind.elements} of {1e3 * self.ball_diameter:.4g} mm "
+            f"on {1e3 * self.pitch_diameter:.4g} mm{angle}{rows}>"
+        )
+
     @classmethod
     def cylindrical(
         cls,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
@@ -96,6 +96,7 @@ class TrendPoint:
     extent: MeasuredExtent
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Trend:
     """Recordings of one machine in their order; k of them.

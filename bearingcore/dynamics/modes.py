@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common.kept import kept
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.defect import floor_bytes
 from bearingcore.scene.packing import contacts
 from bearingcore.scene.scene import DOF_NAMES, Scene
@@ -31,6 +31,7 @@ DAMPING_OVER_STIFFNESS = 1e-5
 0.25e-5 to 2.5e-5 s."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Modes:
     """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.

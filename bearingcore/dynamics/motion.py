@@ -12,7 +12,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
     ball_start,
     ball_step_rate,
@@ -51,6 +51,7 @@ KEPT = 4
 """Rows a sample, at most, that a motion of balls with mass is filtered from."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Motion:
     """Motion of inner and outer ring, n samples along the directions `dofs`.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
@@ -107,6 +108,21 @@ class Scene:
             defect.check_floor(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
+
+    def __repr__(self) -> str:
+        """Bearing, defects, loads and speed, in a line."""
+        loads = {name: getattr(self.load, name) for name in LOAD_ALONG.values()}
+        parts = [
+            repr(self.bearing).removeprefix("<Bearing: ").removesuffix(">"),
+            ", ".join(f"{name} = {value:.4g}" for name, value in loads.items() if value),
+            f"{30.0 / math.pi * self.shaft_speed:.5g} rpm",
+            *(
+                f"{one.race} race damaged over {math.degrees(one.extent):.4g}°, "
+                f"{1e6 * one.depth:.4g} µm deep"
+                for one in self.defects
+            ),
+        ]
+        return f"<Scene: {'; '.join(filter(None, parts))}>"
 
     def _check_directions(self) -> None:
         """Refuse loads and directions that the kind of bearing cannot have."""

@@ -14,7 +14,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import (
@@ -37,6 +37,7 @@ CARRYING = 0.05
 UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class BallPositions:
     """Static equilibrium of a scene whose balls find their own places, at n cage angles.

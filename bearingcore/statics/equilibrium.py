@@ -14,7 +14,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.statics.load_capacity import is_unbounded
@@ -51,6 +51,7 @@ MOST_CONTACTS = 20_000_000
 some seconds of one core and a gigabyte of answers."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Equilibrium:
     """Static equilibrium of a scene at n cage angles. NaN where there is no answer.

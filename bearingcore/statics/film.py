@@ -47,7 +47,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
@@ -97,6 +97,7 @@ class RaceFilm:
     sentence: str
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Film:
     """Lubricant film of a scene's heaviest loaded ball or roller.

@@ -65,7 +65,7 @@ from bearingcore.bearings.ratings import (
 )
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads, together
 
@@ -107,6 +107,7 @@ LINE_CONTACT = ContactLife(
 )
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Life:
     """Reference rating life of a scene's bearing (ISO 16281). NaN where it is not known.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
 from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
@@ -79,6 +79,7 @@ _SENTENCES = {
 }
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class MeasuredExtent:
     """The extent of a spall, measured from entry to exit.

@@ -157,6 +157,7 @@ def read_designation(text: str) -> Designation:
     ValueError
         for what is no designation, or one of another series or size.
     """
+    checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
     name = " ".join(text.upper().replace("–", "-").split())
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
@@ -197,6 +198,7 @@ def read_designation(text: str) -> Designation:
     bearing = _mounted(bearing, kind, size, said, assumed)
     rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
+    known = None if said.is_ceramic or said.has_better_steel else rating
     return Designation(
         in_small_letters(name),
         basic,
@@ -204,9 +206,9 @@ def read_designation(text: str) -> Designation:
         size.bore,
         size.outside_diameter,
         size.width,
-        None if said.is_ceramic or said.has_better_steel else rating,
+        known,
         clearance_class,
-        bearing,
+        bearing.replace(dynamic_load_rating=known),
         tuple(assumed),
         said.inside,
     )

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
+from bearingcore.common import checks
 from bearingcore.common.kept import kept
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.defect import floor_bytes
@@ -161,6 +162,7 @@ def frequency_bands(
     ValueError
         where the support lacks a number, by its name.
     """
+    checks.instance("scene", scene, Scene)
     n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     found = positions(scene, n)
@@ -404,6 +406,7 @@ def contact_damping(scene: Scene) -> float:
     2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
     state to take it from.
     """
+    checks.instance("scene", scene, Scene)
     if scene.contact_damping is not None:
         return scene.contact_damping
     # the damping depends on bearing and load only; other fields would make needless cache entries

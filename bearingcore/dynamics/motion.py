@@ -323,6 +323,7 @@ def simulate(
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
         it, a shaft that stands still, or a support that lacks a number.
     """
+    checks.instance("scene", scene, Scene)
     duration = checks.number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
     checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")

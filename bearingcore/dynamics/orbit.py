@@ -257,6 +257,7 @@ def orbit(
     ValueError
         for a shaft that stands still or a support that lacks a number.
     """
+    checks.instance("scene", scene, Scene)
     checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     shortest = common_ball_passes(scene)

@@ -11,6 +11,7 @@ from typing import Any, Self
 from bearingcore.bearings.bearing import Bearing, recognized
 from bearingcore.bearings.kind import DIRECTIONS
 from bearingcore.bearings.line_contact import mended_factor
+from bearingcore.bearings.named import bearing_of
 from bearingcore.common import checks, scene_file
 from bearingcore.scene.defect import Defect, path_tables
 from bearingcore.scene.load import Load
@@ -40,8 +41,10 @@ class Scene:
 
     Parameters
     ----------
-    bearing, load, support
-        see `Bearing`, `Load`, `Support`.
+    bearing
+        a `Bearing`, or a designation such as "6205": see `bearingcore.bearings.named.bearing_of`.
+    load, support
+        see `Load`, `Support`.
     defect
         a `Defect`, or a tuple of them.
     shaft_speed
@@ -95,12 +98,11 @@ class Scene:
         if not isinstance(self.defect, Defect):
             several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
             for defect in several:
-                if not isinstance(defect, Defect):
-                    raise checks.refuse("defect", defect, "a Defect or a tuple of them")
+                checks.instance("defect", defect, Defect, "a Defect or a tuple of them")
             keep("defect", several)
-        for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
-            if not isinstance(getattr(self, name), kind):
-                raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
+        keep("bearing", bearing_of(self.bearing))
+        checks.instance("load", self.load, Load)
+        checks.instance("support", self.support, Support)
         self._check_directions()
         for defect in self.defects:
             defect.check_row(self.bearing)
@@ -260,6 +262,8 @@ class Scene:
             else:
                 known = ", ".join(sorted({*_OWN_FIELDS, *_PART_OF_FIELD}))
                 raise checks.refuse("name of a field", name, known)
+        if "bearing" in own:
+            own["bearing"] = bearing_of(own["bearing"])
         for part, values in inside.items():
             old = own.get(part, getattr(self, part))
             if part == "defect" and not isinstance(old, Defect):

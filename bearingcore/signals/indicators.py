@@ -111,6 +111,7 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     ValueError
         for a shaft speed that is not positive.
     """
+    checks.instance("recording", recording, Recording)
     speed = recording.shaft_speed if shaft_speed is None else shaft_speed
     if speed is not None:
         speed = checks.number("shaft_speed", speed, above=0.0, unit="rad/s")

@@ -159,6 +159,7 @@ def ball_positions(
         for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
         or stiff that a computer has no numbers for them.
     """
+    checks.instance("scene", scene, Scene)
     scene.bearing.kind.check_mass()
     massless = equilibrium(
         scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
@@ -266,6 +267,7 @@ def static_state(
     the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
     are those of `equilibrium`.
     """
+    checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
         return equilibrium(
             scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts

@@ -237,6 +237,7 @@ def equilibrium(
     ValueError
         for angles that are not finite or not as many, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
     if cage_angles is None:
         angles = default_cage_angles(scene)
     else:

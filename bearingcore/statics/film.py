@@ -252,6 +252,7 @@ def film(
     ValueError
         naming the field, its value and what is allowed.
     """
+    checks.instance("scene", scene, Scene)
     eta = checks.number("viscosity", viscosity, above=0.0, unit="Pa·s")
     xi = checks.number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
     ball = checks.number("roughness_ball", roughness_ball, at_least=0.0, unit="m")

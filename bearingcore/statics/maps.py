@@ -162,6 +162,7 @@ def stiffness_maps(
     ValueError
         for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
     if extents is None:
         sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
     else:

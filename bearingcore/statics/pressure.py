@@ -161,6 +161,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     ValueError
         for a bearing without groove radii, or the equilibrium of another scene.
     """
+    checks.instance("scene", scene, Scene)
     if state is None:
         state = over_all_positions(scene)
     elif state.scene != scene:

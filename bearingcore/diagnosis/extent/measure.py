@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
@@ -194,7 +195,7 @@ class MeasuredExtent:
 
 def measure_extent(
     recording: Recording,
-    bearing: Bearing,
+    bearing: BearingLike,
     shaft_speed: float | tuple[float, float] | None,
     *,
     race: str | None = None,
@@ -237,6 +238,8 @@ def measure_extent(
     ValueError
         for a race, load, clearance or speed that cannot be, and for rows that are not alike.
     """
+    checks.instance("recording", recording, Recording)
+    bearing = bearing_of(bearing)
     if race is not None:
         checks.choice("race", race, RACES)
     if load is not None:

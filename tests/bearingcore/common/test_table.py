@@ -184,5 +184,5 @@ def test_scenes_and_bearings_are_said_in_a_line() -> None:
     assert repr(FAN_RIG.bearing) == "<Bearing: 14 balls of 8 mm on 45 mm>"
     assert repr(presets["nu208"].bearing) == "<Bearing: 14 rollers of 11 mm on 60.5 mm>"
     line = repr(presets["1208"])
-    assert line.startswith("<Scene: 16 balls of 8.731 mm on 59.22 mm, 10°, 2 rows; fy = -1000; ")
+    assert line.startswith("<Scene: 16 balls of 8.731 mm on 59.16 mm, 10°, 2 rows; fy = -1000; ")
     assert line.endswith("1500 rpm; outer race damaged over 8°, 100 µm deep>")

@@ -286,3 +286,19 @@ def test_a_self_aligning_bearing_has_no_rating_but_a_life() -> None:
     with pytest.raises(ValueError, match="that of the catalogue"):
         dynamic_load_rating(presets["1208"].bearing)
     assert life(presets["1208"], 20e3).known
+
+
+def test_a_bearing_by_its_number_brings_its_rating() -> None:
+    """C_r of a 6205 in JTEKT's catalogue is 14.0 kN; a changed bearing has none."""
+    scene = presets["6205"].healthy().replace(bearing="6205")
+    known = life(scene)
+    assert known.dynamic_load_rating == 14_000.0
+    assert known.million_revolutions == life(scene, 14_000.0).million_revolutions
+    assert known.rating_source == "of a catalogue, by the bearing's number"
+    assert known.sentence.endswith("14\u202f000 N, of a catalogue, by the bearing's number.")
+    assert life(scene, 14_000.0).rating_source == "given"
+    assert life(scene.replace(radial_clearance=2e-6)).dynamic_load_rating == 14_000.0
+    for changed in (scene.replace(n_balls=8), presets["fan-rig"]):
+        with pytest.raises(ValueError, match="dynamic_load_rating is None; allowed: a number"):
+            life(changed)
+    assert scene.bearing.replace(n_balls=9).dynamic_load_rating == 14_000.0

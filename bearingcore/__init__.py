@@ -8,7 +8,7 @@ from bearingcore.bearings.catalogue import (
 )
 from bearingcore.bearings.designation import Designation, read_designation
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.of_files import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point

@@ -10,7 +10,7 @@ from bearingcore.bearings.designation import Designation, read_designation
 from bearingcore.common import checks
 
 BearingLike: TypeAlias = Bearing | CatalogueBearing | Designation | str
-"""What `bearing_of` takes."""
+"""Values that `bearing_of` takes."""
 
 WANTED = (
     'a Bearing, a designation such as "6205", a name out of catalogue(), or what '

@@ -13,6 +13,7 @@ import io
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -159,13 +160,15 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         ]
 
     def _headed(self) -> DataFrame:
-        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in self.columns]
-        return self.frame().set_axis(heads, axis=1)
+        size = self.columns[0].values.size  # what is as long as the first stands in its rows
+        alike = [one for one in self.columns if one.values.size == size]
+        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in alike]
+        return self.only(*(one.name for one in alike)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
         """The table as text: of a single row a line a column, of many the first and last rows."""
         if not self._is_one_row:
-            return str(self._headed().to_string(max_cols=MOST_COLUMNS, **_PRINTED))
+            return str(self._headed().to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
         lines = self._lines()
         name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
         value = min(value, LONGEST_VALUE)
@@ -201,11 +204,15 @@ def shown_as_table(result: type[T]) -> type[T]:
     Its `repr` is one line: the first fields, of arrays their shapes.
     """
 
+    def heading(self: Any) -> str:
+        name, sentence = type(self).__name__, getattr(self, "sentence", "")
+        return f"{name}: {sentence}" if sentence and "sentence" not in self.table() else name
+
     def text(self: Any) -> str:
-        return f"{type(self).__name__}\n{self.table()}"
+        return f"{heading(self)}\n{self.table()}"
 
     def html(self: Any) -> str:
-        return f"<b>{type(self).__name__}</b>{self.table()._repr_html_()}"
+        return f"<p>{escape(heading(self))}</p>{self.table()._repr_html_()}"
 
     shown: Any = result
     shown.__repr__, shown.__str__, shown._repr_html_ = short_repr, text, html

@@ -39,6 +39,7 @@ from bearingcore.bearings.inside import (
     tapered_rollers_from_ratings,
 )
 from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.bearings.nearest import nearest_known
 from bearingcore.bearings.self_aligning import USUAL_GROOVE
 from bearingcore.bearings.suffix import (
     ANGULAR_CONTACT,
@@ -163,8 +164,11 @@ def read_designation(text: str) -> Designation:
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
     suffix = "" if form is None else form["suffix"] or ""
     if form is None or basic is None or (_kind_of(basic) == TAPERED and is_steep(suffix)):
+        near = nearest_known(name) if form is None or basic is None else ""
         raise checks.refuse(
-            "designation", text[:LONGEST_DESIGNATION], f"a bearing of the series {series_words()}"
+            "designation",
+            text[:LONGEST_DESIGNATION],
+            f"a bearing of the series {series_words()}{'; ' * bool(near)}{near}",
         )
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)

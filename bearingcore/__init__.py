@@ -34,6 +34,7 @@ from bearingcore.statics.life import Life, dynamic_load_rating, life
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
+from bearingcore.statics.usual import scene_of
 from bearingcore.statics.validity import limits
 from bearingcore.warm_up import warm
 
@@ -97,6 +98,7 @@ __all__ = [
     "read_designation",
     "read_floor",
     "read_table",
+    "scene_of",
     "simulate",
     "size_defect",
     "spectrum",

@@ -16,7 +16,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
-from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, Scene
 from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.shortage import explanation, moved
 from bearingcore.statics.status import StaticStatus
@@ -165,6 +165,33 @@ class Equilibrium:
                 for j, load in enumerate(self.ball_load.T)
             ),
             ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
+        )
+
+    def stiffness_table(self, i: int | None = None) -> ResultTable:
+        """K_b as 5 × 5 numbers to copy: a row a load, a column a displacement, in SI units.
+
+        Of cage angle i; None: the mean in time over all angles that have an equilibrium.
+        """
+        if i is None:
+            known = np.isfinite(self.stiffness).all(axis=(1, 2))
+            share = np.where(known, self.shares, 0.0)
+            stiffness = np.tensordot(share, np.nan_to_num(self.stiffness), 1) / (
+                share.sum() or np.nan
+            )
+        else:
+            at_most = len(self.cage_angles) - 1
+            stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
+        loads = zip(DOF_NAMES, LOAD_ALONG.values(), strict=True)
+        return table_of(
+            (
+                "load",
+                "",
+                [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads],
+            ),
+            *(
+                (f"per_{'rad' if dof.startswith('r') else 'm'}_{dof}", "", column)
+                for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
+            ),
         )
 
     def reason(self, i: int) -> str:

@@ -186,3 +186,22 @@ def test_scenes_and_bearings_are_said_in_a_line() -> None:
     line = repr(presets["1208"])
     assert line.startswith("<Scene: 16 balls of 8.731 mm on 59.16 mm, 10°, 2 rows; fy = -1000; ")
     assert line.endswith("1500 rpm; outer race damaged over 8°, 100 µm deep>")
+
+
+def test_the_stiffness_is_a_table_to_copy_at_an_angle_or_on_average() -> None:
+    state = equilibrium(LIEW_LIM, [0.0, 0.1, 0.2])
+    at = state.stiffness_table(1)
+    assert list(at["load"]) == ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]"]
+    columns = ["per_m_x", "per_m_y", "per_m_z", "per_rad_rx", "per_rad_ry"]
+    assert list(at)[1:] == columns
+    np.testing.assert_array_equal(np.stack([at[c] for c in columns], 1), state.stiffness[1])
+    mean = state.stiffness_table()
+    np.testing.assert_allclose(
+        np.stack([mean[c] for c in columns], 1), state.stiffness.mean(axis=0), rtol=1e-12, atol=1e-6
+    )
+    lines = list(csv.reader(io.StringIO(at.csv())))
+    assert (len(lines), len(lines[0])) == (6, 6)
+    loose = equilibrium(FAN_RIG.replace(fy=0.0), [0.0]).stiffness_table()
+    assert np.isnan(loose["per_m_x"]).all()
+    with pytest.raises(ValueError, match="i is 3; allowed: a whole number from 0 to 2"):
+        state.stiffness_table(3)

@@ -15,6 +15,7 @@ from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
 from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
@@ -100,6 +101,7 @@ __all__ = [
     "read_table",
     "scene_of",
     "simulate",
+    "simulated_record",
     "size_defect",
     "spectrum",
     "static_state",

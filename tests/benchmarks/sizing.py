@@ -7,7 +7,7 @@ All are of the fan rig, whose outer race is known to be damaged; the extent is n
 given: extents 3-100°, 5-30 Hz, 60-1000 N, depths 15-200 µm, balls that slip by up to 1 %, 1.4 s at
 20,480 Hz in white noise of 40, 20 and 10 dB; then a truth that differs from the given scene in one
 thing, at 20 dB, and for each fourth scene in more than was asked for.
-paths: 4-75°, 6-20 Hz, 80-400 N, behind what real paths add (`tests.helpers.path_effects`).
+paths: 4-75°, 6-20 Hz, 80-400 N, behind what real paths add (`bearingcore.dynamics.record`).
 --effects names those that are switched on: all, none, or some; --steady sizes as if there were
 none.
 pits: balls with mass at 65,536 Hz (2-20 Hz, 80-400 N, noise at 10-30 dB), with the edges that
@@ -43,10 +43,10 @@ from bearingcore import Defect, Scene, contact_damping, measure_extent, presets,
 from bearingcore.diagnosis.size.answer import AT_MOST
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.variants import STEADY, PathTolerances
+from bearingcore.dynamics.record import PathEffects, drawn_resonances, simulated_record
 from bearingcore.scene.pit import pit
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.machine import pace
-from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
 from tests.helpers.simulated import simulated_recording
 
 RIG = presets["fan-rig"]
@@ -236,7 +236,7 @@ def along_paths(
         shaft_speed=2.0 * math.pi * group.uniform(6.0, 20.0),
     )
     every = PathEffects(resonances=drawn_resonances(rng))
-    recording = recorded_through(scene, every.without(*set(EFFECTS) - set(effects)), seed=number)
+    recording = simulated_record(scene, every.without(*set(EFFECTS) - set(effects)), seed=number)
     room = max(1.5, 0.1 * math.degrees(scene.defects[0].extent))
     return [sized("path", scene, recording, room, path=STEADY if steady else None)]
 
@@ -289,7 +289,7 @@ def passages(family: int, number: int) -> list[Answer]:
     truth = scene.defects[0].extent
     begin = time.perf_counter()
     found = measure_extent(
-        recorded_through(scene, PathEffects(resonances=drawn_resonances(rng)), seed=number),
+        simulated_record(scene, PathEffects(resonances=drawn_resonances(rng)), seed=number),
         scene.bearing,
         scene.shaft_speed,
         race=scene.defects[0].race,

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from bearingcore.diagnosis.size.path_fit import PathFit, PathModel
-from tests.helpers.path_effects import Resonance
+from bearingcore.dynamics.record import Resonance
 
 ORDER = np.arange(3, 45)
 FREQUENCY = 50.0

@@ -15,12 +15,12 @@ from bearingcore.diagnosis.size.judge import judged
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator
 from bearingcore.diagnosis.size.variants import STEADY, Tolerances, variant
+from bearingcore.dynamics.record import PathEffects, simulated_record
 from bearingcore.files.table import read_table
 from bearingcore.scene.pit import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing import FAMILIES, as_given, size_all
-from tests.helpers.path_effects import PathEffects, recorded_through
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 from tests.helpers.simulated import simulated_recording
 
@@ -319,7 +319,7 @@ def test_a_pit_is_sized_where_its_edges_are_resolved_and_bounded_elsewhere(speed
 
 def test_a_defect_is_sized_behind_a_wandering_cage_and_a_ringing_path() -> None:
     scene = RIG.replace(extent=math.radians(44.4), fy=-160.0, shaft_speed=2.0 * math.pi * 12.0)
-    recording = recorded_through(scene, PathEffects(), seed=5)
+    recording = simulated_record(scene, PathEffects(), seed=5)
     told = scene.replace(extent=0.5)
     sized = size_defect(recording, told, fault="outer race", support_known=True)
     assert math.degrees(sized.best.extent) == pytest.approx(44.4, abs=1.0)

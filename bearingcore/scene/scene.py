@@ -21,6 +21,15 @@ DOF_NAMES = DIRECTIONS
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
 
+TILTS = ("rx", "ry")
+TILT_HELD = "tilt held"
+"""Choice of directions of a shaft on two bearings: those that the scene needs but for the tilts."""
+
+FREE_TILT_WORDS = (
+    "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
+)
+HELD_TILT_WORDS = "Tilt is held, as by a second bearing on the shaft."
+
 LOAD_ALONG = {"x": "fx", "y": "fy", "z": "fz", "rx": "mx", "ry": "my"}
 """The field of `Load` along each direction."""
 
@@ -55,7 +64,9 @@ class Scene:
     contact_law
         "published" or "no tension".
     dofs
-        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs.
+        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs, tilts among
+        them where the load causes any. "tilt held": these without the tilts, as on a shaft on two
+        bearings.
     balls
         "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
         the centrifugal load of each ball at the scene's speed.
@@ -93,7 +104,8 @@ class Scene:
             )
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
-        if self.dofs is not None:
+        held = isinstance(self.dofs, str) and self.dofs == TILT_HELD
+        if self.dofs is not None and not held:
             keep("dofs", check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
@@ -103,6 +115,8 @@ class Scene:
         keep("bearing", bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)
+        if held:
+            keep("dofs", self._held_dofs)
         self._check_directions()
         for defect in self.defects:
             defect.check_row(self.bearing)
@@ -156,6 +170,16 @@ class Scene:
         return DOF_NAMES[:2] if flat and radial else self.bearing.kind.needed_directions
 
     @property
+    def _held_dofs(self) -> tuple[str, ...]:
+        return tuple(name for name in self.needed_dofs if name not in TILTS)
+
+    def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
+        """Sentence on tilts, free or held; empty where the load causes none."""
+        if set(TILTS) & set(self.free_dofs(dofs)):
+            return FREE_TILT_WORDS
+        return HELD_TILT_WORDS if set(TILTS) & set(self.needed_dofs) else ""
+
+    @property
     def active_dofs(self) -> tuple[str, ...]:
         """The directions that are computed: `dofs` if given, else `needed_dofs`."""
         return self.dofs if self.dofs is not None else self.needed_dofs
@@ -163,10 +187,14 @@ class Scene:
     def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
         """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
 
+        "tilt held" are those that the scene needs but for the tilts.
+
         ValueError for names that are none, or that the kind of bearing cannot move along.
         """
         if dofs is None:
             return self.active_dofs
+        if isinstance(dofs, str) and dofs == TILT_HELD:
+            return self._held_dofs
         names = check_dofs(dofs)
         self.bearing.kind.check_directions(names)
         return names

@@ -111,6 +111,12 @@ class Equilibrium:
         return self.status == StaticStatus.CONVERGED
 
     @property
+    def sentence(self) -> str:
+        """Free directions, and whether the shaft may tilt."""
+        free = f"Free are {', '.join(DOF_SYMBOLS[dof] for dof in self.dofs)}."
+        return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
+
+    @property
     def shaft_angles(self) -> NDArray[np.float64]:
         """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
@@ -243,8 +249,8 @@ def equilibrium(
         [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
         order are cheapest; the answer does not depend on the order.
     dofs
-        free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
-        directions that are held are carried by what holds them.
+        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's.
+        Loads along directions that are held are carried by what holds them.
     shaft_angles : (n,)
         [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
         None: ω_s/ω_c times as far as the cage, which is one run of many: see

@@ -527,6 +527,7 @@ def _sentence(
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
             f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
         )
+    words = f"{words} {scene.tilt_words()}".rstrip()
     if scene.defects:
         words += f" That is {percent(L / L_healthy)} of the healthy bearing's life. {LEFT_OUT}"
     return words

@@ -8,7 +8,7 @@ from bearingcore.bearings.catalogue import (
 )
 from bearingcore.bearings.designation import Designation, read_designation
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.of_files import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
@@ -16,6 +16,7 @@ from bearingcore.dynamics.damping import contact_damping
 from bearingcore.dynamics.modes import Modes, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
 from bearingcore.files.floor import read_floor
 from bearingcore.files.table import Table, read_table
@@ -36,6 +37,7 @@ from bearingcore.statics.life import Life, dynamic_load_rating, life
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
+from bearingcore.statics.usual import scene_of
 from bearingcore.statics.validity import limits
 from bearingcore.warm_up import warm
 
@@ -99,7 +101,9 @@ __all__ = [
     "read_designation",
     "read_floor",
     "read_table",
+    "scene_of",
     "simulate",
+    "simulated_record",
     "size_defect",
     "spectrum",
     "static_state",

@@ -145,6 +145,10 @@ class FieldError(ValueError):
         )
 
 
+class FieldTypeError(FieldError, TypeError):
+    """A value of another type than a field can have: its words say which are wanted."""
+
+
 @dataclass(frozen=True)
 class _InWords:
     """A number inside words: formatted without a unit it is its name, else the amount."""

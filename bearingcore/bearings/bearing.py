@@ -39,6 +39,9 @@ from bearingcore.errors import FieldError
 ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
 """Fields that may be estimates."""
 
+NOT_RATED = ("radial_clearance", "density", "estimated", "kind", "dynamic_load_rating")
+"""Fields that C_r does not depend on."""
+
 _ONE_ROW = (Row(),)
 
 
@@ -88,6 +91,9 @@ class Bearing:
         names of fields out of ESTIMATES whose numbers are estimates, as of bearings known by their
         designation alone (`bearingcore.bearings.designation`). `replace` takes those off that it
         gives a number.
+    dynamic_load_rating
+        C_r [N] of the whole bearing by a catalogue, as of bearings known by their designation; None
+        where it is not known. `replace` takes it off where it changes what is rated.
 
     Raises
     ------
@@ -118,6 +124,7 @@ class Bearing:
     estimated: tuple[str, ...] = field(default=(), metadata=scene_file.LEFT_OUT)
     ball_youngs_modulus: float | None = None
     ball_poisson: float | None = None
+    dynamic_load_rating: float | None = None
 
     def __post_init__(self) -> None:
         def keep(name: str, value: float) -> None:
@@ -135,6 +142,11 @@ class Bearing:
         ):
             keep(name, checks.real_number(name, getattr(self, name), above=0.0))
         keep("density", checks.real_number("density", self.density, above=0.0, unit="kg/m³"))
+        if self.dynamic_load_rating is not None:
+            rating = checks.real_number(
+                "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
+            )
+            keep("dynamic_load_rating", rating)
         keep("contact_angle", drawing.check_contact_angle(self.contact_angle))
         keep(
             "radial_clearance",
@@ -168,6 +180,15 @@ class Bearing:
         self.kind.check(self)
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
+
+    def __repr__(self) -> str:
+        """Rolling elements and their places, in a line."""
+        rows = f", {len(self.rows)} rows" if len(self.rows) > 1 else ""
+        angle = f", {math.degrees(self.contact_angle):.4g}°" if self.contact_angle else ""
+        return (
+            f"<Bearing: {self.n_balls} {self.kind.elements} of {1e3 * self.ball_diameter:.4g} mm "
+            f"on {1e3 * self.pitch_diameter:.4g} mm{angle}{rows}>"
+        )
 
     @classmethod
     def cylindrical(
@@ -491,8 +512,13 @@ class Bearing:
         A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
         its proportion to it; one named in `changes` is taken as it is.
         """
-        still = tuple(name for name in self.estimated if name not in changes)
-        return cast(Self, self.kind.replaced(self, {"estimated": still} | changes))
+        kept: dict[str, Any] = {
+            "estimated": tuple(name for name in self.estimated if name not in changes)
+        }
+        changed = {name for name, value in changes.items() if getattr(self, name, None) != value}
+        if changed - set(NOT_RATED):
+            kept["dynamic_load_rating"] = None
+        return cast(Self, self.kind.replaced(self, kept | changes))
 
     def with_balls_of(self, material: BallMaterial) -> Self:
         """The bearing with balls of a material and their density; ValueError without a drawing."""

@@ -39,6 +39,7 @@ from bearingcore.bearings.inside import (
     tapered_rollers_from_ratings,
 )
 from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.bearings.nearest import nearest_known
 from bearingcore.bearings.self_aligning import USUAL_GROOVE
 from bearingcore.bearings.suffix import (
     ANGULAR_CONTACT,
@@ -157,13 +158,17 @@ def read_designation(text: str) -> Designation:
     ValueError
         for what is no designation, or one of another series or size.
     """
+    checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
     name = " ".join(text.upper().replace("–", "-").split())
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
     suffix = "" if form is None else form["suffix"] or ""
     if form is None or basic is None or (_kind_of(basic) == TAPERED_ROLLERS and is_steep(suffix)):
+        near = nearest_known(name) if form is None or basic is None else ""
         raise checks.refuse(
-            "designation", text[:LONGEST_DESIGNATION], f"a bearing of the series {series_words()}"
+            "designation",
+            text[:LONGEST_DESIGNATION],
+            f"a bearing of the series {series_words()}{'; ' * bool(near)}{near}",
         )
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
@@ -197,6 +202,7 @@ def read_designation(text: str) -> Designation:
     bearing = _mounted(bearing, kind, size, said, assumed)
     rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
+    known = None if said.is_ceramic or said.has_better_steel else rating
     return Designation(
         in_small_letters(name),
         basic,
@@ -204,9 +210,9 @@ def read_designation(text: str) -> Designation:
         size.bore,
         size.outside_diameter,
         size.width,
-        None if said.is_ceramic or said.has_better_steel else rating,
+        known,
         clearance_class,
-        bearing,
+        bearing.replace(dynamic_load_rating=known),
         tuple(assumed),
         said.inside,
     )

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
@@ -96,6 +97,7 @@ class TrendPoint:
     extent: MeasuredExtent
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Trend:
     """Recordings of one machine in their order; k of them.
@@ -175,7 +177,7 @@ class Trend:
 
 def trend(
     recordings: Sequence[Recording],
-    bearing: Bearing | None,
+    bearing: BearingLike | None,
     shaft_speed: float | tuple[float, float] | None = None,
     *,
     direction: str | None = None,
@@ -209,11 +211,13 @@ def trend(
         for no recording, a recording without the direction, a baseline that is none of them, a
         band or speed that cannot be, and for rows of balls that are not alike.
     """
+    bearing = None if bearing is None else bearing_of(bearing)
     if not recordings:
         raise checks.refuse("recordings", "none", "one at least")
     checks.whole_number("baseline", baseline, at_least=0, at_most=len(recordings) - 1)
     along = recordings[-1].directions[-1] if direction is None else direction
     for one in recordings:
+        checks.instance("recordings", one, Recording, "a sequence of Recording")
         checks.choice(f"direction of {one.name}", along, one.directions)
     last = recordings[-1]
     chosen = band
@@ -234,12 +238,14 @@ def trend(
 
 def trend_point(
     recording: Recording,
-    bearing: Bearing | None,
+    bearing: BearingLike | None,
     shaft_speed: float | tuple[float, float] | None,
     direction: str,
     band: tuple[float, float],
 ) -> TrendPoint:
     """Numbers of one recording; the arguments are those of `trend`, all of them given."""
+    checks.instance("recording", recording, Recording)
+    bearing = None if bearing is None else bearing_of(bearing)
     column = recording.directions.index(direction)
     speed = _known_speed(shaft_speed)
     fault, probability, extent = CANNOT_TELL, math.nan, without_extent()

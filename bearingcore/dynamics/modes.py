@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
+from bearingcore.common import checks
 from bearingcore.common.byte_cache import lru_cache_by_bytes
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.damping import contact_damping
 from bearingcore.scene.defect import floor_bytes
 from bearingcore.scene.packing import PackedScene, contacts, pack
@@ -34,6 +35,7 @@ from bearingcore.statics.positions import (
 Array = NDArray[np.float64]
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Modes:
     """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
@@ -163,6 +165,7 @@ def frequency_bands(
     ValueError
         where the support lacks a number, by its name.
     """
+    checks.instance("scene", scene, Scene)
     n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)

@@ -12,7 +12,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
     ball_step_rate,
     loads_of_races,
@@ -52,6 +52,7 @@ KEPT = 4
 """Rows a sample, at most, that a motion of balls with mass is filtered from."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Motion:
     """Motion of inner and outer ring, n samples along the directions `dofs`.
@@ -329,6 +330,7 @@ def simulate(
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
         it, a shaft that stands still, or a support that lacks a number.
     """
+    checks.instance("scene", scene, Scene)
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")

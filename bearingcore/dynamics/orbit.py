@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import (
     PASSED,
@@ -61,6 +61,7 @@ LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 """Losses of stability by the place at which the largest multiplier leaves the unit circle."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Orbit:
     """A periodic motion of a scene and what becomes of small disturbances of it.
@@ -258,6 +259,7 @@ def orbit(
     ValueError
         for a shaft that stands still or a support that lacks a number.
     """
+    checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     shortest = common_ball_passes(scene)

@@ -51,6 +51,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     ValueError
         for speeds that are negative or do not increase, or where a cage angle has no static state.
     """
+    checks.instance("scene", scene, Scene)
     try:
         import ross  # imported late: optional, and slow
     except ImportError as error:

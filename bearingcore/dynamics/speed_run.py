@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import frequency_bands, highest_natural_frequency
 from bearingcore.dynamics.motion import (
@@ -32,6 +32,7 @@ SETTLING_SHARE = 0.5
 """Part of a marched motion that is left out of its spectrum as transient."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class SpeedRun:
     """Spectra of the housing's acceleration at n shaft speeds.

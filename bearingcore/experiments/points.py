@@ -13,7 +13,7 @@ import numpy as np
 
 from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 T = TypeVar("T")
 
@@ -115,6 +115,7 @@ class Reference:
         return f"{text}. {self.note}" if self.note else text
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Experiment:
     """Points of several methods on one problem.

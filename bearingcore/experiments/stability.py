@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.progress import in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.modes import (
     contact_damping,
     highest_natural_frequency,
@@ -71,6 +71,7 @@ class Trial:
     amplitude: float
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class StabilityChart:
     """Verdicts over methods and steps, with what linear theory predicts.

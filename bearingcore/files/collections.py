@@ -267,4 +267,4 @@ def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Name
 
 
 def _guess(value: T, why: str, unit: str = "") -> Finding[T]:
-    return Finding(value, why, stated=False, strong=True, unit=unit)
+    return Finding(value, why, stated=False, strong=True, file_unit=unit)

@@ -313,7 +313,7 @@ def _speed(
                     if steady
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
-                return Finding(mean * SPEEDS[column.unit], words, steady, unit=column.unit)
+                return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
     return facts.shaft_speed_in(named, table.name)
 
 

@@ -24,15 +24,15 @@ class Finding(Generic[T]):
     Attributes
     ----------
     value
-        in SI units.
+        in SI units: Hz of a sample rate, rad/s of a shaft speed, N of a load; words of a name.
     reason
         its place, or why it is likely, in a few words.
     stated
         whether the file says so; else it is a guess to be confirmed.
     supported
         whether anything speaks for a guess; else the value is a default.
-    unit
-        the unit in which the file gives it, where that is known.
+    file_unit
+        the unit in which the file gives it, where that is known; `value` is in SI all the same.
     strong
         whether a guess is good enough to be taken before it is confirmed, as those that follow
         from a known collection.
@@ -42,8 +42,13 @@ class Finding(Generic[T]):
     reason: str
     stated: bool = True
     supported: bool = True
-    unit: str = ""
+    file_unit: str = ""
     strong: bool = False
+
+    @property
+    def in_file_unit(self) -> float:
+        """The number of a shaft speed as the file gives it [file_unit]; in SI where no unit is."""
+        return float(self.value) / SPEEDS[self.file_unit or "rad/s"]  # type: ignore[arg-type]
 
     @property
     def taken(self) -> bool:
@@ -165,24 +170,24 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             continue
         words = f"“{one.name}” in the file"
         if "rpm" in key or (one.unit == "rpm" and key in _SPEEDS | {"n"}):
-            found.append(Finding(value * SPEEDS["rpm"], words, unit="rpm"))
+            found.append(Finding(value * SPEEDS["rpm"], words, file_unit="rpm"))
         elif key in _FREQUENCIES:
             unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
-            found.append(Finding(value * SPEEDS[unit], words, unit=unit))
+            found.append(Finding(value * SPEEDS[unit], words, file_unit=unit))
         elif key in _SPEEDS:
             if one.unit is not None and one.unit in SPEEDS:
-                found.append(Finding(value * SPEEDS[one.unit], words, unit=one.unit))
+                found.append(Finding(value * SPEEDS[one.unit], words, file_unit=one.unit))
             else:
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
                 taken = f"{words}, taken as {unit}"
-                found.append(Finding(value * SPEEDS[unit], taken, False, unit=unit))
+                found.append(Finding(value * SPEEDS[unit], taken, False, file_unit=unit))
         elif key == "rate" and value < LEAST_RATE:
             stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
             found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
     match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
-        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, unit="rpm"))
+        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, file_unit="rpm"))
     if not found:
         return None
     first = next((one for one in found if one.stated), found[0])

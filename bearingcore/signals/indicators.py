@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.recording import Recording
 
 SEVERITY_BAND = (10.0, 1000.0)
@@ -54,6 +54,7 @@ Beckhoff's manual of TF3600 too.
 """
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Indicators:
     """Condition indicators of a recording, a number a direction; the mean is left out of all.
@@ -110,6 +111,7 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     ValueError
         for a shaft speed that is not positive.
     """
+    checks.instance("recording", recording, Recording)
     speed = recording.shaft_speed if shaft_speed is None else shaft_speed
     if speed is not None:
         speed = checks.real_number("shaft_speed", speed, above=0.0, unit="rad/s")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.filter_bank import PARTS, Band, split, squared_envelopes
 
 MOST_JUDGED = 2**18
@@ -33,6 +33,7 @@ CHANCE = 3.0
 """Standard deviations of the kurtosis of noise by which a band must surpass it for the choice."""
 
 
+@shown_as_table
 class Kurtogram(NamedTuple):
     """Spectral kurtosis of a signal in bands of many widths.
 

@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 MOST_SAMPLES = 100_000_000
 """Samples of all signals that are taken at most by default: some seconds of one core,
 and some gigabytes."""
 
 
+@shown_as_table
 class Spectrum(NamedTuple):
     """One-sided power spectral density.
 
@@ -42,9 +43,12 @@ class Spectrum(NamedTuple):
         return np.array(sums) * (self.frequency[1] - self.frequency[0])
 
     def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
-        """A row a frequency: the density, of several signals named by their `directions`."""
+        """A row a frequency: the density, of several signals named by `directions` or counted."""
         columns = self.density.reshape(len(self.frequency), -1).T
-        names = [f"density_{d}" for d in directions] if directions else ["density"]
+        named = directions or [str(k + 1) for k in range(len(columns))]
+        names = [f"density_{one}" for one in named]
+        if not directions and len(columns) == 1:
+            names = ["density"]
         if len(names) != len(columns):
             raise checks.refuse("directions", tuple(directions), f"{len(columns)} names")
         return table_of(

@@ -14,7 +14,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import (
@@ -39,6 +39,7 @@ CARRYING = 0.05
 UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class BallPositions:
     """Static equilibrium of a scene whose balls find their own places, at n cage angles.
@@ -160,6 +161,7 @@ def ball_positions(
         for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
         or stiff that a computer has no numbers for them.
     """
+    checks.instance("scene", scene, Scene)
     scene.bearing.kind.check_mass()
     active = scene.free_dofs(dofs)
     with _within_range(scene):
@@ -271,6 +273,7 @@ def static_state(
     the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
     are those of `equilibrium`.
     """
+    checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
         return equilibrium(
             scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts

@@ -15,10 +15,10 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedScene
-from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, Scene
 from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.shortage import explanation, moved
 from bearingcore.statics.status import StaticStatus
@@ -53,6 +53,7 @@ MOST_CONTACTS = 20_000_000
 some seconds of one core and a gigabyte of answers."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Equilibrium:
     """Static equilibrium of a scene at n cage angles. NaN where there is no answer.
@@ -112,6 +113,12 @@ class Equilibrium:
         return self.status == StaticStatus.CONVERGED
 
     @property
+    def sentence(self) -> str:
+        """Free directions, and whether the shaft may tilt."""
+        free = f"Free are {', '.join(DOF_SYMBOLS[dof] for dof in self.dofs)}."
+        return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
+
+    @property
     def shaft_angles(self) -> NDArray[np.float64]:
         """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
@@ -168,6 +175,33 @@ class Equilibrium:
             ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
         )
 
+    def stiffness_table(self, i: int | None = None) -> ResultTable:
+        """K_b as 5 × 5 numbers to copy: a row a load, a column a displacement, in SI units.
+
+        Of cage angle i; None: the mean in time over all angles that have an equilibrium.
+        """
+        if i is None:
+            known = np.isfinite(self.stiffness).all(axis=(1, 2))
+            share = np.where(known, self.shares, 0.0)
+            stiffness = np.tensordot(share, np.nan_to_num(self.stiffness), 1) / (
+                share.sum() or np.nan
+            )
+        else:
+            at_most = len(self.cage_angles) - 1
+            stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
+        loads = zip(DOF_NAMES, LOAD_ALONG.values(), strict=True)
+        return table_of(
+            (
+                "load",
+                "",
+                [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads],
+            ),
+            *(
+                (f"per_{'rad' if dof.startswith('r') else 'm'}_{dof}", "", column)
+                for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
+            ),
+        )
+
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
         free = [
@@ -217,8 +251,8 @@ def equilibrium(
         [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
         order are cheapest; the answer does not depend on the order.
     dofs
-        free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
-        directions that are held are carried by what holds them.
+        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's.
+        Loads along directions that are held are carried by what holds them.
     shaft_angles : (n,)
         [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
         None: ω_s/ω_c times as far as the cage, which is one run of many: see
@@ -238,6 +272,7 @@ def equilibrium(
     ValueError
         for angles that are not finite or not as many, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
     packed = packing.pack(scene, scene.free_dofs(dofs))
     if cage_angles is None:
         cage_angles = default_cage_angles(scene)

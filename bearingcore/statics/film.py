@@ -47,7 +47,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
@@ -97,6 +97,7 @@ class RaceFilm:
     sentence: str
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Film:
     """Lubricant film of a scene's heaviest loaded ball or roller.
@@ -251,6 +252,7 @@ def film(
     ValueError
         naming the field, its value and what is allowed.
     """
+    checks.instance("scene", scene, Scene)
     eta = checks.real_number("viscosity", viscosity, above=0.0, unit="Pa·s")
     xi = checks.real_number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
     ball = checks.real_number("roughness_ball", roughness_ball, at_least=0.0, unit="m")

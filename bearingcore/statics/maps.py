@@ -16,7 +16,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.scene.scene import Scene
@@ -38,6 +38,7 @@ GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Maps:
     """Static answers over m extents of a scene's first defect and n cage angles.
@@ -161,6 +162,7 @@ def stiffness_maps(
     ValueError
         for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
     if extents is None:
         sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
     else:

@@ -137,6 +137,7 @@ def limits(
         for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
         another scene.
     """
+    checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
         checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
 from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
@@ -79,6 +80,7 @@ _SENTENCES = {
 }
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class MeasuredExtent:
     """The extent of a spall, measured from entry to exit.
@@ -193,7 +195,7 @@ class MeasuredExtent:
 
 def measure_extent(
     recording: Recording,
-    bearing: Bearing,
+    bearing: BearingLike,
     shaft_speed: float | tuple[float, float] | None,
     *,
     race: str | None = None,
@@ -236,6 +238,8 @@ def measure_extent(
     ValueError
         for a race, load, clearance or speed that cannot be, and for rows that are not alike.
     """
+    checks.instance("recording", recording, Recording)
+    bearing = bearing_of(bearing)
     if race is not None:
         checks.choice("race", race, RACES)
     if load is not None:

@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
@@ -44,8 +45,8 @@ one core, and some gigabytes."""
 
 def diagnose(
     recording: Recording,
-    bearing: Bearing | None,
-    shaft_speed: float | tuple[float, float] | None,
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = 0.02,
     most_samples: int = MOST_SAMPLES,
@@ -59,8 +60,8 @@ def diagnose(
     recording
         acceleration of the housing, one direction or two.
     bearing
-        its geometry; only balls, diameters and contact angle count. None if it is unknown: then no
-        part is named, and the status says so.
+        its geometry, or its designation; only balls, diameters and contact angle count. None if it
+        is unknown: then no part is named, and the status says so.
     shaft_speed
         [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
         of the recording is taken if it carries one, else it is looked for between 300 and 6000
@@ -79,6 +80,8 @@ def diagnose(
     ValueError
         for a speed, slip or source that cannot be, and for rows that are not alike.
     """
+    checks.instance("recording", recording, Recording)
+    bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
     found = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)

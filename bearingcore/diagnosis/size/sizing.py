@@ -123,6 +123,8 @@ def size_defect(
     ValueError
         for a scene that is not fit for it, or a signal too short, too long or sampled too slowly.
     """
+    checks.instance("recording", recording, Recording)
+    checks.instance("scene", scene, Scene)
     check_samples("acceleration", recording.acceleration, most_samples)
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)

@@ -376,3 +376,31 @@ def test_passing_frequencies_of_tapered_rollers_say_what_one_roller_more_does() 
     assert more.bpfo(1.0) / bearing.bpfo(1.0) - 1.0 < off
     assert bearing.frequency_spread("ftf") < 0.005
     assert more.frequency_spread("bpfo") == pytest.approx(bearing.frequency_spread("ftf"))
+
+
+@pytest.mark.parametrize(
+    ("text", "near"),
+    [
+        ("608-2RS", "the nearest known is 6000 (10 × 26 × 8 mm)"),
+        ("SKF 625", "the nearest known is 6200 (10 × 30 × 9 mm)"),
+        ("6324", "the nearest known is 6320 (100 × 215 × 47 mm)"),
+        ("71908 C", "7008 (40 × 68 × 15 mm, a heavier series of angular-contact ball bearings)"),
+        ("32008 X", "30208 (40 × 80 × 19.75 mm, another series of such rollers)"),
+        ("22210 E", "NU2210 (50 × 90 × 23 mm, cylindrical rollers of the same dimensions)"),
+        ("NU 1003", "NU1005 (25 × 47 × 12 mm)"),
+        ("UCP 205", "6205 (25 × 52 × 15 mm, the same inside in usual rings)"),
+        ("QJ 208", "7208 (40 × 80 × 18 mm, one half of its contacts)"),
+    ],
+)
+def test_what_is_not_known_is_refused_with_the_nearest(text: str, near: str) -> None:
+    with pytest.raises(FieldError, match="designation is") as refused:
+        read_designation(text)
+    assert near in str(refused.value)
+    assert read_designation(near.split("is ")[-1].split(" (")[0])
+
+
+@pytest.mark.parametrize("text", ["51105", "HK1010", "hello", "6000000"])
+def test_nothing_is_near_what_is_no_bearing_of_a_kind_that_is_known(text: str) -> None:
+    with pytest.raises(FieldError, match="allowed: a bearing of the series") as refused:
+        read_designation(text)
+    assert "nearest" not in str(refused.value)

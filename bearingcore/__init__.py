@@ -16,6 +16,8 @@ from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, 
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.files.by_hand import read_recording
+from bearingcore.files.join import join_tables
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
@@ -85,6 +87,7 @@ __all__ = [
     "film",
     "frequency_bands",
     "indicators",
+    "join_tables",
     "kurtogram",
     "life",
     "limits",
@@ -96,6 +99,7 @@ __all__ = [
     "read_catalogue",
     "read_designation",
     "read_floor",
+    "read_recording",
     "read_table",
     "simulate",
     "size_defect",

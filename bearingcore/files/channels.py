@@ -6,9 +6,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bearingcore.files.units import UNITS, kind_of, unit_in
+from bearingcore.files.units import SPEEDS, UNITS, kind_of, unit_in, unit_named
 
-SIGNAL, TIME, OTHER = "signal", "time", "other"
+SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
+ROLES = (SIGNAL, TIME, SPEED, OTHER)
 
 _SAYS = {
     "x": {"x", "ax", "accx", "xacc", "hor", "horiz", "horizontal", "h", "lateral"},
@@ -34,7 +35,16 @@ _PHRASES = (
 )
 _NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
 _NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no"}
-_TIMES = {"t", "time", "seconds", "zeit", "temps", "timestamp", "date", "datetime", "datum"}
+_TIMES = {
+    "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
+    "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
+    "timedelta",
+}  # fmt: skip
+_BEFORE_TIME = {
+    "elapsed", "relative", "rel", "absolute", "abs", "sample", "sampling", "system", "local",
+    "measurement", "recording", "record", "log", "run", "scan", "host", "device", "unix", "time",
+}  # fmt: skip
+"""Words before "time"; elsewhere it may end the name of a signal, as in "X105_DE_time"."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +56,7 @@ class Column:
     name
         its heading.
     role
-        "signal", "time" or "other".
+        one of `ROLES`: "signal", "time", "speed" or "other".
     unit
         that the heading gives, one of `UNITS` for a signal; None where it gives none.
     direction
@@ -80,11 +90,19 @@ def column_of(name: str) -> Column:
     """Meaning of a column by its heading."""
     words = words_of(name)
     unit = unit_in(name)
-    first = re.split(r"[\s_\[(/,]", name.strip().lower(), maxsplit=1)[0]
-    # LabVIEW's name for the time of each row
-    timed = first in _TIMES or re.fullmatch(r"x[_ ]values?", name.strip().lower()) is not None
-    if timed and (unit is None or kind_of(unit) == "time"):
+    bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.strip())
+    first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
+    if unit is None and kind_of(unit_named(bare) or "") == "time" and len(first) > 1:
+        unit = unit_named(bare)  # "milliseconds"
+    timed = (
+        first in _TIMES
+        or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
+        or re.fullmatch(r"x[_ ]values?", name.strip().lower())  # LabVIEW's time of each row
+    )
+    if (timed and unit is None) or (unit is not None and kind_of(unit) == "time"):
         return Column(name, TIME, unit)
+    if unit in SPEEDS:
+        return Column(name, SPEED, unit)
     if (unit is not None and unit not in UNITS) or (words & _NOT_SIGNALS and unit is None):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")

@@ -7,6 +7,7 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 from __future__ import annotations
 
 import io
+import re
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,6 +18,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
+from bearingcore.files import libraries
+from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -46,19 +49,32 @@ def read(
         return _text(name, content, most_numbers, most_columns)
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
+    if content[:4] == b"PK\x03\x04" and not name.lower().endswith(".npz"):
+        inside, content = libraries.unzipped(name, content)
+        about, columns = read(inside, content, most_numbers, most_columns)
+        return {"name": f"{name.removesuffix('/' + inside)}/{inside}", **about}, columns
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
+    known = libraries.kind_of(name, content)
+    kind: str
+    walk: Any
     if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it
-        kind = "HDF5 file"
-        walk: Any = _walk_hdf5
+        kind, walk = "HDF5 file", _walk_hdf5
+    elif known is not None:
+        kind, walk = known
+    elif content[:4] == b"PK\x03\x04":
+        kind, walk = "NumPy file", libraries.npz
+    elif re.match(rb"# Created by Octave", content):
+        kind, walk = "text of Octave", _walk_octave
+    elif content[:6] == b"Octave":
+        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     elif (
         content[:6] == b"MATLAB"
         or content[126:128] in (b"IM", b"MI")
         or name.lower().endswith(".mat")
     ):
-        kind = "MATLAB file"
-        walk = _walk_matlab
+        kind, walk = "MATLAB file", _walk_matlab
     else:
         return _text(name, content, most_numbers, most_columns)
     try:
@@ -75,10 +91,10 @@ def read(
 
 
 def _text(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
-    columns, headings, remarks, stamps = read_text(name, content, most_numbers, most_columns)
-    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
-    about = {"names": names, "remarks": remarks, "headed": headings is not None, "stamps": stamps}
-    return about, columns
+    found = read_text(name, content, most_numbers, most_columns)
+    names = found.headings or [f"column {i + 1}" for i in range(found.columns.shape[1])]
+    about = {"names": names, "remarks": found.remarks, "headed": found.headings is not None}
+    return {**about, "stamps": found.stamps, "notes": found.notes}, found.columns
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
@@ -167,6 +183,10 @@ def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_colum
 def _check_depth(depth: int) -> None:
     if depth > DEEPEST:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
+
+
+def _walk_octave(content: bytes, found: Variables) -> None:
+    walk_octave(content, found.add)
 
 
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------

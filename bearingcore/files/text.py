@@ -19,6 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import thousands
+from bearingcore.files.facts import named_in
+from bearingcore.files.units import UNITS, unit_in
+from bearingcore.signals.recording import FEWEST_SAMPLES
 
 MOST_HEADINGS = 100
 """Lines with words before the first line of numbers."""
@@ -29,22 +33,44 @@ LONGEST_REMARK = 200
 SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
+READABLE = (
+    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, Parquet, or "
+    "a zip of one of these; export it as CSV where it is none of them"
+)
+"""What can be read."""
 
-def read_text(
-    name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[NDArray[np.float64], list[str] | None, list[str], list[int]]:
-    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
+MOST_WRONG = 0.01
+"""Share of lines without numbers, from which on a text is no table."""
 
-    Returns
-    -------
+
+@dataclass(frozen=True)
+class TextTable:
+    """The table in a text.
+
+    Attributes
+    ----------
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
+        Columns of words, and empty ones, are left out.
     headings
-        of the columns, where there are as many as columns.
+        of the columns; None where there are none that fit.
     remarks
         the lines above the numbers, headings among them.
     stamps
         columns that were dates or times of day.
+    notes
+        sentences on lines that were not read.
+    """
+
+    columns: NDArray[np.float64]
+    headings: list[str] | None
+    remarks: list[str]
+    stamps: list[int]
+    notes: list[str]
+
+
+def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -> TextTable:
+    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Raises
     ------
@@ -54,29 +80,43 @@ def read_text(
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
     if b"\x00" in content[:4096]:
-        raise checks.refuse("file", name, "text with numbers (CSV), WAV or MATLAB")
+        raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
     if width > most_columns:
-        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
-    headings = _headings(remarks, style, width)
-    columns = _numbers(content[begin:], style, width, most_numbers // width + 1)
-    if columns is None:
-        line, text, allowed = _culprit(content, begin, style, width)
-        raise checks.refuse(f"line {line} of {name}", text[:40], allowed)
-    if columns.size > most_numbers:
+        columns = _rows(content[begin:], style, width, most_columns)
+        if columns is None or columns.size > most_numbers:
+            raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+        return TextTable(columns, None, remarks, [], [])
+    notes: list[str] = []
+    most_rows = most_numbers // width + 1
+    read = _numbers(content[begin:], style, width, most_rows)
+    if read is None:
+        above = content.count(b"\n", 0, begin) + 1
+        mended, notes = _mended(name, content[begin:], style, width, above)
+        read = _numbers(mended, style, width, most_rows)
+        if read is None:
+            raise checks.refuse("file", name, READABLE)
+    if read.size > most_numbers:
         raise checks.refuse(
-            f"count of numbers in {name}", f"over {most_numbers}", f"at most {most_numbers}"
+            f"count of numbers in {name}",
+            f"over {most_numbers}",
+            f"at most {most_numbers}; split it by rows and join the parts",
         )
-    return columns, headings, remarks, list(style.stamps)
+    headings = _headings(remarks, style, read)
+    kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    if len(kept) < width and kept:
+        read = read[:, kept]
+        headings = headings and [headings[i] for i in kept]
+    return TextTable(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
 
 
 # -- how numbers are written -----------------------------------------------------------------------
 
 _DATE = r"(?:\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4})[T _;,\t]+"
-_SECOND = rf"((?:{_DATE})?\d\d?:\d\d:\d\d)"
+_SECOND = rf"((?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d)"
 _ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d)?"
 _POINT_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}(\.\d+)?{_ZONE}")
 _COMMA_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}([.,]\d+)?{_ZONE}")
@@ -104,7 +144,9 @@ class _Clock:
         """Whole seconds since the first stamp."""
         hour, minute, second = (int(number) for number in text[-8:].lstrip("T _;,\t").split(":"))
         whole = hour * 3600 + minute * 60 + second
-        if len(text) > 8:
+        if " day" in text:
+            whole += 86_400 * int(text.split()[0])
+        elif len(text) > 8:
             whole += 86_400 * _day(re.split(r"[T _;,\t]", text, maxsplit=1)[0])
         else:
             self._midnights += whole < self._last - 43_200
@@ -132,6 +174,7 @@ class _Style:
     delimiter: str | None
     decimal_comma: bool
     stamps: tuple[int, ...] = ()
+    words: tuple[int, ...] = ()
     clock: Callable[[re.Match[str]], str] | None = field(default=None, compare=False)
 
     @property
@@ -160,15 +203,31 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
     return [cell.strip() for cell in line.split(delimiter)]
 
 
-def _row(line: str, delimiter: str | None) -> list[float] | None:
-    """The numbers of a plain line, or None where there is anything else, or nothing."""
+MISSING = {"", "na", "n/a", "#n/a", "null", "none", "-", "--"}
+"""Cells that hold no number, in lower case, apart from "nan" itself."""
+
+
+def _number(cell: str) -> float | None:
+    """The number in a cell, NaN in an empty one; None for anything else."""
+    if cell.lower() in MISSING:
+        return math.nan
     try:
-        numbers = [float(cell) if cell else math.nan for cell in _cells(line, delimiter)]
+        return None if "_" in cell else float(cell)  # Python takes 1_000 for a number
     except ValueError:
         return None
-    if "_" in line or all(math.isnan(number) for number in numbers):
-        return None  # Python takes 1_000 for a number
-    return numbers
+
+
+def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[float] | None:
+    """The numbers of a plain line, or None where there is anything else, or nothing.
+
+    Cells of columns of `words` are NaN.
+    """
+    cells = _cells(line, delimiter)
+    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    found = [number for number in numbers if number is not None]
+    if len(found) < len(numbers) or all(math.isnan(number) for number in found):
+        return None
+    return found
 
 
 def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
@@ -198,12 +257,13 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     plain = trial.plain("\n".join(lines)).split("\n")
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
-    first = _row(plain[0], style.delimiter)
+    words = _columns_of_words(plain, style.delimiter)
+    first = _row(plain[0], style.delimiter, words)
     if first is None:
         return None
     closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
     width = len(first) - (closed and len(first) > 1)
-    rows = [_row(line, style.delimiter) for line in plain]
+    rows = [_row(line, style.delimiter, words) for line in plain]
     fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
@@ -211,7 +271,17 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     cells = _cells(marked, style.delimiter)[:width]
     stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
     clock = _Clock() if clocked else None
-    return fits, _Style(style.delimiter, style.decimal_comma, stamps, clock), width
+    return fits, _Style(style.delimiter, style.decimal_comma, stamps, words, clock), width
+
+
+def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
+    """Columns in which every one of many lines has a word, beside others of numbers."""
+    rows = [_cells(line, delimiter) for line in lines]
+    if len(rows) < SAMPLE or len({len(row) for row in rows}) > 1:
+        return ()
+    kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
+    words = next(iter(kinds)) if len(kinds) == 1 else ()
+    return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
 
 
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
@@ -248,6 +318,10 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_REMARK])
         elif bare:
             begin = begin or bare
+            if _NUMBERED.fullmatch(_decoded(line)):
+                remarks.append(_decoded(line))
+                place += len(line)
+                continue
             rest = io.BytesIO(content)
             rest.seek(place)
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
@@ -262,6 +336,10 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
     if not begin:
         raise checks.refuse("file", name, "one that holds lines of numbers")
     raise checks.refuse(f"start of {name}", begin[:40], "a table of numbers, headings above it")
+
+
+_NUMBERED = re.compile(r'(?:"")?([,;\t])"?0"?(?:\1"?\d+"?)*')
+"""The headings of a data frame whose columns have numbers for names."""
 
 
 def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
@@ -283,33 +361,58 @@ def _one_column(
     return style, width
 
 
-def _headings(remarks: Sequence[str], style: _Style, width: int) -> list[str] | None:
+def _headings(
+    remarks: Sequence[str], style: _Style, columns: NDArray[np.float64]
+) -> list[str] | None:
     """The names of the columns, out of the last line above them that fits; each with its unit.
 
-    A line of units alone may be between the names and the numbers.
+    A line of units alone may be between the names and the numbers. Columns without a name are
+    called by their number.
     """
-    lines = remarks[-3:]
-    names = _names(lines[-1], style, width) if lines else None
+    width = columns.shape[1]
+    # a rate or a speed is no name; the place of a line that names two columns is the last
+    lines = [line for line in remarks if width > 1 or not _is_remark(line)][-3:]
+    names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
     if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in names):
-        above = _names(lines[-2], style, width)
+        above = _names(lines[-2], style, columns)
         if above is not None:
             names = [
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
                 for name, unit in zip(above, names, strict=True)
             ]
-    if not all(names) or len(set(names)) < width or all(_row(cell, None) for cell in names):
+    given = [name for name in names if name]
+    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
+        return None  # numbers beside the settings of an instrument
+    if not given or len(set(given)) < len(given) or all(_row(cell, None) for cell in given):
         return None
-    return names
+    return [name or f"column {index + 1}" for index, name in enumerate(names)]
 
 
-_WORDS_OF_A_ROW = {"comment", "comments", "kommentar", "remark", "remarks", "note", "notes"}
+def _is_remark(line: str) -> bool:
+    """Whether a line says something else than the name of a column."""
+    if unit_in(line) in UNITS and re.search(r"[\[(]", line):
+        return False
+    return bool(named_in([line])) or ":" in line or "=" in line or len(line) > LONGEST_HEADING
+
+
+LONGEST_HEADING = 60
+"""[characters] of the name of the only column."""
+
+_WORDS_OF_A_ROW = {
+    "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
+    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled",
+}  # fmt: skip
 _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
-def _names(line: str, style: _Style, width: int) -> list[str] | None:
-    """The cells of a heading, by any delimiter, if there are as many as columns."""
+def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] | None:
+    """The cells of a heading, by any delimiter, if there are as many as columns.
+
+    Names of columns of words, and of rows, need not be there.
+    """
+    width = columns.shape[1]
     if width == 1:
         return [line.strip(' "\t,;')]
     for cells in (
@@ -319,15 +422,19 @@ def _names(line: str, style: _Style, width: int) -> list[str] | None:
         re.split(r"\s+(?![\[(])", line),
     ):
         names = [cell.strip().strip('"').strip() for cell in cells]
-        if len(names) == width + 1 and not names[-1]:
-            names.pop()
-        if len(names) == width + 1 and names[-1].lower() in _WORDS_OF_A_ROW:
+        while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
             names.pop()  # LabVIEW names a column of words, which is empty
+        if len(names) == width - 1 and _counts_rows(columns[:, 0]):
+            names.insert(0, "")  # R names no column of the rows' names
         if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
             names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
         if len(names) == width:
             return names
     return None
+
+
+def _counts_rows(column: NDArray[np.float64]) -> bool:
+    return len(column) > 1 and column[0] in (0.0, 1.0) and bool(np.all(np.diff(column) == 1.0))
 
 
 # -- numbers ---------------------------------------------------------------------------------------
@@ -351,13 +458,16 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
             index_col=False,
             comment="#",
             skipinitialspace=True,
-            dtype=float,
+            dtype={i: (str if i in style.words else float) for i in range(width + 1)},
+            na_values=sorted(MISSING),
             encoding="latin-1",
             nrows=most_rows,
         )
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
-    columns = frame.to_numpy()
+    for index in style.words:
+        frame[index] = np.nan
+    columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
     if unsure and _wrong_line(body, style, width) is not None:
         return None  # pandas fills short lines
@@ -365,8 +475,15 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
 
 
 def _wrong_line(body: bytes, style: _Style, width: int) -> tuple[int, str, str] | None:
-    """The first line that is not `width` numbers and gaps: its number from 0, it, what it lacks."""
-    for index, line in enumerate(io.BytesIO(body)):
+    """The first line that is not `width` numbers and gaps: its number, it, and what it lacks."""
+    return next(_wrong_lines(io.BytesIO(body), style, width), None)
+
+
+def _wrong_lines(
+    lines: Iterable[bytes], style: _Style, width: int
+) -> Iterator[tuple[int, str, str]]:
+    """Lines that are not `width` numbers and gaps: number from 0, the line, what it lacks."""
+    for index, line in enumerate(lines):
         text = _decoded(line)
         if not text.strip() or text[0] in "#%":
             continue
@@ -374,14 +491,44 @@ def _wrong_line(body: bytes, style: _Style, width: int) -> tuple[int, str, str] 
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
         if len(cells) != width:
-            return index, text.strip(), f"{width} columns as in the first"
-        if _row("\n".join(cells), "\n") is None and any(cells):
-            return index, text.strip(), "numbers"
-    return None
+            yield index, text.strip(), f"{width} columns as in the first"
+        elif _row("\n".join(cells), "\n", style.words) is None and any(cells):
+            yield index, text.strip(), "numbers"
 
 
-def _culprit(content: bytes, begin: int, style: _Style, width: int) -> tuple[int, str, str]:
-    """Number from 1 and text of the line that cannot be read, and what is allowed there."""
-    above = content.count(b"\n", 0, begin) + 1
-    index, text, allowed = _wrong_line(content[begin:], style, width) or (0, "", "numbers")
-    return above + index, text, allowed
+def _mended(
+    name: str, body: bytes, style: _Style, width: int, above: int
+) -> tuple[bytes, list[str]]:
+    """Lines with gaps in place of a few that hold no numbers, without a last one that is cut off.
+
+    Also sentences on them. The first line has the number `above`.
+    """
+    lines = body.splitlines(keepends=True)
+    most = int(MOST_WRONG * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
+    wrong = list(islice(_wrong_lines(lines, style, width), most + 1))
+    if not wrong or len(wrong) > most:
+        index, text, allowed = wrong[0] if wrong else (0, "", "numbers")
+        raise checks.refuse(f"line {above + index} of {name}", text[:40], allowed)
+    notes = []
+    if wrong[-1][0] == len(lines) - 1:
+        notes.append(f"The last line, “{wrong.pop()[1][:40]}”, is cut off: it is not used.")
+        lines.pop()
+    gap = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
+    for index, _, _ in wrong:
+        lines[index] = gap
+    if wrong:
+        index, text, _ = wrong[0]
+        number = "One line holds" if len(wrong) == 1 else f"{thousands(len(wrong))} lines hold"
+        first = f"line {above + index}, “{text[:40]}”"
+        notes.append(f"{number} no numbers ({first}) and count as missing.")
+    return b"".join(lines), notes
+
+
+def _rows(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[np.float64] | None:
+    """Signals that are written in a row each, as columns; None where they are no such rows."""
+    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
+    rows = [_row(style.plain(line).rstrip(" "), style.delimiter) for line in lines]
+    whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
+    if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
+        return None
+    return np.array(whole).T

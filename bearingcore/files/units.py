@@ -45,7 +45,7 @@ VOLTAGES: Mapping[str, float] = MappingProxyType({"V": 1.0, "mV": 1e-3})
 UNITS: Mapping[str, float] = MappingProxyType({**ACCELERATIONS, **VELOCITIES, **VOLTAGES})
 """All that can be made an acceleration, in the SI unit of their kind."""
 
-_TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "min": 60.0, "h": 3600.0}
+_TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
 TIMES: Mapping[str, float] = MappingProxyType(_TIMES)
 """[s]"""
 
@@ -77,8 +77,9 @@ _WRITTEN = {
     "V": "volt volts",
     "mV": "millivolt millivolts",
     "s": "sec secs second seconds sekunden sekunde",
-    "ms": "msec millisecond milliseconds",
-    "µs": "us usec microsecond microseconds",
+    "ms": "msec msecs millis millisecond milliseconds millisekunden",
+    "µs": "us usec usecs micros microsecond microseconds mikrosekunden",
+    "ns": "nsec nsecs nanos nanosecond nanoseconds",
     "min": "minute minutes",
     "h": "hour hours",
     "N": "newton",

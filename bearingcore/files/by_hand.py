@@ -139,7 +139,10 @@ def _recording(
     choice = table.contents.choice
     picked = [table.index_of(column) for column in signals] or list(choice.columns.values())
     if not picked:
-        raise checks.refuse("columns", "without a signal", f'"signal": … {choice.question}')
+        names = ", ".join(table.names)
+        raise checks.refuse(
+            "columns", None, f'"signal" with one or two of {names}. {choice.question}'
+        )
     if directions is None:
         named = {index: axis for axis, index in choice.columns.items()}
         known = [named.get(i) or table.contents.columns[i].direction for i in picked]

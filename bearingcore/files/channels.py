@@ -92,8 +92,8 @@ def column_of(name: str) -> Column:
     unit = unit_in(name)
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.strip())
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    if unit is None and kind_of(unit_named(bare) or "") == "time" and len(first) > 1:
-        unit = unit_named(bare)  # "milliseconds"
+    if unit is None and kind_of(unit_named(first) or "") == "time" and len(first) > 1 and not more:
+        unit = unit_named(first)  # "milliseconds"
     timed = (
         first in _TIMES
         or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
@@ -135,6 +135,7 @@ def places_in(name: str) -> list[str]:
         r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
     )
     found += [f"bearing {one or other}" for one, other in numbered]
+    found += re.findall(r"(?<![a-z])point \d+", name.lower())
     return list(dict.fromkeys(found))
 
 
@@ -197,11 +198,11 @@ def choose(
 
 def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
     """Signals of one place by their directions."""
-    named = {
-        axis: next((i for i in signals if columns[i].direction == axis), None)
-        for axis in ("x", "y")
-    }
-    by_name = {axis: index for axis, index in named.items() if index is not None}
+    named = {axis: [i for i in signals if columns[i].direction == axis] for axis in ("x", "y")}
+    if any(len(there) > 1 for there in named.values()):
+        question = "The file holds several signals of one direction. Which is at this bearing?"
+        return Choice({}, "", question, tuple(signals))
+    by_name = {axis: there[0] for axis, there in named.items() if there}
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:

@@ -196,6 +196,12 @@ def _columns(
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
+    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
+    if len(labels) == len(columns):  # a cell of the columns' names
+        columns = [
+            dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
+            for label, column in zip(labels, columns, strict=True)
+        ]
     said = facts.units_said(table.remarks, table.texts)
     signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
     if len(said) > 1 and len(said) == len(signals):  # each channel's own
@@ -253,11 +259,16 @@ def _with_times(
             columns[index] = Column(column.name, OTHER)
             if not sampling.trouble:
                 columns[index] = Column(column.name, TIME)
-                found[index] = times_of(values)
+                sampling = times_of(values)
+                reason = f"{sampling.reason} “{column.name}”"
+                found[index] = dataclasses.replace(sampling, reason=reason)
     time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
     return tuple(columns), None if time is None else found[time]
 
 
+_LABELS = re.compile(
+    r"(?i)(.*\.)?([a-z]+[ _]?)?(names?|labels?|channels?|sensors?|columns|headings?)\{\d+\}"
+)
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 
 

@@ -63,12 +63,13 @@ class Named:
 
 MOST_REMARKS = 100
 
+_NUMBER = r"[-+]?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
-    r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?([-+]?\d[\d.,]*(?:[eE][-+]?\d+)?)\"?"
+    r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?"
+    rf"({_NUMBER})\"?"
     r"[\s;,]*([^\W\d_][\w./^²-]{0,9}|1/min|°C)?\s*\W*"
 )
 
-_NUMBER = r"[-+]?\d[\d.,]*(?:[eE][-+]?\d+)?"
 _SEVERAL = re.compile(
     rf"([^\W\d][\w .()/\[\]°²µ-]{{0,40}}?)\s*[:=]\s*({_NUMBER})[ \t]*"
     r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
@@ -101,6 +102,9 @@ _SPEEDS = {
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
+
+LEAST_STATED, GREATEST_STATED = 100.0, 5e6
+"""[Hz] of recordings of vibration; another "sample rate" is asked about."""
 
 LEAST_RATE = 500.0
 """[Hz] below which a "rate" is the shaft's, not that of the samples."""
@@ -141,7 +145,7 @@ def _in_line(line: str) -> Iterator[Named]:
 
 def _number(text: str) -> float | None:
     """A number as a person writes it, with a point or a comma."""
-    text = text.rstrip(".,")
+    text = re.sub(r"(?<=\d) (?=\d{3}\b)", "", text.rstrip(".,"))
     if re.fullmatch(r"\d{1,3}(,\d{3})+(\.\d+)?", text):
         text = text.replace(",", "")
     try:
@@ -162,7 +166,7 @@ def _rate_key(name: str) -> str:
     return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
 
 
-_SAMPLED = re.compile(r"(?i)\b(sampl|abgetastet|digiti[sz]|acqui)\w*")
+_OTHER_RATE = re.compile(r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf")
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -183,11 +187,15 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
             reason = f"{first.reason}, which names another one too"
             return dataclasses.replace(first, reason=reason, stated=False)
-        return first
+        if LEAST_STATED <= first.value <= GREATEST_STATED:
+            return first
+        if LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
+            return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
+        return dataclasses.replace(first, stated=False)
     for one in named:
         value = one.value * (1e3 if one.unit == "kHz" else 1.0)
-        sampled = one.unit in ("Hz", "kHz") and _SAMPLED.search(one.name)
-        if value >= LEAST_RATE and (_key(one.name) == "rate" or sampled):
+        likely = _key(one.name) == "rate" or one.unit in ("Hz", "kHz")
+        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
             return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
     match = re.search(
         r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower()
@@ -219,7 +227,7 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
                 taken = f"{words}, taken as {unit}"
                 found.append(Finding(value * SPEEDS[unit], taken, False, unit=unit))
-        elif key == "rate" and value < LEAST_RATE:
+        elif key == "rate" and value < LEAST_RATE and one.unit != "kHz":
             stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
             found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
     match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())

@@ -49,7 +49,7 @@ def read(
         return _text(name, content, most_numbers, most_columns)
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
-    if content[:4] == b"PK\x03\x04" and not name.lower().endswith(".npz"):
+    if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
         inside, content = libraries.unzipped(name, content)
         about, columns = read(inside, content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + inside)}/{inside}", **about}, columns

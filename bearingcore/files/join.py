@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -40,18 +41,17 @@ def join_tables(tables: Sequence[Table]) -> Table:
     if sum(one.columns.size for one in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
     columns = np.concatenate([one.columns for one in tables])
-    starts = np.cumsum([len(one.columns) for one in tables])[:-1]
+    ends = np.cumsum([len(one.columns) for one in tables])
     timed = [i for i, column in enumerate(first.contents.columns) if column.role == TIME]
-    anew = not timed
-    for index in timed:
-        for start in starts if len(timed) == 1 else ():
-            time = columns[:, index]
-            step = float(np.nanmedian(np.diff(time[:start])))
-            if abs(time[start] - time[0]) < 0.5 * step or index in first.stamps:
-                columns[start:, index] += time[start - 1] + step - time[start]
-                anew = True
-            elif time[start] <= time[start - 1]:
-                raise checks.refuse("tables", "not in their order", "files in the order of times")
+    anew = len(timed) != 1
+    for start, end in pairwise(ends) if len(timed) == 1 else ():
+        time = columns[:, timed[0]]
+        step = float(np.nanmedian(np.diff(time[:start])))
+        if abs(time[start] - time[0]) < 0.5 * step or timed[0] in first.stamps:
+            time[start:end] += time[start - 1] + step - time[start]
+            anew = True
+        elif time[start] <= time[start - 1]:
+            raise checks.refuse("tables", "not in their order", "files in the order of their times")
     notes = [note for one in tables for note in one.notes]
     if len(tables) > 1:
         gap = " as if nothing were missing between them" if anew else ""

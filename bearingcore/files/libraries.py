@@ -81,11 +81,21 @@ def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
                     "file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB"
                 )
             inside = packed.read(one)
-            if inside[:4] == b"PK\x03\x04" and not one.filename.lower().endswith(".npz"):
+            if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
                 raise checks.refuse("file", name, "no zip inside a zip: unpack it")
             return one.filename, inside
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError):
         raise checks.refuse("file", name, "a whole zip without a password") from None
+
+
+def is_npz(content: bytes) -> bool:
+    """Whether a zip is of NumPy's arrays."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            names = packed.namelist()
+    except (zipfile.BadZipFile, NotImplementedError, OSError):
+        return False
+    return bool(names) and all(name.endswith(".npy") for name in names)
 
 
 def _npy(content: bytes, found: Variables) -> None:
@@ -151,10 +161,15 @@ def _uff(content: bytes, found: Variables) -> None:
     # it takes names of files alone, and this process writes none
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
-    for index, one in enumerate(sets if isinstance(sets, list) else [sets]):
-        if one.get("type") != 58 or one["func_type"] not in _TIME_RESPONSE:
-            continue
+    sets = [
+        one
+        for one in (sets if isinstance(sets, list) else [sets])
+        if one.get("type") == 58 and one["func_type"] in _TIME_RESPONSE
+    ]
+    points = {one.get("rsp_node") for one in sets}
+    for index, one in enumerate(sets):
         said = [one.get("id1", ""), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
+        said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
         path = " ".join(word.strip() for word in said if word and word.strip() != "NONE")
         path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
         found.add(path, np.asarray(one["data"]))

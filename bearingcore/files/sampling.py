@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.common.numbers import count, number, thousands, with_prefix
+from bearingcore.files.facts import GREATEST_STATED, LEAST_STATED
 from bearingcore.files.units import TIMES
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -61,9 +62,6 @@ class Sampling:
     reason: str = "the time column"
 
 
-LEAST_RATE, GREATEST_RATE = 100.0, 5e6
-"""[Hz] of recordings of vibration; times that give another one are asked about."""
-
 LIKELY_RATES = 500.0, 1e6
 """[Hz]"""
 
@@ -85,19 +83,18 @@ def times_of(time: NDArray[np.float64], unit: str | None = None) -> Sampling:
     if unit is None and dated is not None:
         found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
     rate = found.sample_rate
-    if rate is None or LEAST_RATE <= rate <= GREATEST_RATE:
+    if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
         return found
     per_second = rate * TIMES[unit or dated or "s"]
-    trouble = f"{found.trouble} Its times make {number(rate, 6)} Hz if they are in "
-    trouble += f"{unit or dated or 's'}, which is no rate of a recording of vibration."
     low, high = LIKELY_RATES
     likely = next((name for name in _PARTS if low <= per_second / TIMES[name] <= high), None)
-    reason = found.reason
-    if likely is not None:
-        rate, reason = per_second / TIMES[likely], f"the time column, if it is in {likely}"
-    return dataclasses.replace(
-        found, sample_rate=rate, stated=False, trouble=trouble.strip(), reason=reason
-    )
+    said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
+    if likely is None:
+        reason = f"{found.reason}; no recording of vibration is so: in {said}"
+        return dataclasses.replace(found, stated=False, reason=reason)
+    reason = f"{found.reason}, if it is in {likely}; in {said}"
+    rate = per_second / TIMES[likely]
+    return dataclasses.replace(found, sample_rate=rate, stated=False, reason=reason)
 
 
 _PARTS = ("s", "ms", "µs", "ns")
@@ -122,7 +119,7 @@ def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
             return Sampling(None, False, 0, n, "There are gaps in the time column.")
         part = sampling_of(time[first:last], unit)
         trouble = (
-            f"Times are missing in {thousands(n - np.isfinite(time).sum())} rows. Only the longest "
+            f"Times are missing in {count(int(np.isnan(time).sum()), 'row')}. Only the longest "
             f"whole part is used: rows {first + 1} to {last} of {n}. {part.trouble}"
         )
         return dataclasses.replace(

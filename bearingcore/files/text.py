@@ -81,15 +81,16 @@ def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -
         content = content.decode("utf-16", "replace").encode()
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
-    content = content.removeprefix(b"\xef\xbb\xbf")
+    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
     if width > most_columns:
-        columns = _rows(content[begin:], style, width, most_columns)
-        if columns is None or columns.size > most_numbers:
+        turned = _rows(content[begin:], style, width, most_columns)
+        if turned is None or turned[0].size > most_numbers:
             raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
-        return TextTable(columns, None, remarks, [], [])
+        columns, names = turned
+        return TextTable(columns, names or _headings(remarks, style, columns), remarks, [], [])
     notes: list[str] = []
     most_rows = most_numbers // width + 1
     read = _numbers(content[begin:], style, width, most_rows)
@@ -259,6 +260,11 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
         return None
     words = _columns_of_words(plain, style.delimiter)
     first = _row(plain[0], style.delimiter, words)
+    if first is None and len(plain) == SAMPLE and style.delimiter is not None:
+        # LabVIEW's comment is at the end of the first row alone
+        second = _row(plain[1], style.delimiter) or []
+        line = style.delimiter.join(_cells(plain[0], style.delimiter)[: len(second)])
+        first = _row(line, style.delimiter) if len(second) > 1 else None
     if first is None:
         return None
     closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
@@ -275,9 +281,11 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
 
 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
-    """Columns in which every one of many lines has a word, beside others of numbers."""
+    """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
     rows = [_cells(line, delimiter) for line in lines]
-    if len(rows) < SAMPLE or len({len(row) for row in rows}) > 1:
+    if (len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES) or len(
+        {len(row) for row in rows}
+    ) > 1:
         return ()
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
@@ -318,18 +326,15 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_REMARK])
         elif bare:
             begin = begin or bare
-            if _NUMBERED.fullmatch(_decoded(line)):
-                remarks.append(_decoded(line))
-                place += len(line)
-                continue
             rest = io.BytesIO(content)
             rest.seek(place)
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
-            found = _style(sample, remarks[-1] if remarks else "")
+            numbered = _is_numbered(sample)
+            found = None if numbered else _style(sample, remarks[-1] if remarks else "")
             if found is not None:
                 return *_one_column(*found, sample, remarks), place, remarks
             words += 1
-            remarks.append(bare[:LONGEST_REMARK])
+            remarks.append(_decoded(line) if numbered else bare[:LONGEST_REMARK])
             if words > MOST_HEADINGS:
                 break
         place += len(line)
@@ -338,8 +343,13 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
     raise checks.refuse(f"start of {name}", begin[:40], "a table of numbers, headings above it")
 
 
-_NUMBERED = re.compile(r'(?:"")?([,;\t])"?0"?(?:\1"?\d+"?)*')
-"""The headings of a data frame whose columns have numbers for names."""
+def _is_numbered(lines: Sequence[str]) -> bool:
+    """Whether the first line is the headings of a data frame with numbers for names: 0, 1, 2."""
+    match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
+    names = re.findall(r"\d+", lines[0])
+    counted = names == [str(index) for index in range(len(names))]
+    named = match is not None and (match[1] or ("." in "".join(lines[1:2]) and len(names) > 1))
+    return bool(named and counted)
 
 
 def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
@@ -407,6 +417,9 @@ _WORDS_OF_A_ROW = {
 _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
+_BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
+
+
 def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] | None:
     """The cells of a heading, by any delimiter, if there are as many as columns.
 
@@ -418,9 +431,9 @@ def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] 
     for cells in (
         line.split(style.delimiter),
         *(line.split(delimiter) for delimiter in (";", "\t", ",")),
-        re.split(r"\s{2,}", line),
-        re.split(r"\s+(?![\[(])", line),
+        *(() if re.search(r"[,;\t]", line) else _BLANKS),
     ):
+        cells = re.split(cells, line) if isinstance(cells, str) else cells
         names = [cell.strip().strip('"').strip() for cell in cells]
         while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
             names.pop()  # LabVIEW names a column of words, which is empty
@@ -469,14 +482,10 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
         frame[index] = np.nan
     columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
-    if unsure and _wrong_line(body, style, width) is not None:
+    lines = io.BytesIO(body)
+    if unsure and next(_wrong_lines(lines, style, width), None) is not None:
         return None  # pandas fills short lines
     return columns[:, :width]
-
-
-def _wrong_line(body: bytes, style: _Style, width: int) -> tuple[int, str, str] | None:
-    """The first line that is not `width` numbers and gaps: its number, it, and what it lacks."""
-    return next(_wrong_lines(io.BytesIO(body), style, width), None)
 
 
 def _wrong_lines(
@@ -490,10 +499,12 @@ def _wrong_lines(
         cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
-        if len(cells) != width:
-            yield index, text.strip(), f"{width} columns as in the first"
-        elif _row("\n".join(cells), "\n", style.words) is None and any(cells):
+        words = [_number(cell) is None for cell in cells]
+        if any(word for i, word in enumerate(words[:width]) if i not in style.words):
             yield index, text.strip(), "numbers"
+        elif len(cells) != width:
+            comment = len(cells) > width and all(words[width:])
+            yield index, text.strip(), "" if comment else f"{width} columns as in the first"
 
 
 def _mended(
@@ -505,30 +516,40 @@ def _mended(
     """
     lines = body.splitlines(keepends=True)
     most = int(MOST_WRONG * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
-    wrong = list(islice(_wrong_lines(lines, style, width), most + 1))
-    if not wrong or len(wrong) > most:
-        index, text, allowed = wrong[0] if wrong else (0, "", "numbers")
-        raise checks.refuse(f"line {above + index} of {name}", text[:40], allowed)
+    wrong: list[tuple[int, str, str]] = []
+    for index, text, allowed in _wrong_lines(lines, style, width):
+        if not allowed:  # numbers, and a comment behind them
+            lines[index] = (style.delimiter or " ").join(
+                _decoded(lines[index]).split(style.delimiter)[:width]
+            ).encode("latin-1", "replace") + b"\n"
+            continue
+        wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
+        if len(wrong) > most:
+            raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
     notes = []
-    if wrong[-1][0] == len(lines) - 1:
-        notes.append(f"The last line, “{wrong.pop()[1][:40]}”, is cut off: it is not used.")
+    if wrong and wrong[-1][0] == len(lines) - 1:
+        notes.append(f"The last line, “{wrong.pop()[1]}”, is cut off: it is not used.")
         lines.pop()
-    gap = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
     for index, _, _ in wrong:
-        lines[index] = gap
+        lines[index] = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
     if wrong:
         index, text, _ = wrong[0]
         number = "One line holds" if len(wrong) == 1 else f"{thousands(len(wrong))} lines hold"
-        first = f"line {above + index}, “{text[:40]}”"
+        first = f"line {above + index}, “{text}”"
         notes.append(f"{number} no numbers ({first}) and count as missing.")
     return b"".join(lines), notes
 
 
-def _rows(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[np.float64] | None:
-    """Signals that are written in a row each, as columns; None where they are no such rows."""
+def _rows(
+    body: bytes, style: _Style, width: int, most_rows: int
+) -> tuple[NDArray[np.float64], list[str] | None] | None:
+    """Signals that are written in a row each, as columns with their names; None for others."""
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
-    rows = [_row(style.plain(line).rstrip(" "), style.delimiter) for line in lines]
+    plain = [style.plain(line).rstrip(" ") for line in lines]
+    rows = [_row(line, style.delimiter, style.words) for line in plain]
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
         return None
-    return np.array(whole).T
+    named = style.words == (0,)
+    names = [_cells(line, style.delimiter)[0] for line in plain] if named else None
+    return np.delete(np.array(whole).T, style.words, axis=0), names

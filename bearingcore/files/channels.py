@@ -90,7 +90,8 @@ def column_of(name: str) -> Column:
     """Meaning of a column by its heading."""
     words = words_of(name)
     unit = unit_in(name)
-    bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name.strip())
+    leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
+    bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
     if unit is None and kind_of(unit_named(first) or "") == "time" and len(first) > 1 and not more:
         unit = unit_named(first)  # "milliseconds"

@@ -280,6 +280,7 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
         unit = facts.unit_of(end, text)
         if (
             unit is not None
+            and column.role == SIGNAL
             and column.unit is None
             and parent
             and parent in (of, column.name.lower())

@@ -230,7 +230,9 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         elif key == "rate" and value < LEAST_RATE and one.unit != "kHz":
             stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
             found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
-    match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())
+    match = re.search(
+        r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
+    )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
         found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, unit="rpm"))

@@ -322,7 +322,8 @@ def uff(tmp_path: Any, binary: int = 0) -> bytes:
         "ordinate_axis_units_lab": "g", "orddenom_spec_data_type": 0,
         "ordinate_spec_data_type": 12, "abscissa_spec_data_type": 17, "z_axis_axis_lab": "NONE",
     }  # fmt: skip
-    pyuff.UFF(str(path)).write_sets([one], "overwrite")
+    path.unlink(missing_ok=True)
+    pyuff.UFF(str(path)).write_sets([one], "add")
     return bytes(path.read_bytes())
 
 

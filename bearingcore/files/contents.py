@@ -267,7 +267,8 @@ def _with_times(
 
 
 _LABELS = re.compile(
-    r"(?i)(.*\.)?([a-z]+[ _]?)?(names?|labels?|channels?|sensors?|columns|headings?)\{\d+\}"
+    r"(?i)(.*\.)?([a-z0-9]+[ _]?)?"
+    r"(names?|labels?|channels?|sensors?|columns|items|headings?)\{\d+\}"
 )
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 

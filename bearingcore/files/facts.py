@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import islice, takewhile
+from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
 from bearingcore.files.units import FORCES, SPEEDS, TIMES, unit_in, unit_named
@@ -89,7 +89,8 @@ _RATES = {
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
-    "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval", "tinterval",
+    "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
+    "tinterval",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -115,7 +116,18 @@ FASTEST_IN_HZ = 150.0
 
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
-    return [one for line in islice(lines, MOST_REMARKS) for one in _in_line(line.strip())]
+    kept = [line.strip() for line in islice(lines, MOST_REMARKS)]
+    under = [one for pair in pairwise(kept) for one in _under(*pair)]
+    return [*(one for line in kept for one in _in_line(line)), *under]
+
+
+def _under(names: str, values: str) -> Iterator[Named]:
+    """A rate or an interval under its name, in a cell of an oscilloscope's headings."""
+    above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
+    for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
+        value = _number(text) if re.fullmatch(_NUMBER, text) else None
+        if value is not None and _rate_key(name) in _RATES | _INTERVALS:
+            yield Named(name, value, unit_in(name))
 
 
 def _in_line(line: str) -> Iterator[Named]:
@@ -141,6 +153,13 @@ def _in_line(line: str) -> Iterator[Named]:
         value = _number(text)
         if value is not None:
             yield Named(name.strip(), value, unit_named(unit) if unit else unit_in(name))
+
+
+def names_a_fact(line: str) -> bool:
+    """Whether a line says a rate, a speed or a load."""
+    keys = {_rate_key(one.name) for one in named_in([line])}
+    known = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS
+    return bool(keys & known) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
 def _number(text: str) -> float | None:

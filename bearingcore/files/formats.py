@@ -46,7 +46,7 @@ def read(
         for a damaged, empty or mis-shaped file.
     """
     if content and text_only:
-        return _text(name, content, most_numbers, most_columns)
+        return read_text(name, content, most_numbers, most_columns)
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
@@ -76,7 +76,7 @@ def read(
     ):
         kind, walk = "MATLAB file", _walk_matlab
     else:
-        return _text(name, content, most_numbers, most_columns)
+        return read_text(name, content, most_numbers, most_columns)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -88,13 +88,6 @@ def read(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
     return found.table(name, kind, most_numbers, most_columns)
-
-
-def _text(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
-    found = read_text(name, content, most_numbers, most_columns)
-    names = found.headings or [f"column {i + 1}" for i in range(found.columns.shape[1])]
-    about = {"names": names, "remarks": found.remarks, "headed": found.headings is not None}
-    return {**about, "stamps": found.stamps, "notes": found.notes}, found.columns
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
@@ -135,10 +128,12 @@ class Variables:
         """Keep a real matrix or a word; anything else is passed over."""
         if value.dtype.kind in "iuf" and value.ndim <= 2:
             self.numbers[path] = np.atleast_2d(value)
-        elif value.dtype.kind in "OSU" and value.size and len(self.texts) < MOST_SCALARS:
-            first = value.ravel()[0]
-            text = first.decode("utf-8", "replace") if isinstance(first, bytes) else str(first)
-            self.texts[path] = text[:LONGEST_TEXT].strip()
+        elif value.dtype.kind in "OSU":
+            words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
+            for index, word in enumerate(words):
+                text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
+                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
+                self.texts[of] = text[:LONGEST_TEXT].strip()
 
     def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
         """Vectors and matrices about as long as the longest as columns, and the rest."""
@@ -266,7 +261,8 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         found.add(path, _as_in_matlab(item))
     for name, value in item.attrs.items():
-        if np.size(value) == 1 and not name.startswith(_OF_THE_FORMAT):
+        word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
+        if word and not name.startswith(_OF_THE_FORMAT):
             found.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 

@@ -10,6 +10,7 @@ import io
 import os
 import re
 import zipfile
+import zlib
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 from unittest.mock import patch
@@ -84,7 +85,7 @@ def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
             if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
                 raise checks.refuse("file", name, "no zip inside a zip: unpack it")
             return one.filename, inside
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError):
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError):
         raise checks.refuse("file", name, "a whole zip without a password") from None
 
 

@@ -5,6 +5,7 @@ Runs in the process of `child` alone. Each value has a head of lines such as "# 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -75,9 +76,11 @@ def _value(text: _Lines, path: str, keep: Keep, depth: int) -> None:
     if depth > DEEPEST:
         raise ValueError("structs inside one another")
     kind = text.said("type")
+    if "complex" in kind or "sparse" in kind:
+        return
     if kind in ("scalar struct", "cell"):
-        inside = int(text.said("length")) if kind == "scalar struct" else 0
-        inside = inside or int(text.said("rows")) * int(text.said("columns"))
+        keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
+        inside = math.prod(int(text.said(key)) for key in keys)
         for index in range(inside):
             name = text.said("name")
             part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
@@ -85,11 +88,15 @@ def _value(text: _Lines, path: str, keep: Keep, depth: int) -> None:
     elif kind in ("string", "sq_string"):
         if int(text.said("elements")):
             keep(path, np.array([text.take(2)[1]]))
-    elif kind.endswith("scalar") and "complex" not in kind:
+    elif kind.endswith("scalar"):
         keep(path, text.numbers(1))
     elif kind.endswith("range"):
         base, limit, step = text.numbers_after("base, limit, increment")
         keep(path, base + step * np.arange(round((limit - base) / step) + 1))
-    elif kind in ("matrix", "float matrix") and text.holds("rows"):
-        rows, width = int(text.said("rows")), int(text.said("columns"))
-        keep(path, text.numbers(rows).reshape(rows, width))
+    elif kind.endswith("matrix") and text.holds("rows"):
+        shape = int(text.said("rows")), int(text.said("columns"))
+        keep(path, text.numbers(shape[0]).reshape(shape))
+    elif kind.endswith("matrix") and text.holds("ndims"):  # of whole numbers, or of more dimensions
+        text.said("ndims")
+        sizes = text.numbers(1).astype(int).tolist()
+        keep(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))

@@ -97,7 +97,7 @@ def times_of(time: NDArray[np.float64], unit: str | None = None) -> Sampling:
     return dataclasses.replace(found, sample_rate=rate, stated=False, reason=reason)
 
 
-_PARTS = ("s", "ms", "µs", "ns")
+_PARTS = ("s", "ms", "µs", "ns", "d")
 
 
 def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:

@@ -14,13 +14,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from itertools import islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.files.facts import named_in
+from bearingcore.files.facts import named_in, names_a_fact
 from bearingcore.files.units import UNITS, unit_in
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -37,40 +38,24 @@ READABLE = (
     "text with numbers (CSV, TXT, LVM), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, Parquet, or "
     "a zip of one of these; export it as CSV where it is none of them"
 )
-"""What can be read."""
+"""Formats of files."""
 
 MOST_WRONG = 0.01
 """Share of lines without numbers, from which on a text is no table."""
 
 
-@dataclass(frozen=True)
-class TextTable:
-    """The table in a text.
+def read_text(
+    name: str, content: bytes, most_numbers: int, most_columns: int
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
-    Attributes
-    ----------
+    Returns
+    -------
+    about
+        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
         Columns of words, and empty ones, are left out.
-    headings
-        of the columns; None where there are none that fit.
-    remarks
-        the lines above the numbers, headings among them.
-    stamps
-        columns that were dates or times of day.
-    notes
-        sentences on lines that were not read.
-    """
-
-    columns: NDArray[np.float64]
-    headings: list[str] | None
-    remarks: list[str]
-    stamps: list[int]
-    notes: list[str]
-
-
-def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -> TextTable:
-    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Raises
     ------
@@ -82,6 +67,8 @@ def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[[\s\[]*-?\.?\d", content):  # a list, as Python and JSON write it
+        content = content.replace(b"],", b"\n").translate(None, b"[]")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
@@ -90,7 +77,7 @@ def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -
         if turned is None or turned[0].size > most_numbers:
             raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
         columns, names = turned
-        return TextTable(columns, names or _headings(remarks, style, columns), remarks, [], [])
+        return _about(columns, names or _headings(remarks, style, columns), remarks)
     notes: list[str] = []
     most_rows = most_numbers // width + 1
     read = _numbers(content[begin:], style, width, most_rows)
@@ -111,14 +98,24 @@ def read_text(name: str, content: bytes, most_numbers: int, most_columns: int) -
     if len(kept) < width and kept:
         read = read[:, kept]
         headings = headings and [headings[i] for i in kept]
-    return TextTable(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+    return _about(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+
+
+def _about(
+    columns: NDArray[np.float64], headings: list[str] | None, remarks: list[str], *more: list[Any]
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
+    fields = {"names": names, "remarks": remarks, "headed": headings is not None}
+    return {**fields, **dict(zip(("stamps", "notes"), more, strict=False))}, columns
 
 
 # -- how numbers are written -----------------------------------------------------------------------
 
-_DATE = r"(?:\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4})[T _;,\t]+"
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
+_DATE = rf"(?:{_DAY})[T _;,\t]+"
 _SECOND = rf"((?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d)"
-_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d)?"
+_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d|\s?[AP]M\b)?"
 _POINT_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}(\.\d+)?{_ZONE}")
 _COMMA_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}([.,]\d+)?{_ZONE}")
 
@@ -160,7 +157,10 @@ class _Clock:
 
 def _day(text: str) -> int:
     """Number of a day; ValueError for one that is in no calendar."""
-    one, two, three = (int(number) for number in re.split(r"[-/.]", text))
+    parts = re.split(r"[-/.]", text.lower())
+    if parts[1] in _MONTHS:
+        return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
+    one, two, three = (int(number) for number in parts)
     if one > 31:
         return date(one, two, three).toordinal()
     american = "/" in text and two <= 31 and one <= 12
@@ -186,6 +186,8 @@ class _Style:
     def plain(self, text: str) -> str:
         """Text with points in its numbers, without quotation marks, times as seconds."""
         text = text.replace('"', "")
+        if " sec" in text:
+            text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
             text = self.stamp.sub(self.clock, text)
         return text.replace(",", ".") if self.decimal_comma else text
@@ -195,6 +197,7 @@ _STYLES = (
     _Style(";", True),
     _Style("\t", True),
     _Style(",", False),
+    _Style("|", False),
     _Style(None, False),
     _Style(None, True),
 )
@@ -262,7 +265,7 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     first = _row(plain[0], style.delimiter, words)
     if first is None and len(plain) == SAMPLE and style.delimiter is not None:
         # LabVIEW's comment is at the end of the first row alone
-        second = _row(plain[1], style.delimiter) or []
+        second = _row(plain[1].rstrip(f"{style.delimiter} "), style.delimiter) or []
         line = style.delimiter.join(_cells(plain[0], style.delimiter)[: len(second)])
         first = _row(line, style.delimiter) if len(second) > 1 else None
     if first is None:
@@ -381,7 +384,7 @@ def _headings(
     """
     width = columns.shape[1]
     # a rate or a speed is no name; the place of a line that names two columns is the last
-    lines = [line for line in remarks if width > 1 or not _is_remark(line)][-3:]
+    lines = [line for line in remarks if not _is_remark(line, style, width)][-3:]
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
@@ -400,8 +403,12 @@ def _headings(
     return [name or f"column {index + 1}" for index, name in enumerate(names)]
 
 
-def _is_remark(line: str) -> bool:
-    """Whether a line says something else than the name of a column."""
+def _is_remark(line: str, style: _Style, width: int) -> bool:
+    """Whether a line says something else than the names of columns."""
+    if width > 1:
+        single = [cell for cell in _cells(line, style.delimiter) if cell]
+        numbers = ":" in line or "=" in line or any(_number(cell) is not None for cell in single)
+        return numbers and names_a_fact(line)
     if unit_in(line) in UNITS and re.search(r"[\[(]", line):
         return False
     return bool(named_in([line])) or ":" in line or "=" in line or len(line) > LONGEST_HEADING

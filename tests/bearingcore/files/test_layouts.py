@@ -236,6 +236,65 @@ def test_words_in_many_lines_are_still_refused_with_the_first() -> None:
         read("\n".join(lines))
 
 
+LVM = """LabVIEW Measurement\t
+Separator\tTab
+X_Columns\tNo
+Date\t2024/01/01
+Time\t10:00:00,45
+***End_of_Header***\t
+
+Channels\t2\t\t
+Samples\t2000\t2000\t
+Delta_X\t1,25E-4\t1,25E-4\t
+Y_Unit_Label\tg\tg\t
+***End_of_Header***\t\t\t
+X_Value\tDE\tNDE\tComment
+"""
+
+
+def test_a_first_column_that_is_empty_and_decimal_commas() -> None:
+    lines = [f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL]
+    made = read(LVM + "\n".join(lines), "a.lvm")
+    assert made.names == ("DE", "NDE")
+    assert made.contents.sample_rate.value == RATE
+    assert made.contents.unit.value == "g"
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        lambda i: f"1/1/2024 10:00:00.{125 * i:06d} AM",
+        lambda i: f"01-Jan-2024 10:00:00.{125 * i:06d}",
+        lambda i: f"{125e-6 * i:.6g} sec",
+        lambda i: f"0 days 00:00:00.{125 * i:06d}",
+        lambda i: f"01.01.2024 10:00:00.{125 * i:06d}+01:00",
+    ],
+)
+def test_dates_and_durations_as_programs_write_them(when) -> None:
+    check_one_signal(read("Time,acc\n" + "\n".join(
+        f"{when(i)},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0]))))  # fmt: skip
+
+
+def test_days_are_a_question() -> None:
+    lines = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    rate = read("Time,acc\n" + "\n".join(lines)).contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE, rel=1e-4), False)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    ["X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000"],
+)
+def test_a_rate_above_columns_that_count(heading: str) -> None:
+    lines = [f"{i},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0])]
+    check_one_signal(read(f"{heading}\n" + "\n".join(lines)))
+
+
+def test_lists_of_numbers_are_columns() -> None:
+    check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
+    check_one_signal(read(json.dumps(FRAME.to_numpy().tolist()), "a.json"))
+
+
 def matlab(**variables: Any) -> bytes:
     file = io.BytesIO()
     savemat(file, variables)

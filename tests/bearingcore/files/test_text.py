@@ -28,7 +28,7 @@ def read(text: str | bytes):
     ],
 )
 def test_habits(text, columns) -> None:
-    np.testing.assert_array_equal(read(text).columns, columns)
+    np.testing.assert_array_equal(read(text)[1], columns)
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,10 @@ def test_habits(text, columns) -> None:
     ],
 )
 def test_headings(text, headings) -> None:
-    assert read(text).headings == (None if headings is None else list(headings))
+    about = read(text)[0]
+    assert (about["names"] if about["headed"] else None) == (
+        None if headings is None else list(headings)
+    )
 
 
 @pytest.mark.parametrize(
@@ -59,9 +62,9 @@ def test_headings(text, headings) -> None:
     ],
 )
 def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
-    table = read(text)
-    assert table.stamps == [0]
-    np.testing.assert_allclose(table.columns, np.column_stack([seconds, [1, 2]]))
+    about, columns = read(text)
+    assert about["stamps"] == [0]
+    np.testing.assert_allclose(columns, np.column_stack([seconds, [1, 2]]))
 
 
 @pytest.mark.parametrize(

@@ -132,7 +132,7 @@ def _under(names: str, values: str) -> Iterator[Named]:
 
 def _in_line(line: str) -> Iterator[Named]:
     match = _REMARK.fullmatch(line)
-    cells = [cell.strip(' "') for cell in re.split(r"[\t;,]", line)]
+    cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     if match is not None:
         found = [match.groups()]
     elif len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None:

@@ -33,6 +33,9 @@ from bearingcore.signals.recording import FEWEST_SAMPLES
 USUAL_LEVEL = 5.0
 """[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
 
+TWO_RATES = 0.01
+"""Relative difference from which on a column of times and a remark give two sample rates."""
+
 GRAVITY_SHARE = 0.1
 """Relative difference to gravity up to which a mean is taken for it."""
 
@@ -318,6 +321,11 @@ def _rate(
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    if timed and said and timed.stated and said.stated:
+        if abs(timed.value / said.value - 1.0) > TWO_RATES:
+            reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+            return dataclasses.replace(timed, reason=reason, stated=False)
+        return timed
     for finding in (timed, said):
         if finding is not None and finding.stated:
             return finding

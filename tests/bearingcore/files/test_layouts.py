@@ -85,6 +85,13 @@ def test_a_rate_that_is_not_sure_is_asked_about(remark: str, likely: float) -> N
     assert (rate.value, rate.stated) == (likely, False)
 
 
+def test_two_rates_that_disagree_are_asked_about() -> None:
+    text = b"# fs = 12000 Hz\n" + rows(TIME, SIGNAL[:, 0], heading="time,acc")
+    rate = read(text).contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
+    assert "“fs” in the file is 12000 Hz" in rate.reason
+
+
 @pytest.mark.parametrize(
     ("content", "rate"),
     [

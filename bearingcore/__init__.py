@@ -18,7 +18,9 @@ from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.files.by_hand import read_recording
 from bearingcore.files.floor import read_floor
+from bearingcore.files.join import join_tables
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor
@@ -89,6 +91,7 @@ __all__ = [
     "film",
     "frequency_bands",
     "indicators",
+    "join_tables",
     "kurtogram",
     "life",
     "limits",
@@ -100,6 +103,7 @@ __all__ = [
     "read_catalogue",
     "read_designation",
     "read_floor",
+    "read_recording",
     "read_table",
     "scene_of",
     "simulate",

@@ -33,6 +33,8 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     about, columns = read_file(
         "the floor", text.encode("utf-8", "replace"), text_only=True, most_numbers=2 * MOST_ROWS
     )
+    if about.get("notes"):
+        raise checks.refuse("the floor", about["notes"][0], "numbers in every line")
     if columns.shape[1] != 2:
         raise checks.refuse(
             "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.scene.defect import RACES, path_tables
+from bearingcore.scene.defect import path_tables
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 
 Array = NDArray[np.float64]
@@ -97,8 +97,11 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
     defects, bearing = scene.defects, scene.bearing
     rows, every = own_rows(bearing), contacts(bearing)
     whole = path_tables(defects, bearing)
-    cut = {defect.race for defect in defects}
-    ways = [whole if cut == {race} else path(scene, race) for race in RACES[::-1]]
+    ways = []
+    for race in ("inner", "outer"):
+        own = tuple(defect for defect in defects if defect.race == race)
+        alone = len(own) == len(defects)
+        ways.append(whole if alone else path_tables(own, bearing) if own else HEALTHY_PATH)
     of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
     return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
 

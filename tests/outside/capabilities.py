@@ -11,9 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bearing_explorer.views.paper_figures as paper
+
 import bearingcore
 from bearingcore import signals
 from bearingcore.bearings import KINDS
+from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.scene.defect import EDGES, RACES
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor
 from bearingcore.scene.scene import BALLS, CONTACT_LAWS, DOF_NAMES
@@ -28,14 +30,17 @@ ASPECTS = (
 )
 """What a kind of bearing is computed for."""
 
-NOT_A_NUMBER = {"warm", "preset_notes"}
-"""Functions of the front that give no number: kernels compiled ahead, notes in words."""
+NOT_A_NUMBER = {"warm"}
+"""Functions of the front that give no number: kernels compiled ahead."""
 
 PARTS = {
     *("check_samples", "check_directions", "hann", "split", "thinned", "coefficients"),
     *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
+    *("followed", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),
+    *("whiten", "density_difference"),
 }
-"""Functions of `signals` that only serve others there, which are listed."""
+"""Functions of `signals` whose results are shown nowhere by themselves: they serve others there and
+the diagnosis, which are listed."""
 
 
 def functions_of_signals() -> Iterator[str]:
@@ -51,17 +56,19 @@ def functions_of_signals() -> Iterator[str]:
 def charts() -> list[str]:
     """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
-    names = {name for chart in shipped for name in chart["experiments"]}
-    return sorted(names | {key for chart in shipped for key in ("orbits", "stability") if chart[key]})
+    found = {name for chart in shipped for name in chart["experiments"]}
+    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(found)
 
 
 def capabilities() -> dict[str, list[str]]:
     """Capabilities by the heading that they stand under."""
-    fields = [field.name for field in dataclasses.fields(Indicators)]
+    words = ("directions", "velocity_reason")
+    fields = [one.name for one in dataclasses.fields(Indicators) if one.name not in words]
     front = [
         name
         for name in bearingcore.__all__
-        if inspect.isfunction(getattr(bearingcore, name)) and name not in NOT_A_NUMBER
+        if name.islower() and callable(getattr(bearingcore, name)) and name not in NOT_A_NUMBER
     ]
     choices = {
         "edge": EDGES,
@@ -69,6 +76,7 @@ def capabilities() -> dict[str, list[str]]:
         "floor": ("flat", RoughFloor.kind, MeasuredFloor.kind),
         "law": CONTACT_LAWS,
         "balls": BALLS,
+        "material": BALL_MATERIALS,
         "direction": DOF_NAMES,
         "defects": ("several",),
         "load": [*(field.name for field in dataclasses.fields(bearingcore.Load)), "unbalance"],
@@ -80,7 +88,11 @@ def capabilities() -> dict[str, list[str]]:
         "Model choices": [f"{kind}: {one}" for kind, names in choices.items() for one in names],
         "Outputs of sweeps": [f"output: {name}" for name in OUTPUTS],
         "Signals": [
-            *(f"indicator: {name}" for name in fields if name not in ("directions", "velocity_reason")),
+            *(
+                f"indicator: {name}"
+                for name in fields
+                if name not in ("directions", "velocity_reason")
+            ),
             *(f"signal: {name}" for name in functions_of_signals()),
         ],
         "Charts of accuracy": [f"chart: {name}" for name in charts()],

@@ -5,7 +5,7 @@ Inside dimensions are those of the presets' notes, written down again here; K is
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ class Case(NamedTuple):
 
 def balls(
     name: str, count: int, D: float, pitch: float, angle: float, force: tuple[float, ...],
-    clearance: float, defect: tuple[float, float], free: list[int], **rows: object,
+    clearance: float, defect: tuple[float, float], free: list[int], **rows: Any,
 ) -> Case:  # fmt: skip
     """Rows of balls in grooves of 0.52 and 0.53 diameters, their middles at `at`."""
     ca, sa = math.cos(angle), math.sin(angle)
@@ -48,11 +48,20 @@ def balls(
     inner = 0.02 * D
     if "at" in rows:
         facing = rows["facing"]
-        rows["places"] = tuple(z + s * inner * sa for z, s in zip(rows.pop("at"), facing))  # type: ignore[call-overload, arg-type]
+        middles = zip(rows.pop("at"), facing, strict=True)
+        rows["places"] = tuple(z + s * inner * sa for z, s in middles)
     hurt = Defect(math.radians(defect[0]), defect[1], 0.5 * (pitch + D))
     own = Rows(
-        count, D, angle, 0.5 * pitch + inner * ca, 0.05 * D, clearance, (K, 1.5), defect=hurt, **rows
-    )  # type: ignore[arg-type]
+        count,
+        D,
+        angle,
+        0.5 * pitch + inner * ca,
+        0.05 * D,
+        clearance,
+        (K, 1.5),
+        defect=hurt,
+        **rows,
+    )
     gamma = D * ca / pitch
     return Case(presets[name], own, free, np.array(force), 0.5 * (1.0 - gamma), curvatures)
 
@@ -81,15 +90,13 @@ def self_aligning() -> Case:
 
 def rollers(
     name: str, count: int, D: float, length: float, pitch: float, angle: float,
-    force: tuple[float, ...], defect: tuple[float, float], free: list[int], **rows: object,
+    force: tuple[float, ...], defect: tuple[float, float], free: list[int], **rows: Any,
 ) -> Case:  # fmt: skip
     """ISO 16281: c_L = 35 948 l^(8/9) N/mm^(10/9), l in mm, both contacts of a roller together."""
     K = 35_948.0 * (1e3 * length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0)
     ca = math.cos(angle)
     hurt = Defect(math.radians(defect[0]), defect[1], 0.5 * (pitch + D * ca))
-    own = Rows(
-        count, D, angle, 0.5 * pitch, math.inf, law=(K, 10.0 / 9.0), defect=hurt, **rows
-    )  # type: ignore[arg-type]
+    own = Rows(count, D, angle, 0.5 * pitch, math.inf, law=(K, 10.0 / 9.0), defect=hurt, **rows)
     return Case(presets[name], own, free, np.array(force), 0.5 * (1.0 - D * ca / pitch), ())
 
 
@@ -121,7 +128,8 @@ MASS, GROUND, DAMPING = (
 
 
 @witness(
-    "* bearing: statics", "* bearing: stiffness", "direction: *", "edge: exact", "function: equilibrium",
+    "* bearing: statics", "* bearing: stiffness", "direction: *", "edge: exact",
+    "function: equilibrium",
     by="least energy of contacts by SciPy, second derivatives by complex steps",
     compared="loads, displacements and all stiffness terms at three cage angles", within=1e-5,
 )  # fmt: skip
@@ -157,18 +165,16 @@ def test_natural_frequencies(kind: str) -> None:
         matrices = []
         for bearing, ground in ((case.rows.stiffness(q, cage), GROUND), (C * e @ e.T, DAMPING)):
             b, o = bearing[at], np.diag(ground[case.free])
-            matrices.append(
-                np.block([[b, -b], [-b, b + o]]) / np.tile(MASS[case.free], 2)[:, None]
-            )
+            matrices.append(np.block([[b, -b], [-b, b + o]]) / np.tile(MASS[case.free], 2)[:, None])
         zero, one = np.zeros((2 * n, 2 * n)), np.eye(2 * n)
         values = np.linalg.eigvals(np.block([[zero, one], [-matrices[0], -matrices[1]]]))
         own = np.sort(np.abs(values[values.imag > 0.0])) / (2.0 * math.pi)
         assert np.sort(found.frequency[i]) == pytest.approx(own, rel=1e-5)
 
 
-def rig_of(case: Case, **more: object) -> Rig:
+def rig_of(case: Case, **more: Any) -> Rig:
     speed = case.scene.shaft_speed
-    return Rig(MASS, GROUND, DAMPING, speed, case.cage * speed, C, **more)  # type: ignore[arg-type]
+    return Rig(MASS, GROUND, DAMPING, speed, case.cage * speed, C, **more)
 
 
 @witness(
@@ -181,14 +187,15 @@ def rig_of(case: Case, **more: object) -> Rig:
 @kinds
 def test_motion(kind: str, law: str) -> None:
     case = CASES[kind]
-    # a defect that a ball enters soon
     unbalance = 2e-3 if law == "published" else 0.0
     scene = case.scene.replace(contact_damping=C, contact_law=law, unbalance=unbalance)
     motion = simulate(scene, 4e-3, 65536.0, step_rate=16 * 65536.0)
     turning = unbalance * scene.shaft_speed**2
     rig = rig_of(case, no_tension=law == "no tension", unbalance=turning)
     own = case.rows.march(rig, case.force, case.free, motion.time)
-    for found, expected in zip((motion.inner_displacement, motion.outer_displacement), own):
+    for found, expected in zip(
+        (motion.inner_displacement, motion.outer_displacement), own, strict=True
+    ):
         for ours, theirs in zip(found.T, expected.T, strict=True):
             swing = max(np.ptp(theirs), 1e-2 * np.ptp(expected))
             assert np.abs(ours - theirs).max() < 1e-3 * swing

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import fnmatch
 import importlib
-from pathlib import Path
 
 from tests.outside.capabilities import ROOT, capabilities
 from tests.outside.witness import CLAIMS, Claim
 
 HEAD = """# What it is checked against
 
-A row a capability: what from outside holds it, what was compared, how closely, and the test that repeats it. From outside is a published table or example, a program of other people, a measured record, or a computation from first principles that shares no code and no constant with this program. The list is made by `python -m tests.outside.trust` from the tests in `tests/outside` and from what the program offers, so that nothing new is without a row: a capability without a witness fails a test, unless it stands below as not checked.
+A row a capability: what from outside holds it, what was compared, how closely, and the test that \
+repeats it. From outside is a published table or example, a program of other people, a measured \
+record, or a computation from first principles that shares no code and no constant with this \
+program. The list is made by `python -m tests.outside.trust` from the tests and from what the \
+program offers, so that nothing new is without a row: a capability without a witness fails a test, \
+unless it stands below as not checked.
 """
 
 NOT_CHECKED: dict[str, str] = {}
@@ -49,24 +53,20 @@ def closeness(within: float | str) -> str:
 
 def as_markdown() -> str:
     """The document."""
-    lines = [HEAD]
     found = witnesses()
-    number = {
-        one.place: i + 1
-        for i, one in enumerate(dict.fromkeys(c for rows in found.values() for cs in rows.values() for c in cs))
-    }
-    lines += ["## Witnesses", ""]
+    number: dict[str, int] = {}
+    lines = [HEAD, "## Witnesses", ""]
     lines += ["| | witness | compared | within | test |", "| ---: | --- | --- | --- | --- |"]
-    seen: dict[str, Claim] = {c.place: c for rows in found.values() for cs in rows.values() for c in cs}
-    for place, one in sorted(seen.items(), key=lambda item: number[item[0]]):
-        lines.append(
-            f"| {number[place]} | {one.by} | {one.compared} | {closeness(one.within)} | {place} |"
-        )
+    for one in (one for rows in found.values() for held in rows.values() for one in held):
+        if one.place not in number:
+            number[one.place] = len(number) + 1
+            cells = (number[one.place], one.by, one.compared, closeness(one.within), one.place)
+            lines.append("| " + " | ".join(map(str, cells)) + " |")
     for heading, rows in found.items():
         lines += ["", f"## {heading}", "", "| capability | witnesses |", "| --- | --- |"]
         for name, held in rows.items():
-            cell = ", ".join(str(number[one.place]) for one in held) or "**not checked**: " + NOT_CHECKED.get(name, "")
-            lines.append(f"| {name} | {cell} |")
+            numbers = ", ".join(str(number[one.place]) for one in held)
+            lines.append(f"| {name} | {numbers or 'not checked: ' + NOT_CHECKED[name]} |")
     return "\n".join(lines) + "\n"
 
 

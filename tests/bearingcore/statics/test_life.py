@@ -17,6 +17,7 @@ from bearingcore.statics.life import (
     ratings_of_races,
 )
 from bearingcore.statics.race_loads import race_loads
+from tests.outside.witness import witness
 
 P, E = 3.0, 10.0 / 9.0
 RATING = 23_400.0
@@ -42,6 +43,13 @@ COMMERCIAL = [
 ]
 
 
+@witness(
+    "ball bearing: life",
+    "function: life",
+    by="a commercial code's results (GitHub, minzhun/ISO16281, Test_BallBearing.py)",
+    compared="L_10r under seven loads",
+    within=0.0003,
+)
 @pytest.mark.parametrize(("clearance", "load", "printed", "tolerance"), COMMERCIAL)
 def test_commercial_code(
     clearance: float, load: dict[str, float], printed: float, tolerance: float

@@ -177,8 +177,10 @@ class Rig:
     unbalance: float = 0.0
 
 
-def point_contact(D: float, across: float, along: float, modulus: float = 210e9) -> Array:
+def point_contact(D: float, across: float, along: float, plane: float = 210e9 / 0.91) -> Array:
     """K [N/m^1.5], pressure [Pa] and ellipse ratio at 1 N; curvatures [1/m] of the race.
+
+    `plane` [Pa] is E/(1 − ν²), or the harmonic mean of both materials'.
 
     Hertz, by his integrals at the ratio that bisection finds (Harris, chapter 6).
     """
@@ -189,7 +191,6 @@ def point_contact(D: float, across: float, along: float, modulus: float = 210e9)
         k = math.sqrt(low * high)
         K, E = ellipk(1.0 - k**-2), ellipe(1.0 - k**-2)
         low, high = (k, high) if 1.0 - 2.0 / (k * k - 1.0) * (K / E - 1.0) < wanted else (low, k)
-    plane = modulus / 0.91
     factor = math.pi / math.sqrt(4.5) * k * plane * math.sqrt(E / ((A + B) * K**3))
     b = (6.0 * E / (math.pi * k * (A + B) * plane)) ** (1.0 / 3.0)
     return np.array([factor, 1.5 / (math.pi * k * b * b), k])

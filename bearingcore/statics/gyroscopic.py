@@ -77,7 +77,7 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     fact = (
         f"The gyroscopic moment of a heavily loaded ball, {with_prefix(found.moment, 'N·m')}, takes a force "
         f"across the groove of {percent(found.share, 3)} of its load of "
-        f"{with_prefix(found.load, 'N')}; left out, it would turn the contact at the outer race by "
+        f"{with_prefix(found.load, 'N')}; left out, it would turn the outer contact by "
         f"up to about {number(math.degrees(found.share), 2)}°"
     )
     speed = _speed_of_limit(scene, found.share)

@@ -22,6 +22,7 @@ What the model leaves out and what is looked at here:
 - the size of the contact: Hertz takes it for small against the ball;
 - thrust: a row that carries it one way alone and is pressed the other way, or with less than its
   radial load induces (`thrust`);
+- tilts that the scene holds: the moment that the shaft's other bearing is taken to carry (`held`);
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect;
@@ -51,6 +52,7 @@ from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
+from bearingcore.statics.held import held_tilts
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.positions import over_all_positions, positions, turns
@@ -167,6 +169,7 @@ def limits(
             _stiffness(scene),
         ]
     found += thrust_limits(scene, state)
+    found.append(held_tilts(state))
     found.append(_film(scene, film))
     if step_rate is not None:
         rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")

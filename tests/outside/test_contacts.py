@@ -7,7 +7,7 @@ import pytest
 
 from bearingcore import contact_pressures, equilibrium, film, life, limits
 from tests.outside.elements import point_contact
-from tests.outside.test_kinds import CAGE, CASES, Case, kinds
+from tests.outside.test_kinds import CAGE, CASES, INCH, Case, balls, kinds
 from tests.outside.witness import witness
 
 PLANE = 210e9 / 0.91
@@ -80,6 +80,27 @@ def test_limits_of_pressure(kind: str) -> None:
             assert limit.crossed == (pressure > printed)
             crossed.add(limit.crossed)
     assert crossed == {False, True}
+
+
+@witness(
+    "ball bearing: limits", "function: limits",
+    by="moment of the contacts of `elements` about the shaft's middle",
+    compared="moment that held tilts take, of a 7208 at 25°", within=3e-3,
+)  # fmt: skip
+def test_moment_of_held_tilts() -> None:
+    case = balls(
+        "7208-25deg", 14, 15 / 32 * INCH, 60e-3, math.radians(25), (0, -1500, 1500, 0, 0),
+        0.0, (8.0, 1e-4), [0, 1, 2],
+    )  # fmt: skip
+    q = case.rows.rest(case.force, CAGE[1], case.free)
+    moment = case.rows.directions(q, CAGE[1])[3:] @ case.rows.load(q, CAGE[1])
+    (said,) = [
+        one
+        for one in limits(case.scene, equilibrium(case.scene, [CAGE[1]]))
+        if one.name == "held tilts"
+    ]
+    shown = float(said.sentence.partition("up to ")[2].partition(" ")[0])
+    assert shown == pytest.approx(np.hypot(*moment), rel=3e-3)
 
 
 OIL = {"viscosity": 0.017, "pressure_viscosity": 1.8e-8}

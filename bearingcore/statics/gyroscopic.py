@@ -75,10 +75,10 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     if found.share < 1e-9:
         return None
     fact = (
-        f"The gyroscopic moment of a heavily loaded ball, {with_prefix(found.moment, 'N·m')}, takes a force "
-        f"across the groove of {percent(found.share, 3)} of its load of "
-        f"{with_prefix(found.load, 'N')}; left out, it would turn the outer contact by "
-        f"up to about {number(math.degrees(found.share), 2)}°"
+        "The gyroscopic moment of a heavily loaded ball, "
+        f"{with_prefix(found.moment, 'N·m')}, takes a force across the groove of "
+        f"{percent(found.share, 3)} of its load of {with_prefix(found.load, 'N')}; left out, it "
+        f"would turn the outer contact by up to about {number(math.degrees(found.share), 2)}°"
     )
     speed = _speed_of_limit(scene, found.share)
     if found.share <= LIMIT and math.isfinite(speed):

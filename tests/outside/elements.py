@@ -131,8 +131,11 @@ class Rows:
             out[:, i] = (ends[0] - ends[1]) / (2.0 * h)
         return out
 
-    def march(self, rig: "Rig", force: Array, free: list[int], times: Array) -> tuple[Array, Array]:
-        """Displacements of inner and outer ring (times, free) from the state at rest at angle 0."""
+    def march(self, rig: "Rig", force: Array, free: list[int], times: Array) -> tuple[Array, ...]:
+        """Displacements of both rings (times, free) from the state at rest at angle 0.
+
+        The acceleration of the outer one comes third.
+        """
         n = len(free)
         q0 = self.rest(force, 0.0, free)[free]
         outer = force[free] / rig.stiffness[free]
@@ -160,7 +163,8 @@ class Rows:
             rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-9, atol=1e-9, max_step=1e-4
         )
         assert found.success
-        return 1e-6 * found.y[:n].T, 1e-6 * found.y[n : 2 * n].T
+        last = [rates(t, y)[3 * n :] for t, y in zip(times, found.y.T, strict=True)]
+        return 1e-6 * found.y[:n].T, 1e-6 * found.y[n : 2 * n].T, 1e-6 * np.array(last)
 
 
 @dataclass(frozen=True)

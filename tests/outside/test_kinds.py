@@ -193,9 +193,8 @@ def test_motion(kind: str, law: str) -> None:
     turning = unbalance * scene.shaft_speed**2
     rig = rig_of(case, no_tension=law == "no tension", unbalance=turning)
     own = case.rows.march(rig, case.force, case.free, motion.time)
-    for found, expected in zip(
-        (motion.inner_displacement, motion.outer_displacement), own, strict=True
-    ):
+    rings = motion.inner_displacement, motion.outer_displacement
+    for found, expected in zip(rings, own[:2], strict=True):
         for ours, theirs in zip(found.T, expected.T, strict=True):
             swing = max(np.ptp(theirs), 1e-2 * np.ptp(expected))
             assert np.abs(ours - theirs).max() < 1e-3 * swing

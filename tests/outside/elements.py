@@ -95,8 +95,11 @@ class Rows:
         steps = STEP * 1j * np.eye(5)
         return np.stack([self.compression(q + h, cage).imag for h in steps]) / STEP
 
-    def rest(self, force: Array, cage: float, free: list[int]) -> Array:
-        """Displacement (5,) of the least energy: BFGS, then the root of its gradient."""
+    def rest(self, force: Array, cage: float, free: list[int], near: Array | None = None) -> Array:
+        """Displacement (5,) of the least energy: BFGS, then the root of its gradient.
+
+        `near`: the state at a cage angle nearby, from which the root is found.
+        """
         size = np.array([1e-5, 1e-5, 1e-5, 3e-4, 3e-4])
 
         def full(p: Array) -> Array:
@@ -115,9 +118,22 @@ class Rows:
             energy = self.law[0] / n * (delta**n).sum() - force @ q
             return float(energy / np.abs(force * size).max()), gradient(p)
 
+        if near is not None:
+            found = root(gradient, (near / size)[free], tol=1e-14, options={"xtol": 1e-14})
+            if np.abs(gradient(found.x)).max() < 1e-9:
+                return full(found.x)
         start = np.sign(force[free]) * np.array([2.0, 2.0, 2.0, 0.0, 0.0])[free]
         found = minimize(value, start, jac=True, method="BFGS", options={"gtol": 1e-8})
         return full(root(gradient, found.x, tol=1e-14, options={"xtol": 1e-14}).x)
+
+    def curves(self, force: Array, cage: Array, free: list[int]) -> tuple[Array, Array]:
+        """Loads (n, elements) and stiffness (n, 5, 5) at cage angles (n,), one after the other."""
+        states: list[Array] = []
+        for one in cage:
+            states.append(self.rest(force, one, free, states[-1] if states else None))
+        loads = [self.load(q, one) for q, one in zip(states, cage, strict=True)]
+        stiffness = [self.stiffness(q, one) for q, one in zip(states, cage, strict=True)]
+        return np.array(loads), np.array(stiffness)
 
     def stiffness(self, q: Array, cage: float) -> Array:
         """(5, 5): ∂(loads)/∂q, by differences of what complex steps give."""

@@ -34,10 +34,7 @@ def swept() -> dict[str, np.ndarray]:
 def curves() -> tuple[np.ndarray, np.ndarray]:
     """Loads (angles, balls) and stiffness (angles, 5, 5) over a ball spacing, both ends."""
     cage = np.linspace(0.0, 2.0 * math.pi / PAIR.rows.count, ANGLES)
-    states = [PAIR.rows.rest(PAIR.force, one, PAIR.free) for one in cage]
-    loads = [PAIR.rows.load(q, one) for q, one in zip(states, cage, strict=True)]
-    stiffness = [PAIR.rows.stiffness(q, one) for q, one in zip(states, cage, strict=True)]
-    return np.array(loads), np.array(stiffness)
+    return PAIR.rows.curves(PAIR.force, cage, PAIR.free)
 
 
 def mean(values: np.ndarray) -> np.ndarray:
@@ -80,7 +77,7 @@ def test_life_and_pressure() -> None:
     assert found == pytest.approx(own, rel=1e-4)
     healthy = type(PAIR.rows)(**{**vars(PAIR.rows), "defect": None})
     cage = np.linspace(0.0, 2.0 * math.pi / PAIR.rows.count, ANGLES)
-    whole = [healthy.load(healthy.rest(PAIR.force, one, PAIR.free), one) for one in cage]
+    whole, _ = healthy.curves(PAIR.force, cage, PAIR.free)
 
     def life(loads: np.ndarray) -> float:
         g, Z = gamma(PAIR), PAIR.rows.count
@@ -94,7 +91,7 @@ def test_life_and_pressure() -> None:
         worn = (inner / ratings[0]) ** (10 / 3) + (outer / ratings[1]) ** (10 / 3)
         return float(worn.sum() ** -0.9)
 
-    damaged, healthy_life = life(loads), life(np.array(whole))
+    damaged, healthy_life = life(loads), life(whole)
     assert swept()["life_turns"] == pytest.approx(1e6 * damaged, rel=2e-3)
     hours = 1e6 * damaged / (3000.0 * 60.0)
     assert swept()["life_hours"] == pytest.approx(hours, rel=2e-3)

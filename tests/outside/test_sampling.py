@@ -31,27 +31,42 @@ CAGE = 0.5 * 2.0 * math.pi * 7.0 * (1.0 - 8.0 / 45.0)
 
 
 @njit
-def rates(t: float, y: np.ndarray) -> np.ndarray:
-    """Rates of inner x, y, outer x, y [µm] and their velocities [mm/s] (Eqs. 6, 18, 19)."""
+def rates(
+    t: float,
+    y: np.ndarray,
+    extent: float = EXTENT,
+    cage: float = CAGE,
+    damping: float = DAMPING,
+    corner: float = 0.5,
+) -> np.ndarray:
+    """Rates of inner x, y, outer x, y [µm] and their velocities [mm/s] (Eqs. 6, 18, 19).
+
+    `corner`: factor of the arc in Eq. 6; 0 for a ball that pivots on the corner of the race.
+    """
     dx, dy = (y[0] - y[2]) * 1e-6, (y[1] - y[3]) * 1e-6
     ux, uy = (y[4] - y[6]) * 1e-3, (y[5] - y[7]) * 1e-3
     fx = fy = 0.0
     for j in range(N_BALLS):
-        angle = CAGE * t + 2.0 * math.pi / N_BALLS * j
+        angle = cage * t + 2.0 * math.pi / N_BALLS * j
         c, s = math.cos(angle), math.sin(angle)
         away = (angle - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
-        inside, deep, slope = 0.5 * EXTENT - abs(away), 0.0, 0.0
+        inside, deep, slope = 0.5 * extent - abs(away), 0.0, 0.0
         if inside > 0.0:
-            half = 0.5 * R_OUTER * inside
-            deep = DEPTH
-            if half < R_BALL and R_BALL - math.sqrt(R_BALL**2 - half**2) < DEPTH:
+            deep, way = DEPTH, -1.0 if away > 0.0 else 1.0
+            half = R_OUTER * (corner * inside if corner > 0.0 else math.sin(inside))
+            if half < R_BALL:
                 root = math.sqrt(R_BALL**2 - half**2)
-                deep = R_BALL - root
-                slope = 0.5 * R_OUTER * half / root * (-1.0 if away > 0.0 else 1.0)
+                if corner > 0.0:
+                    drop, turn = R_BALL - root, corner * R_OUTER * half / root
+                else:
+                    drop = R_OUTER * math.cos(inside) - root - (R_OUTER - R_BALL)
+                    turn = R_OUTER * math.cos(inside) * half / root - R_OUTER * math.sin(inside)
+                if drop < DEPTH:
+                    deep, slope = drop, turn * way
         delta = dx * c + dy * s - CLEARANCE - deep
         if delta > 0.0:
-            rate = ux * c + uy * s + CAGE * (dy * c - dx * s - slope)
-            push = K * delta**1.5 + DAMPING * rate
+            rate = ux * c + uy * s + cage * (dy * c - dx * s - slope)
+            push = K * delta**1.5 + damping * rate
             fx += push * c
             fy += push * s
     found = np.empty(8)

@@ -21,6 +21,7 @@ C = 121.96
 """[N·s/m] of the rig: 1e-5 s times the mean stiffness of the healthy bearing a loaded ball."""
 PLANE = Plane(14, 8e-3, 45e-3, 5453e6, 3e-6)
 HURT = EXTENT, 50e-6, "outer", "published"
+"""The defect for `plane.py`: extent, depth, race, edge."""
 
 
 @cache
@@ -31,16 +32,17 @@ def chart(name: str, preset: str = "fan-rig") -> dict:
 
 
 @cache
-def at_rest() -> np.ndarray:
+def at_rest(extent: float = EXTENT) -> np.ndarray:
     """State [µm, mm/s] at cage angle 0: inner ring, then the outer one on its spring."""
-    loads, _, _ = PLANE.solve(100.0, np.zeros(1), 1.5 * math.pi, HURT)
+    hurt = extent, *HURT[1:]
+    loads, _, _ = PLANE.solve(100.0, np.zeros(1), 1.5 * math.pi, hurt)
     down = -100.0 / 212.2
     free = np.array([0.0, down, 0.0, down, 0.0, 0.0, 0.0, 0.0])
     phi = 2.0 * math.pi / 14 * np.arange(14)
     # the displacement that the loads say: two balls that carry, in the plane
     carries = np.argsort(loads[0])[-2:]
     gap = 3e-6 + PLANE.drop(
-        0.5 * EXTENT - np.abs((phi - 1.5 * math.pi + math.pi) % (2 * math.pi) - math.pi),
+        0.5 * extent - np.abs((phi - 1.5 * math.pi + math.pi) % (2 * math.pi) - math.pi),
         "outer", "published", 50e-6,
     )  # fmt: skip
     e = np.stack([np.cos(phi), np.sin(phi)], axis=1)[carries]
@@ -65,15 +67,16 @@ def marched(y: np.ndarray, h: float, steps: int, keep: int, extent: float, c: fl
     return out
 
 
-def exact(corner: float = 0.5, duration: float = DURATION) -> np.ndarray:
+@cache
+def exact(corner: float = 0.5, duration: float = DURATION, extent: float = EXTENT) -> np.ndarray:
     """The same by DOP853."""
     time = np.arange(round(duration * RATE)) / RATE
     made = solve_ivp(
-        rates, (0.0, time[-1]), at_rest(), "DOP853", time, args=(EXTENT, CAGE, C, corner),
-        rtol=1e-10, atol=1e-10, max_step=1e-4,
+        rates, (0.0, time[-1]), at_rest(extent), "DOP853", time, args=(extent, CAGE, C, corner),
+        rtol=1e-9, atol=1e-9, max_step=1e-4,
     )  # fmt: skip
     return np.array(
-        [1e-3 * rates(t, y, EXTENT, CAGE, C, corner)[6:]
+        [1e-3 * rates(t, y, extent, CAGE, C, corner)[6:]
          for t, y in zip(time, made.y.T, strict=True)]
     )  # fmt: skip
 

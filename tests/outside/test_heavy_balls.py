@@ -15,8 +15,20 @@ from bearingcore import presets, simulate
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import Settings
 from tests.outside.test_sampling import (
-    CAGE, CLEARANCE, DAMPING, DEPTH, EXTENT, LOAD, MASS, N_BALLS, R_BALL, R_OUTER, SUPPORT,
-    SUPPORT_DAMPING, K, rates,
+    CAGE,
+    CLEARANCE,
+    DAMPING,
+    DEPTH,
+    EXTENT,
+    LOAD,
+    MASS,
+    N_BALLS,
+    R_BALL,
+    R_OUTER,
+    SUPPORT,
+    SUPPORT_DAMPING,
+    K,
+    rates,
 )  # fmt: skip
 from tests.outside.witness import witness
 

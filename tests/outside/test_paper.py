@@ -7,11 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 from bearing_explorer.views.paper_figures import FIGURES
-from scipy.integrate import solve_ivp
 from scipy.signal import welch
 
 from tests.outside.elements import Array, Defect, Rows
 from tests.outside.plane import Plane, damped
+from tests.outside.test_charts import RATE, exact
 from tests.outside.witness import witness
 
 PREFIX = {"G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9, "": 1.0}
@@ -21,7 +21,13 @@ SHOWN = {(figure.number, row.name): (row, figure) for figure in FIGURES for row 
 def numbers(number: int, name: str) -> list[float]:
     """What the list shows as ours, in SI; the prefix of a span is that of its last number."""
     row, figure = SHOWN[number, name]
-    text = row.ours(figure.scenes).replace("−", "-").replace("\u202f", "").replace("kg", "")
+    text = (
+        row.ours(figure.scenes)
+        .replace("−", "-")
+        .replace("\u202f", "")
+        .replace("kg", "")
+        .replace("m/s²", "")
+    )
     found, units = [], re.findall(r"(-?\d+(?:\.\d+)?)\s*([GMkmµn]?)(?=(N|m/s|Hz|kg|s\b|dB))?", text)
     last = 1.0
     for value, prefix, unit in reversed(units):
@@ -165,3 +171,26 @@ def test_frequencies_of_figures_8_and_10() -> None:
     ends = [numbers(10, name)[2:] for name in ("Band of ω_x1", "Band of ω_y1")]
     assert min(min(ends)) == pytest.approx(rows[2][:, 0].min(), rel=2e-3)
     assert max(max(ends)) == pytest.approx(rows[2][:, 1].max(), rel=2e-3)
+
+
+@witness(
+    "figure 9: * acceleration*", "figure 10: Level*",
+    by="SciPy's DOP853 over 1.4 s on Eqs. 6, 18 and 19, densities by SciPy's welch",
+    compared="accelerations from 0.745 to 0.775 s, levels from 0.3 to 2.1 kHz, both extents",
+    within="2 %, 0.5 dB",
+)  # fmt: skip
+def test_accelerations_and_levels_of_figures_9_and_10() -> None:
+    runs = [exact(0.5, 1.4, math.radians(extent)) for extent in (12.9, 38.6)]
+    first, last = round(0.745 * RATE), round(0.775 * RATE)
+    for i, name in enumerate(("Horizontal", "Vertical")):
+        seen = np.concatenate([one[first:last, i] for one in runs])
+        found = numbers(9, f"{name} acceleration; the printed axis")
+        assert found == pytest.approx([seen.min(), seen.max()], rel=0.02), name
+    for i, dof in enumerate("xy"):
+        levels = []
+        for one in runs:
+            frequency, density = welch(one[len(one) // 2 :, i], RATE, nperseg=round(RATE / 32.0))
+            shown = (frequency >= 300.0) & (frequency <= 2100.0)
+            levels.append(10.0 * np.log10(density[shown]))
+        ends = np.min(levels), np.max(levels)
+        assert numbers(10, f"Level along {dof}; the printed axis") == pytest.approx(ends, abs=0.5)

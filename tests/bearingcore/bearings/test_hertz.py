@@ -14,7 +14,7 @@ STEEL = (210e9, 0.3)
 PER_MM = 10.0**-4.5
 """N/mm^1.5 in one N/m^1.5."""
 
-COMMERCIAL = 2e-5
+COMMERCIAL = 5e-5
 """Relative tolerance to which the published values of the commercial code are to be met."""
 
 GROOVES = [

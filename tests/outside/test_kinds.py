@@ -151,7 +151,8 @@ def test_loads_and_stiffness(kind: str) -> None:
 
 @witness(
     "* bearing: natural frequencies", "function: modes",
-    by="eigenvalues by SciPy of K, M and C of `elements.py`", compared="all damped frequencies at three angles",
+    by="eigenvalues by SciPy of K, M and C of `elements.py`",
+    compared="all damped frequencies at three angles",
     within=1e-5,
 )  # fmt: skip
 @kinds

@@ -96,6 +96,7 @@ def spectra_apart(found: np.ndarray, true: np.ndarray, highest: float = 1841.0) 
     compared="three points of the fan rig's chart: RK4 in velocities at 65, 131, 262 kHz, L2 error",
     within=0.02,
 )  # fmt: skip
+@pytest.mark.proof
 def test_points_of_the_motion_chart() -> None:
     true = exact()
     for point in chart("motion")["points"]:
@@ -190,6 +191,7 @@ def test_points_of_the_angles_chart() -> None:
     by="SciPy's DOP853 with three edge models, 0.2 s from rest",
     compared="level of published and chord edges against exact ones [dB]", within="0.01 dB",
 )  # fmt: skip
+@pytest.mark.proof
 def test_points_of_the_models_chart() -> None:
     levels = {}
     for edge, corner in (("published", 0.5), ("chord", 1.0), ("exact", 0.0)):

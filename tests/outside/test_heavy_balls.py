@@ -124,6 +124,7 @@ def test_motion_of_heavy_balls(law: str, within: float) -> None:
     by="SciPy's DOP853 on both equations of motion, densities by SciPy's welch",
     compared="share of the power from 2.1 to 10 kHz that mass adds, in 70 ms", within=0.01,
 )  # fmt: skip
+@pytest.mark.proof
 def test_share_of_the_power_that_mass_adds() -> None:
     fine = 4.0 * RATE  # strikes are short: sampled at 65 kHz they would fold into the band
     _, heavy = marched(0.07, rate=fine)

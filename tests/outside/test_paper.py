@@ -85,6 +85,7 @@ def test_loads_and_stiffness_of_figures_3_and_4() -> None:
     compared="extents at which k_yy and the loaded balls are least, of the Liew-Lim bearing",
     within="0.5°",
 )  # fmt: skip
+@pytest.mark.proof
 def test_extents_of_figures_5_and_6() -> None:
     least = {
         name: float(SHOWN[number, name][0].ours(SHOWN[number, name][1].scenes).rstrip("°"))
@@ -179,6 +180,7 @@ def test_frequencies_of_figures_8_and_10() -> None:
     compared="accelerations from 0.745 to 0.775 s, levels from 0.3 to 2.1 kHz, both extents",
     within="2 %, 0.5 dB",
 )  # fmt: skip
+@pytest.mark.proof
 def test_accelerations_and_levels_of_figures_9_and_10() -> None:
     runs = [exact(0.5, 1.4, math.radians(extent)) for extent in (12.9, 38.6)]
     first, last = round(0.745 * RATE), round(0.775 * RATE)

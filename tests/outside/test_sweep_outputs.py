@@ -123,6 +123,7 @@ def test_bands() -> None:
     compared="root mean square and greatest acceleration in five directions, second half of 6 ms",
     within=0.01,
 )  # fmt: skip
+@pytest.mark.proof
 def test_accelerations() -> None:
     times = np.arange(393) / 65_536.0
     *_, own = PAIR.rows.march(rig_of(PAIR), PAIR.force, PAIR.free, times)

@@ -136,8 +136,7 @@ def ball_positions(
 
     Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
     Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
-    a ball, which has no potential, is left out: it matters where balls turn fast about an axis far
-    from the shaft's, at large contact angles.
+    a ball, which has no potential, is left out: `limits` says from what speed it matters.
 
     Parameters
     ----------

@@ -16,11 +16,13 @@ What the model leaves out and what is looked at here:
   Corners of a defect press harder than this says;
 - the end of the groove: contact angle and half the contact ellipse against the shoulder;
 - the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
-  by solving with it (`ball_positions`), and its size against the contact load. Gyroscopic moments,
-  which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
+  by solving with it (`ball_positions`), and its size against the contact load. The shock of a ball
+  that meets the far edge of a defect is left out too;
+- gyroscopic moments of the balls, against their loads (`gyroscopic`);
 - the size of the contact: Hertz takes it for small against the ball;
 - thrust: a row that carries it one way alone and is pressed the other way, or with less than its
   radial load induces (`thrust`);
+- tilts that the scene holds: the moment that the shaft's other bearing is taken to carry (`held`);
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect;
@@ -49,6 +51,8 @@ from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
+from bearingcore.statics.gyroscopic import gyroscopic_limit
+from bearingcore.statics.held import held_tilts
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.positions import over_all_positions, positions, turns
@@ -157,6 +161,7 @@ def limits(
         _pressure_in_motion(scene, in_motion),
         _shoulder(scene, state, shoulder_height),
         *_centrifugal(scene, state),
+        gyroscopic_limit(scene),
     ]
     if not kind.line_contact:
         found += [
@@ -165,6 +170,7 @@ def limits(
             _stiffness(scene),
         ]
     found += thrust_limits(scene, state)
+    found.append(held_tilts(state))
     found.append(_film(scene, film))
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")

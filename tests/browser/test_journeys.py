@@ -741,6 +741,23 @@ def _keys(visitor: Visitor) -> list[str]:
     return found
 
 
+def test_back_and_a_tab_lead_to_the_part_that_was_open(desk: Visitor) -> None:
+    desk.begin("Machine: Life")
+    desk.go_to("More: Paper")
+    desk.page.go_back()
+    desk.is_at("Machine: Life")
+    desk.steady()
+    desk.page.go_forward()
+    desk.is_at("More: Paper")
+    desk.page.get_by_role("tab", name="Machine", exact=True).click()
+    desk.is_at("Machine: Life")
+    part = desk.views.get_by_role("button", name="Bearing", exact=True)
+    part.press("Enter")
+    desk.is_at("Machine: Bearing")
+    desk.steady()
+    expect(part).to_be_focused()
+
+
 @pytest.mark.proof
 def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
     visitor.open()
@@ -786,6 +803,25 @@ def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
             visitor.number("Extent") == pytest.approx(extent, rel=1e-6) for extent in extents
         )
         assert not _NOTHING.search(" ".join(visitor.sentences()))
+
+
+def test_old_links_open_the_tab_or_part_that_has_their_views_now(
+    visitor: Visitor, explorer: Server
+) -> None:
+    for former, place in {
+        "orbits": "More: Over speed",
+        "speed-run": "More: Over speed",
+        "ball-mass": "Vibration",
+        "sizing": "Diagnosis",
+        "maps": "Stiffness: Maps",
+        "life": "Machine: Life",
+        "model": "Machine: Rotor and support",
+    }.items():
+        visitor.page.goto(f"{explorer.url}{FAN_RIG}{former}")
+        visitor.is_at(place)
+        visitor.wait(lambda: any(visitor.sentences()))
+    visitor.page.reload()
+    visitor.is_at("Machine: Rotor and support")
 
 
 def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:

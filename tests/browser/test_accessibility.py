@@ -22,7 +22,8 @@ from tests.browser.explorer_page import (
 )
 from tests.browser.helpers import Server
 
-NAMES = [section.name for section in SECTIONS]
+NAMES = list({one.tab or one.title: one.name for one in reversed(SECTIONS)}.values())[::-1]
+"""Of the tabs, each by that of its first part."""
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
 PHONE: ViewportSize = {"width": 390, "height": 844}

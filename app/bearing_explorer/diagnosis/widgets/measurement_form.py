@@ -154,7 +154,7 @@ class MeasurementForm(pn.Column):
         load = state.load
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
-            visible=bool(load),
+            visible=bool(load and self._measurement and self._measurement.change_scene),
         )
         self._shown = state
 

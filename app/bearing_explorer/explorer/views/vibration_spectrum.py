@@ -55,7 +55,7 @@ GREY: FieldSpec = {
 AXIS: FieldSpec = {
     "name": "axis",
     "label": "Frequency",
-    "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
+    "options": [["linear", f"0–{HIGHEST / 1e3:g} kHz"], ["logarithmic", "Full range (log)"]],
 }
 """The switches above the figures."""
 

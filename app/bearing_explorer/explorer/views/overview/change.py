@@ -47,7 +47,7 @@ class LastChange(View):
         if before is not None:
             cause = difference(results.scene, before.scene, results.focus)
         elif results.scene.defects:
-            cause = "With the defect"
+            cause = "Compared with a healthy bearing"
         else:
             return _NOTHING
         why = "" if before is None else why_not(results.scene, before.scene)

@@ -22,7 +22,6 @@ from bearing_explorer.kit.plots.levels import (
     FREQUENCY,
     HIGHEST,
     SHOWN,
-    density_axis,
     drawn_levels,
     seen_levels,
 )
@@ -112,7 +111,7 @@ class OverviewSpectrum(View):
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         plot = style.make_figure(
             FREQUENCY,
-            density_axis(""),
+            style.AxisQuantity("Vibration level", "", "dB"),
             packed.range("overview_frequency", 0.0, HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
             height=120,

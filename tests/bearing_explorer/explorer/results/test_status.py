@@ -31,7 +31,7 @@ def test_the_status_line_says_what_happened() -> None:
     [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: period doubling (flip)")],
 )
 def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
-    """An orbit that no machine stays on is not "Computed without problems", though its static states are."""
+    """An orbit that no machine stays on is a problem, though its static states are none."""
     rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
     results = Results(rig)
     line = status_of(results, 0.0, SteadyOrbit.needs)

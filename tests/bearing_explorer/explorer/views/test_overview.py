@@ -63,7 +63,9 @@ def test_only_what_really_changed_is_said() -> None:
 def test_what_has_no_answer_is_said_too() -> None:
     loose = FAN_RIG.replace(fy=0.0)
     assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
-    assert told(FAN_RIG, None).startswith("Compared with a healthy bearing: "), "before the first change"
+    assert told(FAN_RIG, None).startswith("Compared with a healthy bearing: "), (
+        "before the first change"
+    )
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")

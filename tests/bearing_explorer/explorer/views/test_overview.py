@@ -13,7 +13,7 @@ from bearing_explorer.explorer.state.references import BEFORE, Reference
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
 from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness, free_terms
-from bearing_explorer.explorer.views.overview.words import story
+from bearing_explorer.explorer.views.overview.words import Cause, story
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import DOF_NAMES, Scene, equilibrium, presets
@@ -33,11 +33,12 @@ def test_a_ball_spacing_longer() -> None:
     now, before = Results(LONGER).chain, Results(FAN_RIG).chain
     fall, rise = (now.stiffness[term] / before.stiffness[term] for term in ("k_yy", "k_xx"))
     (low, high), (low0, high0) = now.bands["y1"], before.bands["y1"]
+    share, share0 = (s["k_yy"] / (s["k_xx"] + s["k_yy"]) for s in (now.stiffness, before.stiffness))
     assert told(LONGER, FAN_RIG) == (
-        "Defect longer by one ball spacing (12.9 → 38.61°): load shifts to balls farther from the "
-        "load line, "
-        f"k_yy falls by {100 * (1 - fall):.0f} %, k_xx rises by {100 * (rise - 1):.0f} %, "
-        f"the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
+        "Defect longer by one ball spacing (12.9 → 38.61°): the balls beside the defect take over "
+        f"the load; balls push back more sideways (sin²φ {share0:.2f} → {share:.2f}), "
+        f"so k_yy falls by {100 * (1 - fall):.0f} % and k_xx rises by {100 * (rise - 1):.0f} %. "
+        f"Therefore the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
         "and the spectrum's peak with it, "
         f"from {before.peaks['y'].frequency:.0f} to {now.peaks['y'].frequency:.0f} Hz."
     )
@@ -79,17 +80,21 @@ CHAIN = Chain(
 
 
 def changed(**news: object) -> str:
-    return story("So", dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
+    return story(Cause("So"), dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
     ("news", "words"),
     [
         ({}, "So: nothing changes."),
-        ({"off_line": 0.53}, "So: load shifts to balls farther from the load line."),
+        ({"off_line": 0.53}, "So: load spreads to balls farther from its line."),
         ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
         ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
-        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
+        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}},
+         "So: balls push back more sideways (sin²φ 0.67 → 0.60) and each contact is softer on "
+         "average, so k_yy falls by 25 %."),
+        ({"stiffness": {"k_xx": 1.5e7, "k_yy": 3e7}, "loaded_balls": 3.0},
+         "So: fewer balls carry (4 → 3), so k_yy falls by 25 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
          "So: the y₁ band widens from 615–678 to 600–690 Hz."),
         # a peak goes with a band only where it lies in it, both times, and goes its way
@@ -99,13 +104,13 @@ def changed(**news: object) -> str:
          "from 672 to 576 Hz."),
         ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
           "peaks": {"y": Peak(1088.0, -30.0, 32.0)}},
-         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak along y moves "
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz; the spectrum's peak along y moves "
          "from 672 to 1088 Hz, 8 dB lower."),
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
         # next to almost nothing decibels say nothing
         ({"peaks": {"y": Peak(640.0, -76.0, 32.0)}},
-         "So: the spectrum's peak at 672 Hz falls to almost none."),
+         "So: hardly any vibration is left at 672 Hz."),
         ({"peaks": {}, "silent": "nothing turns"},
          "So: at rest hardly anything changes; there is no spectrum: nothing turns."),
         # what is said is not only what happens where the housing is loudest

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.results.chain import Peak, direction, loudest
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
+from bearingcore import DOF_NAMES
+from bearingcore.scene.scene import DOF_SYMBOLS
 from bearingcore.statics.passes import drops_at
 from bearingcore.statics.ranges import BALL_LOAD
 from bearingcore.sweep.outputs import mode_symbol
@@ -44,7 +46,14 @@ _SQUARE = {"x": "cos²φ", "y": "sin²φ"}
 # --- loads ----------------------------------------------------------------------------------------
 
 
-def most_loaded(scene: Scene, found: Equilibrium, state: int, drop: NDArray[np.float64]) -> str:
+def most_loaded(
+    scene: Scene,
+    found: Equilibrium,
+    state: int,
+    drop: NDArray[np.float64],
+    *,
+    briefly: bool = False,
+) -> str:
     """Which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
     load, bearing = found.ball_load[state], scene.bearing
     if not (np.isfinite(load).all() and load.max() > 0.0):
@@ -56,7 +65,8 @@ def most_loaded(scene: Scene, found: Equilibrium, state: int, drop: NDArray[np.f
     if most.size == load.size:
         return f"All {elements(bearing)} carry alike, {what}: nothing loads one side."
     names = _named(bearing, most)
-    text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most, {what}"
+    text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
+    text += "" if briefly else f", {what}"
     if math.isnan(line):
         return f"{text}: there the rings are pressed together most."
     apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
@@ -65,10 +75,14 @@ def most_loaded(scene: Scene, found: Equilibrium, state: int, drop: NDArray[np.f
     if not nearer.size:
         off = style.in_degrees(apart[most].min(), 0)
         near = "on the line of the load" if off == "0°" else f"nearest the line of the load ({off})"
+        if briefly:
+            return f"{text}: nearest the load."
         return f"{text}: {near}, where the rings are pressed together most."
     if not inside.size:
         return f"{text}: there the rings are pressed together most."
     said = _named(bearing, inside)
+    if briefly:
+        return f"{text}: {said} {'is' if inside.size == 1 else 'are'} in the defect."
     left = load[inside].sum()
     carry = f"only {style.with_prefix(left, 'N')}" if left > 0.0 else "nothing"
     verb = "lies" if inside.size == 1 else "lie"
@@ -148,10 +162,10 @@ def why_softer(
             )
         else:
             said.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
-    return style.list_words(said)
+    return said[0] if said and briefly else style.list_words(said)
 
 
-def stiffness(results: Results) -> str:
+def stiffness(results: Results, *, briefly: bool = False) -> str:
     """Why the radial stiffness is not that of the healthy bearing, or why x and y differ."""
     now = radial(results)
     means = now[0]
@@ -167,7 +181,9 @@ def stiffness(results: Results) -> str:
         if math.isfinite(grown[term]) and abs(grown[term]) >= LEAST:
             verb = "rises" if grown[term] > 0.0 else "falls"
             by = style.number(100.0 * abs(grown[term]), 2)
-            why = why_softer(term, now, before)
+            why = why_softer(term, now, before, briefly)
+            if briefly and why:
+                return f"{term} {verb}: {why}."
             text = f"With the defect {term} {verb} by {by} % on average"
             return f"{text}: {why}." if why else f"{text}."
         if math.isfinite(grown[term]) and abs(now[1] - before[1]) < LEAST * before[1]:
@@ -186,6 +202,24 @@ def stiffness(results: Results) -> str:
         f"lie near {_ACROSS[dof]} and push back along it ({_SQUARE[dof]} {large:.2f} on average, "
         f"{_SQUARE[other]} {small:.2f})."
     )
+
+
+def not_needed(scene: Scene, *, briefly: bool = False) -> str:
+    """Directions in which the rings are held in a scene, and why; empty where all are free."""
+    held = [dof for dof in DOF_NAMES if dof not in scene.active_dofs]
+    if not held:
+        return ""
+    names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
+    if scene.active_dofs != scene.needed_dofs:
+        return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
+    if briefly:
+        return f"Not needed here: {names}."
+    kind = scene.bearing.kind
+    why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
+    if scene.active_dofs != kind.needed_directions:
+        tilts = "rx" in kind.needed_directions
+        why.append("no load along the shaft" + (", no moment" if tilts else ""))
+    return f"Not needed here: {names} ({'; '.join(why)})." if why else f"Not needed here: {names}."
 
 
 # --- natural frequencies --------------------------------------------------------------------------
@@ -225,7 +259,7 @@ def frequencies(results: Results) -> str:
 # --- vibration ------------------------------------------------------------------------------------
 
 
-def passes(spectrum: Spectrum, rate: float) -> str:
+def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
     """Whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it."""
     frequency, density = spectrum
     spacing = float(frequency[1] - frequency[0])
@@ -233,6 +267,11 @@ def passes(spectrum: Spectrum, rate: float) -> str:
     if not rate > 0.0:
         return ""
     if rate < SEPARATE * spacing:
+        if briefly:
+            return (
+                f"None at {hertz}, how often balls pass: lines are {spacing:.0f} Hz apart (see "
+                "Vibration)."
+            )
         return (
             f"No peak at {hertz}, as often as balls pass: lines are {spacing:.0f} Hz apart. See "
             f"each pass in time (Vibration, every {style.with_prefix(1.0 / rate, 's')}) or in the "
@@ -251,7 +290,7 @@ def passes(spectrum: Spectrum, rate: float) -> str:
     return f"Peaks stand {hertz} apart, as often as balls pass."
 
 
-def peak(results: Results, rates: Sequence[float]) -> str:
+def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
     """Why the largest peak of the settled vibration is where it is; `rates` [Hz] of ball passes."""
     spectra = results.late_spectra
     peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
@@ -263,6 +302,8 @@ def peak(results: Results, rates: Sequence[float]) -> str:
     bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
     inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
     if own := [label for label in inside if label[:-1] == dof]:
+        if briefly:
+            return f"Largest peak in {mode_symbol(own[0])}: balls make it swing."
         return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0

@@ -276,14 +276,15 @@ def loudest_words(results: Results) -> str:
     return f"{text}. Computed by time integration, without the first {start}."
 
 
-def why_words(results: Results) -> str:
+def why_words(results: Results, *, briefly: bool = False) -> str:
     """Why the largest peak is where it is, and whether one stands at the ball-pass frequency."""
     spectra = {dof: results.late_spectra[dof] for dof in SHOWN if dof in results.late_spectra}
     if not spectra:
         return ""
     most = max(spectra.values(), key=lambda spectrum: loudest(spectrum).level)
     rates = [rate for _, _, rate in passed(results.scene)]
-    words = [reasons.peak(results, rates), reasons.passes(most, min(rates))]
+    words = [reasons.peak(results, rates, briefly=briefly)]
+    words.append(reasons.passes(most, min(rates), briefly=briefly))
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 

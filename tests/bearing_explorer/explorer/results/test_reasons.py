@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.bearing import BearingDrawing
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.overview.bearing import OverviewBearing
@@ -32,10 +33,10 @@ def of(scene: Scene) -> Results:
 
 
 def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
-    words = OverviewBearing(PackedSource()).sentence
+    words = BearingDrawing(PackedSource()).sentence
     load = equilibrium(RIG, [UNDER]).ball_load[0]
     assert load[10] == 0.0
-    assert words(of(RIG)) == (
+    assert words(of(RIG)).endswith(
         f"Balls 10 and 12 carry most, {load[9]:.3g} N each: ball 11, nearer the line of the load, "
         "lies in the defect and carries nothing."
     )
@@ -44,7 +45,10 @@ def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
     evenly = RIG.healthy().replace(fy=0.0, fz=100.0)
     assert "All balls carry alike" in words(of(evenly))
     assert "rollers" not in words(of(RIG))
-    assert words(Results(presets["nu208"], UNDER)).startswith("Roller")
+    assert "Roller" in words(Results(presets["nu208"], UNDER))
+    short = OverviewBearing(PackedSource()).sentence
+    assert short(of(RIG)) == "Balls 10 and 12 carry most: ball 11 is in the defect."
+    assert short(of(RIG.healthy())) == "Ball 11 carries most: nearest the load."
     most = LoadDistribution(PackedSource()).sentence
     assert "ball 11, nearer the line of the load, lies in the defect" in most(of(RIG))
     assert "in the defect" not in most(of(RIG.healthy()))

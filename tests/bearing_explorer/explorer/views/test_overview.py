@@ -10,13 +10,21 @@ import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
+from bearing_explorer.explorer.views.free_directions import FreeDirections
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
-from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness, free_terms
+from bearing_explorer.explorer.views.overview.stiffness import (
+    HIGH,
+    WIDE,
+    OverviewStiffness,
+    cells_for,
+    free_terms,
+)
 from bearing_explorer.explorer.views.overview.words import Cause, story
+from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import DOF_NAMES, Scene, equilibrium, presets
+from bearingcore import Scene, equilibrium, presets
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
@@ -33,16 +41,25 @@ def test_a_ball_spacing_longer() -> None:
     now, before = Results(LONGER).chain, Results(FAN_RIG).chain
     fall, rise = (now.stiffness[term] / before.stiffness[term] for term in ("k_yy", "k_xx"))
     (low, high), (low0, high0) = now.bands["y1"], before.bands["y1"]
-    share, share0 = (s["k_yy"] / (s["k_xx"] + s["k_yy"]) for s in (now.stiffness, before.stiffness))
     assert told(LONGER, FAN_RIG) == (
         "Defect longer by one ball spacing (12.9 → 38.61°): the balls beside the defect take over "
-        f"the load; balls push back more sideways (sin²φ {share0:.2f} → {share:.2f}), "
-        f"so k_yy falls by {100 * (1 - fall):.0f} % and k_xx rises by {100 * (rise - 1):.0f} %. "
+        f"the load, so k_yy falls by {100 * (1 - fall):.0f} % and k_xx rises by "
+        f"{100 * (rise - 1):.0f} %. "
         f"Therefore the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
         "and the spectrum's peak with it, "
         f"from {before.peaks['y'].frequency:.0f} to {now.peaks['y'].frequency:.0f} Hz."
     )
     assert now.off_line > before.off_line
+
+
+def test_the_cause_is_that_of_the_change() -> None:
+    """A larger load presses contacts harder, a longer defect moves the load, thrust loads more."""
+    pressed = told(FAN_RIG.replace(fy=-300.0), FAN_RIG)
+    assert "each contact is stiffer on average, so k_yy rises" in pressed
+    assert "the load turns by 31°, so k_yy falls" in told(FAN_RIG.replace(fx=60.0), FAN_RIG)
+    assert "more balls carry" in told(FAN_RIG.replace(fz=200.0), FAN_RIG)
+    back = told(FAN_RIG, LONGER)
+    assert "balls near the line of the load carry more of it again, so k_yy rises" in back
 
 
 def test_only_what_really_changed_is_said() -> None:
@@ -91,8 +108,7 @@ def changed(**news: object) -> str:
         ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
         ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
         ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}},
-         "So: balls push back more sideways (sin²φ 0.67 → 0.60) and each contact is softer on "
-         "average, so k_yy falls by 25 %."),
+         "So: balls push back more sideways (sin²φ 0.67 → 0.60), so k_yy falls by 25 %."),
         ({"stiffness": {"k_xx": 1.5e7, "k_yy": 3e7}, "loaded_balls": 3.0},
          "So: fewer balls carry (4 → 3), so k_yy falls by 25 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
@@ -128,14 +144,44 @@ def test_each_link_in_words(news: dict, words: str) -> None:
 def test_only_terms_that_matter_are_lively() -> None:
     view = OverviewStiffness(PackedSource())
     terms = view.data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
-    lively = {i for i, yes in enumerate(terms["lively"]) if yes}
-    assert lively == {0, 1, 5}, "k_xx, k_xy and k_yy: the ring moves along x and y alone"
-    assert terms["now"][5] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
+    assert list(terms["term"]) == [0, 1, 5], "k_xx, k_xy and k_yy: the ring moves along x and y"
+    assert terms["now"][2] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
     assert free_terms(("x", "y", "z")) == {"k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz"}
     all_of = OverviewStiffness(PackedSource()).data(Results(presets["liew-lim"], 0.1))[0]
-    assert all_of["overview_terms"]["lively"].sum() > 10
-    held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
-    assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
+    assert len(all_of["overview_terms"]["term"]) > 10
+    wide = {name: sources["overview_terms"]["right"][0] - sources["overview_terms"]["left"][0]
+            for name, sources in (("few", {"overview_terms": terms}), ("all", all_of))}  # fmt: skip
+    assert wide["few"] > 1.6 * wide["all"], "few terms are drawn larger"
+
+
+@pytest.mark.parametrize("count", range(16))
+def test_cells_of_terms_are_apart_and_inside(count: int) -> None:
+    cells = cells_for(count)
+    assert len(cells) == count
+    assert all(0.0 < c.left < c.right < WIDE and -HIGH < c.bottom < c.top < 0.0 for c in cells)
+    assert len({(c.left, c.top) for c in cells}) == count
+
+
+def test_what_is_held_is_said_alike_on_all_tabs() -> None:
+    def said(scene: Scene) -> list[str]:
+        views = (OverviewStiffness, Stiffness, FreeDirections)
+        return [view(PackedSource()).sentence(Results(scene)) for view in views]
+
+    short, *full = said(FAN_RIG)
+    missing = "Not needed here: z, θx and θy"
+    assert f"{missing}." in short
+    assert all(f"{missing} (no load along the shaft, no moment)." in words for words in full)
+    chosen = FAN_RIG.replace(dofs=("x", "y", "z"))
+    assert all("θx and θy are held by choice." in words for words in said(chosen))
+    rollers = "cylindrical rollers carry nothing along the others"
+    assert all(rollers in words for words in said(presets["nu208"])[1:])
+    assert not any("held" in words or "Not needed" in words for words in said(presets["liew-lim"]))
+
+
+def test_no_rounding_noise_is_said() -> None:
+    for name in ("fan-rig", "liew-lim", "3208"):
+        words = OverviewStiffness(PackedSource()).sentence(Results(presets[name]))
+        assert not re.search(r"\b[nµ]N|−\d", words), words
 
 
 @pytest.mark.parametrize("name", ["liew-lim", "3208"])

@@ -27,7 +27,7 @@ class OverviewBearing(BearingDrawing):
 
     def sentence(self, results: Results) -> str:
         drop = results.drop["outer"] + results.drop["inner"]
-        why = reasons.most_loaded(results.scene, results.now, 0, drop)
+        why = reasons.most_loaded(results.scene, results.now, 0, drop, briefly=True)
         return why or super().sentence(results)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:

@@ -30,14 +30,13 @@ class LastChange(View):
     title = "Effect of your last change"
     about = (
         "Computed for each change, against the scene before it. Means are over all cage angles. "
-        "sin²φ: mean share of the radial stiffness that is vertical. Small changes are not "
+        "sin²φ: the share of the radial stiffness that is vertical. Small changes are not "
         "named: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
         "is compared with the bearing without its defect."
     )
     needs = frozenset({"chain", "before", "late_spectra", "reference"})
     compact = True
-    sentence_looks = ("large",)
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:

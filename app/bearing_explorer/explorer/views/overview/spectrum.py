@@ -141,7 +141,7 @@ class OverviewSpectrum(View):
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
 
     def sentence(self, results: Results) -> str:
-        return why_words(results) or loudest_words(results)
+        return why_words(results, briefly=True) or loudest_words(results)
 
     table = VibrationSpectra.table
 

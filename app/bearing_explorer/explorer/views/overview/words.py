@@ -68,7 +68,8 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     own = label and f"k_{label[:-1] * 2}"
     follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
-    text = "; ".join(filter(None, (load, why)))
+    # where the load went explains the stiffness only if balls push back elsewhere
+    text = load if load and (by.defect or not why or "push" in why) else why
     if stiff:
         text += f"{', so ' if why else ', ' if text else ''}{style.list_words(stiff)}"
     last = [words for words in (band, heard) if words]
@@ -225,7 +226,7 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
         at = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
         if louder < 0.0:
             return f"hardly any vibration is left{where} at {at}"
-        return f"vibration appears{where} at {at}, where there was hardly any"
+        return f"vibration appears{where} at {at}"
     if abs(louder) >= LEAST_LEVEL:
         level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
     moved = new.frequency - old.frequency

@@ -163,7 +163,7 @@ export function render({ model }) {
     const folded = all_of.filter((one) => !is_main(one) && one.name !== spec.turning)
     const changed = many - 1 + folded.filter(({ name }) => differs(name, values[name])).length
       + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
-    more.textContent = changed ? `More (${changed} changed)` : "More"
+    more.textContent = changed ? `All settings (${changed} changed)` : "All settings"
   }
 
   // With a lesson only the controls that it names, and all others on request.

@@ -240,7 +240,7 @@ def holding(
 
 
 def unfold(page: Page) -> None:
-    """Unfold the controls behind "More", where they are folded."""
+    """Unfold the controls behind "All settings", where they are folded."""
     more = page.locator("aside .more[aria-expanded=false]")
     if more.is_visible():
         more.click()

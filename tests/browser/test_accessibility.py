@@ -322,7 +322,9 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     details = page.locator("footer .status").get_by_role("button", name="Details")
     listed = status(page).locator(".list")
     expect(listed).to_be_hidden()
-    expect(page.locator("footer .status strong[role=status]")).to_have_text("Converged")
+    expect(page.locator("footer .status strong[role=status]")).to_have_text(
+        "Computed without problems"
+    )
     details.press("Enter")
     expect(listed).to_contain_text("residual at most")
     page.keyboard.press("Escape")

@@ -34,6 +34,7 @@ from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common.scene_file import LARGEST_TEXT
 
+_COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in their order
 _STEPS = ("set", "typed", "choose", "reset", "floor")
 
 
@@ -188,7 +189,7 @@ class Bookmarks:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
         self.compared += (Reference(scene, name),)
-        self.say(f"“{name}” is drawn with every scene now.")
+        self.say(f"Dashed {_COLORS[len(self.compared) - 1]}: “{name}”, for comparison.")
 
     def kept(self, name: str) -> dict[str, str]:
         """The scene of now for the browser to keep."""

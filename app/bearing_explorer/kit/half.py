@@ -57,6 +57,10 @@ class Half(Protocol):
     def join(self, page: Page) -> None:
         """Become a half of this session, once, before anything else."""
 
+    @property
+    def kind_of_inputs(self) -> type:
+        """The type of its inputs, by which they are told from those of another half."""
+
     def inputs(self) -> Inputs:
         """Inputs of the next picture."""
 

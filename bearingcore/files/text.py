@@ -7,6 +7,7 @@ in its first lines; pandas reads the rest. Runs in the process of `child` alone.
 
 from __future__ import annotations
 
+import dataclasses
 import io
 import math
 import re
@@ -78,13 +79,14 @@ def read_text(
             raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
         columns, names = turned
         return _about(columns, names or _headings(remarks, style, columns), remarks)
-    notes: list[str] = []
     most_rows = most_numbers // width + 1
-    read = _numbers(content[begin:], style, width, most_rows)
+    body, notes = _without_a_cut_line(content[begin:], style, width)
+    read = _numbers(body, style, width, most_rows)
     if read is None:
         above = content.count(b"\n", 0, begin) + 1
-        mended, notes = _mended(name, content[begin:], style, width, above)
-        read = _numbers(mended, style, width, most_rows)
+        body, more = _mended(name, body, style, width, above)
+        notes += more
+        read = _numbers(body, style, width, most_rows)
         if read is None:
             raise checks.refuse("file", name, READABLE)
     if read.size > most_numbers:
@@ -514,12 +516,24 @@ def _wrong_lines(
             yield index, text.strip(), "" if comment else f"{width} columns as in the first"
 
 
+def _without_a_cut_line(body: bytes, style: _Style, width: int) -> tuple[bytes, list[str]]:
+    """Many lines without the last one where that is cut off, and a sentence on it."""
+    last = body.rstrip().rfind(b"\n") + 1
+    # another clock: the time begins with the first line
+    other = dataclasses.replace(style, clock=None if style.clock is None else _Clock())
+    wrong = next(_wrong_lines([body[last:]], other, width), None)
+    if wrong is None or not wrong[2] or body.count(b"\n") <= FEWEST_SAMPLES:
+        return body, []
+    text = re.sub(r"[^ -\uffff]", "", wrong[1])[:40]
+    return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
+
+
 def _mended(
     name: str, body: bytes, style: _Style, width: int, above: int
 ) -> tuple[bytes, list[str]]:
-    """Lines with gaps in place of a few that hold no numbers, without a last one that is cut off.
+    """Lines with gaps in place of a few that hold no numbers, and sentences on them.
 
-    Also sentences on them. The first line has the number `above`.
+    The first line has the number `above`.
     """
     lines = body.splitlines(keepends=True)
     most = int(MOST_WRONG * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
@@ -534,9 +548,6 @@ def _mended(
         if len(wrong) > most:
             raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
     notes = []
-    if wrong and wrong[-1][0] == len(lines) - 1:
-        notes.append(f"The last line, “{wrong.pop()[1]}”, is cut off: it is not used.")
-        lines.pop()
     for index, _, _ in wrong:
         lines[index] = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
     if wrong:

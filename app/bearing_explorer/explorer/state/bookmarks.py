@@ -73,6 +73,10 @@ def name_of(text: str) -> str:
     return one_line(text, LONGEST_NAME) or "Unnamed"
 
 
+FIRST_TAB = "overview"
+"""The tab of a page whose address names none; links that are shared name it."""
+
+
 class Bookmarks:
     """Undo, compared scenes, notice and address of one session."""
 
@@ -202,7 +206,7 @@ class Bookmarks:
 
     def state(self) -> dict[str, Any]:
         """State for the browser."""
-        place = replace(place_of(self._editor, self._tab), compared=self.compared)
+        place = replace(place_of(self._editor, self._tab or FIRST_TAB), compared=self.compared)
         address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})

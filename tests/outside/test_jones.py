@@ -71,7 +71,7 @@ def test_a_7208_at_speed(angle: int, rpm: int) -> None:
 
 
 @witness(
-    "* bearing: limits", "function: limits",
+    "ball bearing: limits", "function: limits",
     by="Jones's equations with the gyroscopic moment held at the outer race (λ_o = 2)",
     compared="by how much it turns the outer contact of the five spindles of OpenJones",
     within=0.4,

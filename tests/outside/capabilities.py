@@ -10,7 +10,7 @@ import pkgutil
 from collections.abc import Iterator
 from pathlib import Path
 
-import bearing_explorer.views.paper_figures as paper
+import bearing_explorer.explorer.views.paper_figures as paper
 
 import bearingcore
 from bearingcore import signals

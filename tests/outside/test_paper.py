@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.views.paper_figures import FIGURES
+from bearing_explorer.explorer.views.paper_figures import FIGURES
 from scipy.signal import welch
 
 from tests.outside.elements import Array, Defect, Rows

@@ -19,9 +19,6 @@ from bearingcore.kernels.compiling import inlined
 # than this part of A0 to passing, rounding decides whether they have.
 GUARD = 1e-12
 
-STRAIGHT = 1e15
-"""Distance A0 [m] of the centres of straight races: no displacement turns their contact."""
-
 POINT_CONTACT = 1.5
 """Exponent of a ball between grooves (Hertz)."""
 
@@ -80,11 +77,15 @@ def ring_at_ball(x, cj, sj, j, contacts):
 def race_touch(r, z, drop, A, j, contacts):
     """δ [m], direction (er, ez) = (cos α_j, sin α_j) (Eq. 14) and 1/A of a contact.
 
-    (r, z) is the displacement that closes it; the drop is taken along the line of contact.
+    (r, z) is the displacement that closes it; the drop is taken along the line of contact. A line
+    that is fixed does not swivel: 0 is in place of 1/A.
     """
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
-    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, A)
+    along = r * ca + z * sa - drop
+    if contacts.fixed[j]:
+        return along, ca, sa, 0.0
+    delta, eu, ew, bend = compression(along, z * ca - r * sa, A)
     return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
 
 
@@ -101,15 +102,15 @@ def touch(x, cj, sj, drop, j, contacts):
 def has_left(x, cj, sj, j, contacts):
     """Whether the inner ring at contact j has left the outer one, whatever the ball has sunk by.
 
-    Where races are straight, it has moved along them by more than `Contacts.room`; else it has
-    moved back by all of the distance of the groove centres, where no groove is any more.
+    Across a fixed line of contact it has moved along the races by more than `Contacts.room`; else
+    it has moved back by all of the distance of the groove centres, where no groove is any more.
     """
     r, z = ring_at_ball(x, cj, sj, j, contacts)
     r -= contacts.clearance[j]
     z += contacts.offset[j]
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
-    if contacts.distance[j] >= STRAIGHT:
+    if contacts.fixed[j]:
         return abs(z * ca - r * sa) > contacts.room[j]
     return r * ca + z * sa <= -contacts.distance[j]
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.contact import (
-    STRAIGHT,
     carried,
     components,
     compression_under,
@@ -248,6 +247,7 @@ def with_factors(contacts, factor):
         contacts.reach,
         contacts.line_r,
         contacts.line_z,
+        contacts.fixed,
         contacts.distance,
         contacts.clearance,
         contacts.offset,
@@ -301,8 +301,8 @@ def stiffest_contact(contacts):
 
 @inlined
 def curved_length(contacts, j):
-    """A0 [m] of a contact of curved races, along which the energy's valley is curved; else 0."""
-    return contacts.distance[j] if contacts.distance[j] < STRAIGHT else 0.0
+    """A0 [m] of a contact whose line turns, along which the energy's valley is curved; else 0."""
+    return 0.0 if contacts.fixed[j] else contacts.distance[j]
 
 
 @inlined
@@ -661,7 +661,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                     count += 1
                     most = max(most, loads[k, j])
                     beyond = beyond or delta > contacts.room[j]
-                    if settled and (bend == 0.0 or contacts.distance[j] >= STRAIGHT):
+                    if settled and bend == 0.0:
                         beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
             if beyond and (settled or status[e, k] == FREE_DIRECTION):
                 status[e, k] = BEYOND

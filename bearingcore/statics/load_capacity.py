@@ -13,7 +13,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.kernels import RESIDUAL_LIMIT
 from bearingcore.scene.packing import ball_angles, contacts
 from bearingcore.scene.scene import Scene
@@ -36,10 +35,10 @@ def descent_direction(
     """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
 
     A ball stays free for ever just when it moves straight back along its unloaded line of contact,
-    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers between straight
-    races may move along these as well, so that e_j·w ≤ 0 is all of it. The nearest of them to the
-    load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share of the load
-    is 0 where contacts can carry all of it.
+    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers, whose line of
+    contact is fixed, may move across it as well, so that e_j·w ≤ 0 is all of it. The nearest of
+    them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
+    of the load is 0 where contacts can carry all of it.
     """
     nothing = np.zeros(len(active)), 0.0
     if not load.any():
@@ -50,7 +49,7 @@ def descent_direction(
     radial = np.stack([c, s, zero, -every.arm * s, every.arm * c], axis=1)[:, active]
     axial = np.stack([zero, zero, one, every.reach * s, -every.reach * c], axis=1)[:, active]
     ca, sa = every.line_r[:, None], every.line_z[:, None]
-    across = (axial * ca - radial * sa)[every.distance < kernels.STRAIGHT]
+    across = (axial * ca - radial * sa)[~every.fixed]
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)
     held = np.count_nonzero(sizes > 1e-10)

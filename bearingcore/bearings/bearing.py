@@ -14,7 +14,7 @@ from bearingcore.bearings.kind import Kind
 from bearingcore.bearings.kinds import kind_of
 from bearingcore.bearings.kinematics import Kinematics
 from bearingcore.bearings.line_contact import RollerContact
-from bearingcore.bearings.material import STEEL_DENSITY, material_named
+from bearingcore.bearings.material import BALL_MATERIALS, STEEL_DENSITY
 from bearingcore.bearings.rows import (
     MOST_ROWS,
     Row,
@@ -117,6 +117,7 @@ class Bearing(Kinematics):
     self_aligning = classmethod(self_aligning.self_aligning)
     paired = paired
     respaced = respaced
+    pressure_centers_apart = property(pressure_centers_apart)
     seated = ball.seated
     with_balls_of = ball.with_balls_of
     frequency_spread = inside.frequency_spread
@@ -132,9 +133,10 @@ class Bearing(Kinematics):
             if getattr(self, name) is not None:
                 keep(name, checks.number(name, getattr(self, name), above=0.0))
         keep("density", checks.number("density", self.density, above=0.0, unit="kg/m³"))
+        least = -self.ball_radius  # more than any contact could be compressed
         keep(
             "radial_clearance",
-            checks.number("radial_clearance", self.radial_clearance, at_least=0.0, unit="m"),
+            checks.number("radial_clearance", self.radial_clearance, at_least=least, unit="m"),
         )
         for fault in drawing.faults(vars(self)):
             raise fault
@@ -160,14 +162,6 @@ class Bearing(Kinematics):
     def row_distance(self) -> float | None:
         """Distance [m] of two rows along the shaft; None of another number of rows."""
         return self.rows[1].place - self.rows[0].place if len(self.rows) == 2 else None
-
-    @property
-    def pressure_centers_apart(self) -> float | None:
-        """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
-
-        With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
-        """
-        return pressure_centers_apart(self)
 
     @property
     def preload(self) -> float | None:
@@ -261,7 +255,7 @@ class Bearing(Kinematics):
 
     @property
     def contact(self) -> Contact:
-        """What the contacts of the bearing's own numbers have in common; of a row, `of_row`'s."""
+        """The contact of each element, by the bearing's own numbers; of a row, `of_row`'s."""
         return self.kind.contact(self)
 
     @property
@@ -287,9 +281,14 @@ class Bearing(Kinematics):
 
     @property
     def ball_material(self) -> str:
-        """Name out of `BALL_MATERIALS` that the balls are of; empty where it is none of them."""
+        """Name out of `BALL_MATERIALS` that the balls are of; empty where it is none of them.
+
+        The density does not count: it may be set apart from the stiffness.
+        """
+        if not self.is_hybrid:
+            return "steel"
         own = (self.ball_youngs_modulus, self.ball_poisson)
-        return material_named(*own) if self.is_hybrid else "steel"
+        return next((name for name, one in BALL_MATERIALS.items() if one[:2] == own), "")
 
     @property
     def is_hybrid(self) -> bool:

@@ -16,7 +16,7 @@ from bearingcore.common import checks
 
 
 class Contact(NamedTuple):
-    """What all contacts of a row have in common.
+    """Numbers that all contacts of a row have in common.
 
     Attributes
     ----------
@@ -41,11 +41,6 @@ class Contact(NamedTuple):
     exponent: float
     room: float
     center_distance: float | None
-
-    @property
-    def is_fixed(self) -> bool:
-        """True where no displacement turns the line of contact."""
-        return self.center_distance is None
 
     def play(self, clearance: float) -> float:
         """Sideways play [m] of the inner ring from contact to contact, grooves opposite.

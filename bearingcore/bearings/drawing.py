@@ -89,12 +89,10 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
             if values[name] is not None:
                 raise checks.refuse(name, values[name], "None, unless the bearing has groove radii")
         return {}
-    found = {
-        f"{race}_groove_radius": check_groove(
-            race, values[f"{race}_groove_radius"], values["ball_diameter"]
-        )
-        for race in ("inner", "outer")
-    }
+    found = {}
+    for name in GROOVES:
+        race = name.partition("_")[0]
+        found[name] = check_groove(race, values[name], values["ball_diameter"])
     for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
         if values[name] is not None or name not in BALL_MATERIAL:
             found[name] = check_material(name, values[name])
@@ -204,7 +202,7 @@ def check_clearance(
     return checks.number(
         "diametral_clearance",
         diametral_clearance,
-        at_least=0.0,
+        at_least=-ball_diameter,
         at_most=most,
         unit="m",
         note="more would need a free contact angle above "

@@ -159,7 +159,7 @@ class Kind:
 
     def derived(self, bearing: Bearing) -> Derived | None:
         """The fields that follow from others, or None where nothing follows."""
-        raise NotImplementedError
+        return None
 
     def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
         """A bearing with fields changed, and with what follows from them; see `Bearing.replace`."""

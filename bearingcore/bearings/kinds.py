@@ -29,7 +29,7 @@ def kind_of(bearing: Bearing) -> Kind:
     given: object = bearing.kind
     if isinstance(given, Kind):
         return given
-    return kind_named(given) if given else recognized(bearing)  # type: ignore[arg-type]
+    return kind_named(bearing.kind) if given else recognized(bearing)  # type: ignore[arg-type]
 
 
 def recognized(bearing: Bearing) -> Kind:

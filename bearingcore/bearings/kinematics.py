@@ -12,21 +12,15 @@ GREATEST_CONTACT_ANGLE = math.radians(80.0)
 """Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
 
 
-def check_contact_angle(angle: float) -> float:
+def check_contact_angle(angle: float, name: str = "contact_angle") -> float:
     """Unloaded contact angle [rad] as a float, else ValueError."""
-    return checks.number(
-        "contact_angle",
-        angle,
-        at_least=0.0,
-        at_most=GREATEST_CONTACT_ANGLE,
-        unit="rad",
-        note="0 to 80 degrees",
-    )
+    most, note = GREATEST_CONTACT_ANGLE, "0 to 80 degrees"
+    return checks.number(name, angle, at_least=0.0, at_most=most, unit="rad", note=note)
 
 
 @dataclass(frozen=True)
 class Kinematics:
-    """What all speeds and frequencies depend on: N_b, D_b and D_p [m], and α0 [rad]."""
+    """Numbers that speeds and frequencies depend on: N_b, D_b and D_p [m], and α0 [rad]."""
 
     n_balls: int
     ball_diameter: float

@@ -26,12 +26,3 @@ BALL_MATERIALS: Mapping[str, BallMaterial] = {
     "silicon nitride": BallMaterial(310e9, 0.26, 3200.0),
 }
 """Materials by name; balls of steel are as stiff as the rings."""
-
-
-def material_named(youngs_modulus: float | None, poisson: float | None) -> str:
-    """Name out of `BALL_MATERIALS` of E [Pa] and ν; empty where it is none of them.
-
-    The density does not count: it may be set apart from the stiffness.
-    """
-    own = (youngs_modulus, poisson)
-    return next((name for name, one in BALL_MATERIALS.items() if one[:2] == own), "")

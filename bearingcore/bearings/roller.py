@@ -40,32 +40,22 @@ def cylindrical(
     ValueError
         naming the field, its value and what is allowed.
     """
-    return rollers(
-        cls,
-        ROLLER,
-        n_rollers,
-        roller_diameter,
-        roller_length,
-        pitch_diameter,
-        0.0,
-        radial_clearance,
-    )
+    sizes = (roller_diameter, roller_length, pitch_diameter)
+    return rollers(cls, ROLLER, n_rollers, sizes, 0.0, radial_clearance)
 
 
 def rollers(
     cls: type[Bearing],
     kind: Kind,
     n_rollers: int,
-    roller_diameter: float,
-    roller_length: float,
-    pitch_diameter: float,
+    sizes: tuple[float, float, float],
     contact_angle: float,
     radial_clearance: float,
 ) -> Bearing:
-    """One row of rollers of steel of a kind [m, rad]."""
-    diameter = checks.number("roller_diameter", roller_diameter, above=0.0, unit="m")
-    length = checks.number("roller_length", roller_length, above=0.0, unit="m")
-    pitch = checks.number("pitch_diameter", pitch_diameter, above=diameter, unit="m")
+    """One row of rollers of steel; `sizes` [m] are diameter, length and pitch diameter."""
+    diameter = checks.number("roller_diameter", sizes[0], above=0.0, unit="m")
+    length = checks.number("roller_length", sizes[1], above=0.0, unit="m")
+    pitch = checks.number("pitch_diameter", sizes[2], above=diameter, unit="m")
     return cls(
         kind=kind,
         n_balls=n_rollers,

@@ -86,10 +86,8 @@ class Row:
 
     def __post_init__(self) -> None:
         if self.contact_angle is not None:
-            angle = checks.number(
-                "contact_angle of a row", self.contact_angle, at_least=0.0, unit="rad"
-            )
-            object.__setattr__(self, "contact_angle", check_contact_angle(angle))
+            angle = check_contact_angle(self.contact_angle, "contact_angle of a row")
+            object.__setattr__(self, "contact_angle", angle)
         if self.n_balls is not None:
             count = checks.whole_number("n_balls of a row", self.n_balls, at_least=1, at_most=500)
             object.__setattr__(self, "n_balls", count)
@@ -204,7 +202,10 @@ def _check_preload(bearing: Bearing, preload: float) -> None:
 
 
 def pressure_centers_apart(bearing: Bearing) -> float | None:
-    """See `Bearing.pressure_centers_apart`."""
+    """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
+
+    With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+    """
     if bearing.arrangement not in ("back-to-back", "face-to-face"):
         return None
     meets = [

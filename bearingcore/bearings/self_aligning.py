@@ -183,9 +183,6 @@ class SelfAligning(Kind):
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         return ("sphere_rows_apart", "load_deflection_factor", "groove_center_distance")
 
-    def derived(self, bearing: Bearing) -> None:
-        return None
-
     def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
         """A bearing with what it is drawn by changed: all else follows."""
         if "rows" in changes:

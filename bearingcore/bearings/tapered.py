@@ -67,16 +67,8 @@ def tapered(
     ValueError
         naming the field, its value and what is allowed.
     """
-    return rollers(
-        cls,
-        TAPERED,
-        n_rollers,
-        roller_diameter,
-        roller_length,
-        pitch_diameter,
-        contact_angle,
-        radial_clearance,
-    )
+    sizes = (roller_diameter, roller_length, pitch_diameter)
+    return rollers(cls, TAPERED, n_rollers, sizes, contact_angle, radial_clearance)
 
 
 class Tapered(Roller):

@@ -48,16 +48,21 @@ def compression(m, w, A0):
     m and w are the ball's displacement along and across the unloaded line of contact, so that
     (A0 + m, w) is the vector between the groove centres (Eqs. 8-10). δ ≤ 0 is a gap. In place of
     1/A is 0 where the centres have passed each other: only what is across the line counts
-    there, and the contact does not swivel.
+    there, and the contact does not swivel. Nor does one without centres, whose A0 is 0: its
+    line is fixed, and m is all that counts.
     """
     p = A0 + m
     if p > 0.0:
         rise = m * (2.0 * A0 + m) + w * w  # A² − A0² without its cancellation
         if rise <= 0.0:
             return 0.0, 1.0, 0.0, 0.0
+        if A0 == 0.0:
+            return m, 1.0, 0.0, 0.0
         A = math.sqrt(p * p + w * w)
         bend = 1.0 / A
         return rise / (A + A0), p * bend, w * bend, bend if p > GUARD * A0 else 0.0  # Equation (7)
+    if A0 == 0.0:
+        return 0.0, 1.0, 0.0, 0.0
     return max(abs(w) - A0, 0.0), 0.0, 1.0 if w > 0.0 else -1.0, 0.0
 
 
@@ -77,14 +82,11 @@ def ring_at_ball(x, cj, sj, j, contacts):
 def race_touch(r, z, drop, A, j, contacts):
     """δ [m], direction (er, ez) = (cos α_j, sin α_j) (Eq. 14) and 1/A of a contact.
 
-    (r, z) is the displacement that closes it; the drop is taken along the line of contact. A line
-    that is fixed does not swivel: 0 is in place of 1/A.
+    (r, z) is the displacement that closes it; the drop is taken along the line of contact.
     """
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
     along = r * ca + z * sa - drop
-    if contacts.fixed[j]:
-        return along, ca, sa, 0.0
     delta, eu, ew, bend = compression(along, z * ca - r * sa, A)
     return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
 

@@ -330,11 +330,10 @@ def descend(q, place, contacts, load, work, most):
     hard = stiffest_contact(contacts)
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
+    tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
     carried_load = 0.0
-    axial = False
     for i in active:
         carried_load += F[i] * F[i]
-        axial = axial or i == 2
     size = math.sqrt(carried_load)
     nothing = 0.0
     k_typical = 0.0
@@ -356,7 +355,7 @@ def descend(q, place, contacts, load, work, most):
         if iteration >= 0:
             norm = 0.0
             taken = 0.0  # by what holds the directions that are not active
-            reach = 0.0
+            reach = tight
             for i in range(5):
                 taken += (g[i] + F[i]) ** 2
                 reach = max(reach, abs(q[i]))
@@ -442,15 +441,13 @@ def descend(q, place, contacts, load, work, most):
         now = 1 - now
         if iteration < 0:
             if size == 0.0:
-                # only a clearance so large that the ring, held axially, is wedged presses balls,
-                # or rows that press each other
-                preloaded = contacts.rows.shape[0] > 1
-                for i in range(5):
-                    size += (G[now, i] + F[i]) ** 2
-                size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
-                if size == 0.0 or (axial and not preloaded):
+                # without a load an interference presses balls, rows that press each other, or a
+                # clearance so large that the ring, held axially, is wedged
+                preloaded = True
+                size = pressed_load(q, place, contacts)
+                if size == 0.0:
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
-                lost = ROUNDING * (curved_length(contacts, hard) + contacts.clearance[hard])
+                lost = ROUNDING * (curved_length(contacts, hard) + abs(contacts.clearance[hard]))
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
                 nothing = max(RESIDUAL_AIM * size, least_load)
             # of one ball under all of the load
@@ -488,7 +485,7 @@ def minimise_energy(q, place, contacts, load, work):
     soft_factor = work.soft
     for i in active:
         # of a wedged ring without a load nothing says how soft to begin
-        away = contacts.clearance[one] / contacts.line_r[one] + soft
+        away = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + soft
         start[i] = away * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
     for _ in range(40):
@@ -548,7 +545,7 @@ def first_guess(contacts, load, state):
     """Put into state (5,): the clearance and one ball's compression, along the load."""
     size = load_size(load)
     one = stiffest_contact(contacts)
-    reach = contacts.clearance[one] / contacts.line_r[one] + compression_under(
+    reach = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + compression_under(
         size, contacts.factor[one], contacts.exponent[one]
     )
     for i in load.active:

@@ -51,7 +51,7 @@ class Contacts(NamedTuple):
         True where no displacement turns the line of contact, as between straight races.
     distance [m]
         unloaded distance A0 of the groove curvature centres, about which a line turns that is not
-        fixed; of a fixed one 0, and not read.
+        fixed; 0 of one that is.
     clearance [m]
         radial clearance r_L.
     offset [m]

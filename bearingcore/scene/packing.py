@@ -74,7 +74,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         line_z=each(
             *(row.facing * math.sin(one.angle) for row, one in zip(rows, made, strict=True))
         ),
-        fixed=each(*(one.is_fixed for one in made)).astype(bool),
+        fixed=each(*(one.center_distance is None for one in made)).astype(bool),
         distance=each(*(one.center_distance or 0.0 for one in made)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),

@@ -331,9 +331,11 @@ def descend(q, place, contacts, load, work, most):
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
     tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
+    axial = False
     carried_load = 0.0
     for i in active:
         carried_load += F[i] * F[i]
+        axial = axial or i == 2
     size = math.sqrt(carried_load)
     nothing = 0.0
     k_typical = 0.0
@@ -442,10 +444,11 @@ def descend(q, place, contacts, load, work, most):
         if iteration < 0:
             if size == 0.0:
                 # without a load an interference presses balls, rows that press each other, or a
-                # clearance so large that the ring, held axially, is wedged
+                # clearance so large that the ring, held axially, is wedged: else it slips out
                 preloaded = True
                 size = pressed_load(q, place, contacts)
-                if size == 0.0:
+                slips = axial and contacts.rows.shape[0] == 1 and contacts.clearance[hard] > 0.0
+                if size == 0.0 or slips:
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
                 lost = ROUNDING * (curved_length(contacts, hard) + abs(contacts.clearance[hard]))
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)

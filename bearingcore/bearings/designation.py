@@ -31,6 +31,7 @@ from bearingcore.bearings.designation_tables import (
     matched_clearance,
     rows_of,
 )
+from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.inside import (
     Inside,
     accuracy,
@@ -416,7 +417,7 @@ def _set(bearing: Bearing, kind: str, size: Boundary, said: Suffix) -> tuple[Bea
     if kind == TAPERED_ROLLERS:
         gap = 0.5 * play * math.tan(bearing.contact_angle)
     else:
-        sine = math.sin(bearing.contact_angle) + 0.5 * play / bearing.groove_center_distance
-        gap = math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2)
-        gap *= bearing.groove_center_distance
+        apart = center_distance(bearing.groove_center_distance)
+        sine = math.sin(bearing.contact_angle) + 0.5 * play / apart
+        gap = apart * (math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2))
     return bearing.replace(radial_clearance=gap), 0.0, words

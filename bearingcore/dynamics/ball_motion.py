@@ -111,7 +111,7 @@ def march_balls(
 
 def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
-    n = bearing.contact_exponent
+    n = bearing.kind.exponent
     inner, outer = (
         n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in bearing.race_factors
     )
@@ -196,7 +196,9 @@ def loads_of_races(
         w = z * contacts.line_r - r * contacts.line_z
         A = races.distance[race]
         rise = m * (2.0 * A + m) + w * w
-        reached = np.where(A + m > 0.0, rise / (np.hypot(A + m, w) + A), np.abs(w) - A)
+        length = np.maximum(np.hypot(A + m, w) + A, 1e-300)
+        reached = np.where(A + m > 0.0, rise / length, np.abs(w) - A)
+        reached = np.where(contacts.fixed, m, reached)
         loads[race] = races.factor[race] * np.maximum(reached, 0.0) ** contacts.exponent
     loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
     return loads

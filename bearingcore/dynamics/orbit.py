@@ -56,6 +56,10 @@ MARCHED_BEFORE = (2, 20, 60)
 CLOSED = 1e-7
 """An orbit is closed when it misses its beginning by this part of its own size."""
 
+STILL = 1e-12
+"""[m] Below this, a hundredth of an atom, rings stand still: all balls of a row that is pressed
+together carry, and their passing moves the rings by no more than digits."""
+
 
 LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 """Losses of stability by the place at which the largest multiplier leaves the unit circle."""
@@ -414,11 +418,11 @@ class _Shooting:
         return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
-        """|P(y) − y| over the size of the motion between."""
+        """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
         size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
-        if not (np.all(np.isfinite(end)) and size > 0.0):
+        if not (np.all(np.isfinite(end)) and math.isfinite(size)):
             return math.inf
-        return float(np.linalg.norm((end - y) * self.scale) / size)
+        return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
 
 
 def _newton(

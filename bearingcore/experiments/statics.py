@@ -127,15 +127,17 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
     A = np.sqrt(guarded**2 + across**2)  # Equation (7)
-    # A - A0 without the difference: lines of centres of rollers are a million compressions long
-    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / (A + A0), A - A0)
-    delta = np.maximum(apart, 0.0)
+    # A - A0 without the difference: lines of centres are a thousand compressions long
+    whole = np.maximum(A + A0, 1e-300)
+    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
+    delta = np.maximum(np.where(one.fixed, longer, apart), 0.0)
     length = np.maximum(A, 1e-300)
-    eu, ew = guarded / length, across / length
+    eu = np.where(one.fixed, 1.0, guarded / length)
+    ew = np.where(one.fixed, 0.0, across / length)
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
     k1 = n * one.factor * delta ** (n - 1.0)
     Q = k1 * delta / n  # Equation (13)
-    k2 = np.where(along > 0.0, Q / length, 0.0)
+    k2 = np.where((along > 0.0) & ~one.fixed, Q / length, 0.0)
     e = er[..., None] * R + ez[..., None] * Z
     t = -ez[..., None] * R + er[..., None] * Z
     force = (Q[..., None] * e).sum(axis=1)  # Equation (15)

@@ -47,15 +47,18 @@ class Contacts(NamedTuple):
         radius on which the inner groove's centres of the row are, over r_d.
     line_r, line_z
         unloaded line of contact, radial and axial: cos α0, sin α0.
+    fixed
+        True where no displacement turns the line of contact, as between straight races.
     distance [m]
-        unloaded distance A0 of the groove curvature centres.
+        unloaded distance A0 of the groove curvature centres, about which a line turns that is not
+        fixed; 0 of one that is.
     clearance [m]
         radial clearance r_L.
     offset [m]
         axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
     room [m]
-        greatest compression, and where races are straight (`contact.STRAIGHT`) the greatest
-        displacement along them, that the geometry of the contact allows.
+        greatest compression, and where the line is fixed the greatest displacement along the
+        races, that the geometry of the contact allows.
     factor [N/m^exponent], exponent
         of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
     rows : (k, 2)
@@ -70,6 +73,7 @@ class Contacts(NamedTuple):
     reach: Array
     line_r: Array
     line_z: Array
+    fixed: NDArray[np.bool_]
     distance: Array
     clearance: Array
     offset: Array

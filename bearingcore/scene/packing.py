@@ -6,6 +6,7 @@ back. Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groov
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -134,7 +135,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
     rows = bearing.all_rows
     owns = [bearing.of_row(k) for k in range(len(rows))]
     counts = [own.n_balls for own in owns]
-    numbers = [bearing.kind.contact_numbers(own) for own in owns]
+    made = [bearing.kind.contact(own) for own in owns]
     lever = bearing.groove_center_radius
 
     def each(*values: float) -> Array:
@@ -151,19 +152,22 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(
             *(
-                (row.place + row.facing * one.groove_center_shift) / lever
-                for row, one in zip(rows, numbers, strict=True)
+                (row.place + row.facing * one.beyond) / lever
+                for row, one in zip(rows, made, strict=True)
             )
         ),
-        reach=each(*(one.groove_center_radius / lever for one in numbers)),
-        line_r=each(*(one.cosine for one in numbers)),
-        line_z=each(*(row.facing * one.sine for row, one in zip(rows, numbers, strict=True))),
-        distance=each(*(one.distance for one in numbers)),
+        reach=each(*(one.lever / lever for one in made)),
+        line_r=each(*(math.cos(one.angle) for one in made)),
+        line_z=each(
+            *(row.facing * math.sin(one.angle) for row, one in zip(rows, made, strict=True))
+        ),
+        fixed=each(*(one.center_distance is None for one in made)).astype(bool),
+        distance=each(*(one.center_distance or 0.0 for one in made)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
-        room=each(*(one.room for one in numbers)),
-        factor=each(*(one.factor for one in numbers)),
-        exponent=each(*(one.exponent for one in numbers)),
+        room=each(*(one.room for one in made)),
+        factor=each(*(one.factor for one in made)),
+        exponent=each(*(one.exponent for one in made)),
         rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )
@@ -188,7 +192,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
     owns = own_rows(scene.bearing)
-    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.contact_exponent)
+    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.kind.exponent)
               for own in owns]  # fmt: skip
 
     def each(values: Iterable[float]) -> Array:
@@ -202,7 +206,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
 
     return kernels.Races(
         factor=both(own.race_factors for own in owns),
-        distance=both(own.race_distances for own in owns),
+        distance=both(own.kind.race_distances(own) for own in owns),
         damping=both(
             (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
         ),

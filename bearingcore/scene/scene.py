@@ -8,8 +8,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
-from bearingcore.bearings.bearing import Bearing, recognized
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.kind import DIRECTIONS
+from bearingcore.bearings.kinds import recognized
 from bearingcore.bearings.line_contact import mended_factor
 from bearingcore.bearings.named import bearing_of
 from bearingcore.common import checks, scene_file
@@ -244,7 +245,10 @@ class Scene:
             table["defect"] = scene_file.from_data(Defect, "defect 1", only)
         table.setdefault("load", {})
         if isinstance(table.get("bearing"), dict):
-            bearing = dict(table["bearing"])
+            bearing = {
+                "groove_center_distance": None,
+                **table["bearing"],
+            }  # of rollers there is none
             if "load_deflection_factor" in bearing:
                 bearing["load_deflection_factor"] = mended_factor(
                     bearing["load_deflection_factor"], bearing.get("roller_length")

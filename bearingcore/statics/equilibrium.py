@@ -146,8 +146,9 @@ class Equilibrium:
         along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
         # Equation (8): the part along the unloaded line of contact only while positive
         along += contacts.distance
-        unloaded = np.arctan2(contacts.line_z, contacts.line_r)
-        angle = unloaded + np.arctan2(across, np.maximum(along, 0.0))
+        turned = np.arctan2(across, np.maximum(along, 0.0))
+        angle = np.arctan2(contacts.line_z, contacts.line_r)
+        angle = angle + np.where(contacts.fixed, 0.0, turned)
         return np.where(self.ball_load > 0.0, angle, math.nan)
 
     def term(self, name: str) -> NDArray[np.float64]:

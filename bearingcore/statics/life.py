@@ -424,7 +424,8 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     hybrid ones, which ISO 20056 rates: their rating comes from the catalogue.
     """
     bearing = bearing_of(bearing)
-    if words := bearing.rating_unknown:
+    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
+    if words := bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else ""):
         raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
         return float(

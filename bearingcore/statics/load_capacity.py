@@ -34,10 +34,10 @@ def descent_direction(
     """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
 
     A ball stays free for ever just when it moves straight back along its unloaded line of contact,
-    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers between straight
-    races may move along these as well, so that e_j·w ≤ 0 is all of it. The nearest of them to the
-    load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share of the load
-    is 0 where contacts can carry all of it.
+    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers, whose line of
+    contact is fixed, may move across it as well, so that e_j·w ≤ 0 is all of it. The nearest of
+    them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
+    of the load is 0 where contacts can carry all of it.
     """
     nothing = np.zeros(len(active)), 0.0
     if not load.any():
@@ -48,7 +48,7 @@ def descent_direction(
     radial = np.stack([c, s, zero, -arm * s, arm * c], axis=1)[:, active]
     axial = np.stack([zero, zero, one, reach * s, -reach * c], axis=1)[:, active]
     ca, sa = contacts.line_r[:, None], contacts.line_z[:, None]
-    across = (axial * ca - radial * sa)[contacts.distance < kernels.STRAIGHT]
+    across = (axial * ca - radial * sa)[~contacts.fixed]
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)
     held = np.count_nonzero(sizes > 1e-10)

@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
@@ -40,7 +39,7 @@ def explanation(
     if status == StaticStatus.NOT_CARRIED:
         lacks = _lacks(scene, cage_angle, dofs)
         return f"; missing is {lacks}" if lacks else ""
-    lone = len(scene.bearing.all_rows) == 1 and _is_straight(scene).all()
+    lone = len(scene.bearing.all_rows) == 1 and packing.contacts(scene.bearing).fixed.all()
     if status == StaticStatus.FREE_DIRECTION and lone and {"rx", "ry"} & set(dofs):
         return (
             ", as the lines of contact of one row of tapered rollers meet in a point of the shaft; "
@@ -65,11 +64,6 @@ def moved(
     a = z + one.reach * (rx * s - ry * c) + one.offset
     along = r * one.line_r + a * one.line_z - drops_at(scene, cage_angles, leads=leads)
     return along, a * one.line_r - r * one.line_z
-
-
-def _is_straight(scene: Scene) -> NDArray[np.bool_]:
-    """(N_b,) True for contacts between straight races."""
-    return packing.contacts(scene.bearing).distance >= kernels.STRAIGHT
 
 
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
@@ -119,14 +113,13 @@ def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
         return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
     along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
-    straight = _is_straight(scene)
     apart = np.hypot(np.maximum(one.distance + along, 0.0), across)
-    pressed = np.where(straight, along, apart - one.distance)
+    pressed = np.where(one.fixed, along, apart - one.distance)
     deepest = int(np.argmax(pressed - one.room))
     if pressed[deepest] > one.room[deepest]:
         by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, one.room))
         return f"a {element} would be compressed by {by}, and {most} is more than any can be"
-    left = np.where(straight & (pressed > 0.0), np.abs(across), 0.0)
+    left = np.where(one.fixed & (pressed > 0.0), np.abs(across), 0.0)
     if (left > one.room).any():
         return (
             f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "

@@ -42,6 +42,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
@@ -424,11 +425,12 @@ def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
     compression = typical_compression(bearing, load)
-    share = compression / bearing.groove_center_distance
+    apart = center_distance(bearing.groove_center_distance)
+    share = compression / apart
     most = percent(GREATEST_COMPRESSION)
     fact = (
         f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
-        f"{with_prefix(bearing.groove_center_distance, 'm')} between the groove centres"
+        f"{with_prefix(apart, 'm')} between the groove centres"
     )
     beyond = (
         f": above {most} grooves so close around the ball touch it far up their sides, and "

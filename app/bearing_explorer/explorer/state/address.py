@@ -85,7 +85,7 @@ FORMER_TABS = {
 }
 """Former names of tabs, in links that people have."""
 
-_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length")
+_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
     *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),

@@ -56,7 +56,7 @@ def read(
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
-    known = libraries.kind_of(name, content)
+    known = libraries.library_for(name, content)
     kind: str
     walk: Any
     if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it

@@ -29,7 +29,7 @@ _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
 
 
-def kind_of(name: str, content: bytes) -> tuple[str, Callable[[bytes, Variables], None]] | None:
+def library_for(name: str, content: bytes) -> tuple[str, Callable[[bytes, Variables], None]] | None:
     """Name and reader of the format of a file, by its first bytes; None where it is none of these.
 
     Raises

@@ -12,7 +12,7 @@ import bearingcore
 ROOT = Path(bearingcore.__file__).parent
 PACKAGES = sorted({file.parent for file in ROOT.rglob("*.py")})
 
-TO_BE_RENAMED = {"bearings": {"fields"}}
+TO_BE_RENAMED: dict[str, set[str]] = {}
 
 
 def definitions(file: Path) -> Iterator[tuple[str, str]]:

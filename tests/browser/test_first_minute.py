@@ -141,28 +141,37 @@ def test_no_frame_of_a_cold_start_says_undefined(page: Page) -> None:
 # --- it moves -------------------------------------------------------------------------------------
 
 
-def test_the_bearing_turns_until_the_first_touch(page: Page, explorer: Server) -> None:
+def test_the_bearing_keeps_turning_after_a_change(page: Page, explorer: Server) -> None:
     page.emulate_media(reduced_motion="no-preference")
     page.goto(explorer.url)
     undo = page.get_by_role("button", name="Undo", exact=True)
-    page.wait_for_function(
-        "document.querySelector('main').getAttribute('aria-busy') === 'true'"
-        " && (window.__mark || 0) > 5"
-    )
+    turns = "document.querySelector('main').getAttribute('aria-busy') === 'true'"
+
+    def turns_on() -> None:
+        page.wait_for_function(turns)
+        now = value(page, "cage_angle_deg")
+        page.wait_for_function(
+            "mark => (window.__mark || 0) > mark",
+            arg=page.evaluate("window.__mark || 0") + 5,
+        )
+        assert value(page, "cage_angle_deg") != now
+
+    turns_on()
     expect(undo).to_be_disabled()
     page.mouse.click(5, 300)
-    settle(page)
-    turned = value(page, "cage_angle_deg")
-    assert turned > 0.0
-    page.wait_for_timeout(300)
-    assert value(page, "cage_angle_deg") == turned
+    page.wait_for_function(f"!({turns})")  # what a hand does is seen at rest, and read out
+    turns_on()
     expect(undo).to_be_disabled()
-    slider(page, "extent_deg").press("ArrowRight")
+    extent = value(page, "extent_deg")
+    page.get_by_role("button", name="Make the defect longer").click()
     expect(undo).to_be_enabled()
-    undo.click()
+    turns_on()
+    assert value(page, "extent_deg") > extent + 10.0
+    page.get_by_role("button", name="Stop turning").click()
     settle(page)
-    expect(undo).to_be_disabled()
-    assert value(page, "cage_angle_deg") == turned
+    stopped = value(page, "cage_angle_deg")
+    page.wait_for_timeout(300)
+    assert value(page, "cage_angle_deg") == stopped
 
 
 # --- controls that are folded ---------------------------------------------------------------------

@@ -31,7 +31,7 @@ LEAST = 0.01
 ALIKE = 0.01
 """Of the greatest load: balls that carry as much within this carry the most together."""
 SEPARATE = 4.0
-"""Lines of a spectrum between two peaks that are told apart; a Hann window widens each to four."""
+"""Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
 STANDS_OUT = 3.0
 """[dB] over its surroundings, halfway to its neighbours, from which a peak is one."""
 LOADED = 0.01

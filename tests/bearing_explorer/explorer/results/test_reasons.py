@@ -99,3 +99,16 @@ def test_the_largest_jolt_is_of_a_ball_that_carries() -> None:
     words = VibrationInTime(PackedSource()).sentence
     assert "leaves the defect and takes back its load" in words(of(RIG))
     assert "No loaded ball passes the defect" in words(of(SIDEWAYS))
+
+
+def test_what_life_assumes_is_said_by_life_and_limits_alike() -> None:
+    """The Life tab has a pressure with usual groove radii, which limits do not judge."""
+    rig = of(RIG)
+    assert "no limit is judged by them" in rig.endurance.assumed
+    assert rig.endurance.pressures is not None
+    pressures = [limit for limit in rig.limits if limit.name.startswith("contact pressure, ")]
+    assert len(pressures) == 2
+    for limit in pressures:
+        assert math.isnan(limit.value)
+        assert limit.sentence.endswith("Life assumes usual ones, by which no limit is judged.")
+    assert not any("Life assumes" in limit.sentence for limit in Results(presets["nu208"]).limits)

@@ -76,7 +76,7 @@ LAYERS: tuple[Layer, ...] = (
 """Frames and symbols of the cells and what is in them, from the lowest to the highest."""
 
 
-_UP_RIGHT = {"position": "absolute", "top": "-31px", "right": "0"}  # beside the title
+_UP_RIGHT = {"position": "absolute", "top": "-27px", "right": "0"}  # beside the title
 _ALL_FIFTEEN = "window.dispatchEvent(new CustomEvent('explorer-show', {detail: 'stiffness'}))"
 
 

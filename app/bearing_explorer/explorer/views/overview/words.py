@@ -29,7 +29,7 @@ _SECOND = 1.5  # times the change of a stiffness that another one has to have to
 
 @dataclass(frozen=True)
 class Cause:
-    """What was changed.
+    """A change between two scenes.
 
     Parameters
     ----------

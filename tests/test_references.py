@@ -20,7 +20,21 @@ DOCUMENTS = [
     if file.name not in GENERATED
 ]
 NAME = re.compile(r"(?<![`\w])`([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+)(?:\(.*?\))?`")
-FILE_ENDS = {"py", "md", "toml", "json", "js", "css", "csv", "html", "ini", "zarr", "h5", "mat"}
+FILE_ENDS = {
+    "py",
+    "md",
+    "toml",
+    "json",
+    "js",
+    "css",
+    "csv",
+    "html",
+    "ipynb",
+    "ini",
+    "zarr",
+    "h5",
+    "mat",
+}
 LIBRARIES = {
     "np": "numpy",
     "pn": "panel",

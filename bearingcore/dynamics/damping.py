@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from bearingcore.common import checks
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.packing import PackedMotion, PackedScene, pack, pack_motion
 from bearingcore.scene.scene import Scene
@@ -42,6 +43,7 @@ def contact_damping(scene: Scene) -> float:
     2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
     state to take it from.
     """
+    checks.instance("scene", scene, Scene)
     return damping_of(pack(scene)) if scene.contact_damping is None else scene.contact_damping
 
 

@@ -39,7 +39,7 @@ from bearingcore.statics.ball_positions import BallPositions, ball_positions
 from bearingcore.statics.equilibrium import default_cage_angles
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 
-NAME = "gyroscopic moment"
+GYROSCOPIC_MOMENT = "gyroscopic moment"
 
 LIMIT = 0.02
 """Of the load: friction between ball and race holds so much (Harris), and the outer contact angle
@@ -69,9 +69,11 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     try:
         found = _greatest(scene)
     except ValueError as error:
-        return unknown(NAME, LIMIT, "", str(error))
+        return unknown(GYROSCOPIC_MOMENT, LIMIT, "", str(error))
     if found is None:
-        return unknown(NAME, LIMIT, "", "no cage angle has a static state with centrifugal load")
+        return unknown(
+            GYROSCOPIC_MOMENT, LIMIT, "", "no cage angle has a static state with centrifugal load"
+        )
     if found.share < 1e-9:
         return None
     fact = (
@@ -84,7 +86,7 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     if found.share <= LIMIT and math.isfinite(speed):
         fact += f", and from about {thousands(speed * 30.0 / math.pi)} rpm on by a degree"
     beyond = ", more than the degree up to which it may be left out."
-    return upper_limit(NAME, found.share, LIMIT, "", fact, beyond, ".")
+    return upper_limit(GYROSCOPIC_MOMENT, found.share, LIMIT, "", fact, beyond, ".")
 
 
 def _speed_of_limit(scene: Scene, share: float) -> float:

@@ -11,7 +11,7 @@ from bearingcore.scene import packing
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
 
-NAME = "held tilts"
+HELD_TILTS = "held tilts"
 
 _NOTICED = 1e-6
 """Moment over that of all loads at the pitch circle, from which on it is more than rounding."""
@@ -46,4 +46,4 @@ def held_tilts(state: Equilibrium) -> Limit | None:
         f" of its other bearing; whether that can carry so much is not checked. With free tilts "
         f"the {bearing.kind.elements} would carry other loads."
     )
-    return Limit(NAME, math.nan, math.nan, "N·m", False, sentence)
+    return Limit(HELD_TILTS, math.nan, math.nan, "N·m", False, sentence)

@@ -59,7 +59,7 @@ class Half(Protocol):
 
     @property
     def kind_of_inputs(self) -> type:
-        """The type of its inputs, by which they are told from those of another half."""
+        """The type of its inputs, which another half's are not."""
 
     def inputs(self) -> Inputs:
         """Inputs of the next picture."""

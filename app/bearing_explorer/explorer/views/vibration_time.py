@@ -100,7 +100,7 @@ class VibrationInTime(PassageView):
             for dof in SHOWN
             if dof in shown.acceleration
         ]
-        below = style.with_prefix(results.motion.bandwidth, "Hz", 2)
+        below = style.with_prefix(shown.bandwidth, "Hz", 2)
         text = (
             f"The housing's acceleration below {below} peaks at " + style.list_words(peaks)
             if peaks

@@ -8,7 +8,7 @@ import pytest
 
 from bearingcore import Bearing, Load, Scene, ball_positions, limits, presets, static_state
 from bearingcore.bearings.material import BallMaterial
-from bearingcore.statics.gyroscopic import NAME
+from bearingcore.statics.gyroscopic import GYROSCOPIC_MOMENT
 from tests.outside.jones import CASES, Jones
 from tests.outside.witness import witness
 
@@ -87,10 +87,14 @@ def test_the_limit_says_by_how_much_the_gyroscopic_moment_turns_the_contacts(nam
     heavy = without[0][1] > 0.5 * without[0][1].max()
     turned = float(np.abs(with_moment[1][1] - without[1][1])[heavy].max())
     scene = scene_of(case, thrust, radial, speed)
-    (said,) = [one for one in limits(scene) if one.name == NAME]
+    (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
     assert turned <= said.value <= (1.0 + 0.4) * turned
     assert said.crossed == (said.value > 0.02)
-    slow = [one for one in limits(scene.replace(shaft_speed=0.05 * speed)) if one.name == NAME]
+    slow = [
+        one
+        for one in limits(scene.replace(shaft_speed=0.05 * speed))
+        if one.name == GYROSCOPIC_MOMENT
+    ]
     assert not slow[0].crossed
     assert "rpm on" in slow[0].sentence
 
@@ -99,4 +103,4 @@ def test_radial_balls_rollers_and_standing_shafts_have_none() -> None:
     """J ω_r ω_c sin β is 0 where β is, and where nothing turns."""
     still = presets["7208-25deg"].replace(shaft_speed=0.0)
     for scene in (presets["6205"], presets["nu208"], still):
-        assert not [one for one in limits(scene) if one.name == NAME]
+        assert not [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]

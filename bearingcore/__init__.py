@@ -8,17 +8,22 @@ from bearingcore.bearings.catalogue import (
 )
 from bearingcore.bearings.designation import Designation, read_designation
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.of_files import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
 from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
 from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
-from bearingcore.dynamics.modes import Modes, contact_damping, frequency_bands, modes
+from bearingcore.dynamics.damping import contact_damping
+from bearingcore.dynamics.modes import Modes, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
+from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.files.by_hand import read_recording
+from bearingcore.files.floor import read_floor
+from bearingcore.files.join import join_tables
 from bearingcore.files.table import Table, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
-from bearingcore.scene.floor import MeasuredFloor, RoughFloor, read_floor
+from bearingcore.scene.floor import MeasuredFloor, RoughFloor
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import preset_notes, presets
 from bearingcore.scene.scene import CONTACT_LAWS, DOF_NAMES, Scene
@@ -34,6 +39,7 @@ from bearingcore.statics.life import Life, dynamic_load_rating, life
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.maps import Maps, stiffness_maps
 from bearingcore.statics.pressure import ContactPressures, contact_pressures
+from bearingcore.statics.usual import scene_of
 from bearingcore.statics.validity import limits
 from bearingcore.warm_up import warm
 
@@ -85,6 +91,7 @@ __all__ = [
     "film",
     "frequency_bands",
     "indicators",
+    "join_tables",
     "kurtogram",
     "life",
     "limits",
@@ -96,8 +103,11 @@ __all__ = [
     "read_catalogue",
     "read_designation",
     "read_floor",
+    "read_recording",
     "read_table",
+    "scene_of",
     "simulate",
+    "simulated_record",
     "size_defect",
     "spectrum",
     "static_state",

@@ -134,15 +134,19 @@ class FieldError(ValueError):
         return self.allowed_words(str, lambda number, unit: f"{number:g} {unit}".rstrip())
 
     @property
-    def shown(self) -> str:
+    def value_text(self) -> str:
         """The value as text of bounded length."""
         return f"{self.value:g}" if isinstance(self.value, float) else _short.repr(self.value)
 
     def __str__(self) -> str:
         """Field, value and what is allowed, in SI units."""
         return "".join(f"{part}: " for part in self.where) + (
-            f"{self.field} is {self.shown}; allowed: {self.allowed_text}"
+            f"{self.field} is {self.value_text}; allowed: {self.allowed_text}"
         )
+
+
+class FieldTypeError(FieldError, TypeError):
+    """A value of another type than a field can have: its words say which are wanted."""
 
 
 @dataclass(frozen=True)

@@ -293,9 +293,11 @@ _BEARING = (
           "Radius of the circle on which the centres of the inner groove lie: the lever with which "
           "a tilt of the ring moves a contact."),
     Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
-          Range(0.0, 50.0, 0.1, 0.0, 1000.0),
+          Range(-50.0, 50.0, 0.1, -100.0, 1000.0),
           "Distance that the inner ring can move from the middle before a ball touches, on top of "
-          "what the contact angle gives: half the diametral clearance of a drawing."),
+          "what the contact angle gives: half the diametral clearance of a drawing. Below 0 it is "
+          "an interference: all balls are compressed by it without a load.",
+          sweep_range=(0.0, 50.0)),
     Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
           _near,
           "Stiffness of both contacts of a ball in series: the load is K times the compression to "

@@ -28,11 +28,15 @@ from bearingcore import presets
 
 try:
     from bearing_explorer.explorer import front as scene
-except ModuleNotFoundError:
+except ModuleNotFoundError as error:
+    if error.name != "bearing_explorer.explorer":  # it is there, and broken
+        raise
     scene = None  # type: ignore[assignment]
 try:
     from bearing_explorer.diagnosis import front as signal
-except ModuleNotFoundError:
+except ModuleNotFoundError as error:
+    if error.name != "bearing_explorer.diagnosis":  # it is there, and broken
+        raise
     signal = None  # type: ignore[assignment]
 
 _LAST = ("accuracy", "explore", "over-speed", "paper")
@@ -141,6 +145,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
         "order_script": asset_text("in_order.js"),
         "figures_script": "" if PLAIN else asset_text("fast_figures.js"),
         "python_install": PYTHON_INSTALL,
+        "scene": scene is not None,
         "page_script": scripts("element.js", "page.js"),
         **{name: helps.get(name, "") for name in ("glossary", "bearing_picture", "python_lines")},
     }.items():

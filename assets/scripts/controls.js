@@ -2,10 +2,11 @@
 // front of this file.
 
 const TURN_RATE = 18      // degrees of cage angle a second while playing
-const IDLE_RATE = 6       // the same by itself, until the first touch ...
-const IDLE_TIME = 60e3    // ms, or so long
+const IDLE_RATE = 6       // the same by itself, but not while a hand is at work ...
+const IDLE_TIME = 60e3    // ms, and so long after the last touch
+const HAND_TIME = 2500    // ms after a touch in which what it changed is seen, and read out, at rest
 const IDLE_PAUSE = 10     // times what a picture takes the server, which many pages may share
-const TOUCHES = ["pointerdown", "keydown", "wheel"]
+const TOUCHES = ["pointerdown", "pointerup", "pointercancel", "keydown", "wheel"]
 const LENGTHENING = 1200  // ms in which the defect grows by a ball spacing
 const LARGEST_FILE = 1e6  // bytes of a measured floor
 const PLAY = "M2.5 1v10l8-5z", PAUSE = "M2 1h3v10H2zM7 1h3v10H7z"
@@ -17,9 +18,9 @@ export function render({ model }) {
   const { rows, values, send } = panel
 
   // Turns the bearing until it is pressed again. A page that is opened without a scene turns it by
-  // itself, which is no step to undo.
+  // itself, which is no step to undo, and goes on after a change: balls are seen to cross the defect.
   const play = (name) => {
-    let last = 0, playing = false, idle = false
+    let last = 0, playing = false, idle = false, at_work = 0, ending = 0
     const set_playing = (wanted, by_itself = false) => {
       if (playing && !wanted) idle ? send({ set: {}, turning: true, released: true }) : panel.release()
       playing = wanted
@@ -35,6 +36,14 @@ export function render({ model }) {
     const toggle = button("", () => set_playing(!playing), { class: "play" })
     const turn = (now) => {
       if (!playing || !toggle.isConnected) return
+      if (idle && now < at_work) {
+        last = now
+        return requestAnimationFrame(turn)
+      }
+      if (idle && at_work) {
+        at_work = 0
+        announce("turning", true)
+      }
       const passed = now - last, pause = idle ? Math.max(60, 1000 * IDLE_PAUSE * window.__worked) : 30
       // The next angle is asked for when the last one is drawn: turning never outruns drawing.
       if (panel.drawn() && passed >= pause) {
@@ -47,19 +56,26 @@ export function render({ model }) {
       }
       requestAnimationFrame(turn)
     }
-    const rest = (event) => {  // space and the button stop it themselves
-      if (event && (event.key === " " || event.composedPath().includes(toggle))) return
-      for (const kind of TOUCHES) removeEventListener(kind, rest, true)
-      if (idle) set_playing(false)
+    const wait = (event) => {  // space and the button stop it themselves
+      if (!idle || event.key === " " || event.composedPath().includes(toggle)) return
+      if (!at_work) announce("turning", false)
+      at_work = event.type === "pointerdown" ? Infinity : performance.now() + HAND_TIME
+      end_later()
+    }
+    const end_later = () => {
+      clearTimeout(ending)
+      ending = setTimeout(() => { if (idle) set_playing(false) }, IDLE_TIME)
     }
     const begin = () => {
       removeEventListener("explorer-drawn", begin)
       if (still || location.search || document.documentElement.hasAttribute("data-lesson")) return
-      for (const kind of TOUCHES) addEventListener(kind, rest, true)
-      setTimeout(rest, IDLE_TIME)
+      for (const kind of TOUCHES) addEventListener(kind, wait, true)
+      end_later()
       set_playing(true, true)
     }
     addEventListener("explorer-drawn", begin)
+    for (const name of ["tab", "lesson"])  // which look at other things
+      on_event(name, toggle, (what) => { if (idle && what && what !== "overview") set_playing(false) })
     on_event("play", toggle, () => toggle.click())  // the space bar, see page.js
     set_playing(false)
     return toggle
@@ -163,7 +179,7 @@ export function render({ model }) {
     const folded = all_of.filter((one) => !is_main(one) && one.name !== spec.turning)
     const changed = many - 1 + folded.filter(({ name }) => differs(name, values[name])).length
       + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
-    more.textContent = changed ? `More (${changed} changed)` : "More"
+    more.textContent = changed ? `All settings (${changed} changed)` : "All settings"
   }
 
   // With a lesson only the controls that it names, and all others on request.

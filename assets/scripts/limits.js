@@ -1,5 +1,5 @@
 // Warnings: limits that are exceeded, in short, until they are dismissed; all limits in a table on demand.
-const STATES = { crossed: "exceeded", kept: "passed", unknown: "not checked" }
+const STATES = { crossed: "exceeded", kept: "passed", unknown: "cannot be checked" }
 
 export function render({ model }) {
   const warnings = element("p", { class: "warnings", role: "status" })

@@ -35,11 +35,8 @@ export function render({ model }) {
   }
   const list = element("div", { class: "list", role: "tablist", "aria-label": "Views" },
     ...tabs.map((tab) => tab.button))
-  const select = element("select", { "aria-label": "Views" },
-    ...groups.flatMap(({ tab, entries }) => {
-      const options = entries.map(([name, title]) => element("option", { value: name }, title))
-      return entries.length > 1 ? element("optgroup", { label: tab }, ...options) : options
-    }))
+  const options = [...titles].map(([name, title]) => element("option", { value: name }, title))
+  const select = element("select", { "aria-label": "Views" }, ...options)
   select.addEventListener("change", () => choose(select.value))
   list.addEventListener("keydown", (event) => {
     const at = tabs.findIndex((tab) => tab.button === event.target)

@@ -1,14 +1,9 @@
 """Bearings: a file a kind, presets and the catalogue by designation, what a drawing says.
 
-A kind is listed below. The first that recognizes the numbers of an old file has it.
+A bearing is rows; a row is elements, a place, and a contact that says its own kinematics. No file
+here imports one that imports it.
 """
 
-from bearingcore.bearings.ball import BALL
-from bearingcore.bearings.kind import Kind
-from bearingcore.bearings.roller import ROLLER
-from bearingcore.bearings.rows import ROWS
-from bearingcore.bearings.self_aligning import SELF_ALIGNING
-from bearingcore.bearings.tapered import TAPERED
+from bearingcore.bearings.kinds import KINDS
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS, ROLLER, TAPERED)}
-"""All kinds of bearing, by name."""
+__all__ = ["KINDS"]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING, Any
 
 from bearingcore.bearings import drawing
 from bearingcore.bearings.hertz import RaceContact, race_contact
 from bearingcore.bearings.kind import Kind, Picture, Variant
+from bearingcore.bearings.kinematics import check_contact_angle
+from bearingcore.bearings.material import BallMaterial
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -29,6 +32,86 @@ SECTION = Picture(
 )
 
 
+def from_drawing(
+    cls: type[Bearing],
+    n_balls: int,
+    ball_diameter: float,
+    pitch_diameter: float,
+    inner_groove_radius: float,
+    outer_groove_radius: float,
+    contact_angle: float | None = None,
+    diametral_clearance: float | None = None,
+    youngs_modulus: float = 210e9,
+    poisson: float = 0.3,
+    groove_center_radius: float | None = None,
+    ball_youngs_modulus: float | None = None,
+    ball_poisson: float | None = None,
+) -> Bearing:
+    """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+
+    Parameters
+    ----------
+    n_balls
+        N_b.
+    ball_diameter, pitch_diameter
+        D_b, D_p [m].
+    inner_groove_radius, outer_groove_radius
+        r_i, r_o [m], above D_b/2 and at most 0.6 D_b.
+    contact_angle, diametral_clearance
+        α0 [rad] and s [m], at least one of them, as they describe the same freedom.
+        Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
+        the angle that it amounts to, `seated()` the same bearing given by that angle.
+        Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
+        Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
+        Below 0 the clearance is an interference.
+    youngs_modulus, poisson
+        E [Pa] and ν of the rings; steel by default.
+    groove_center_radius
+        r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
+    ball_youngs_modulus, ball_poisson
+        E [Pa] and ν of the balls; None: as of the rings.
+
+    Raises
+    ------
+    ValueError
+        for a drawing that cannot be built, with the numbers.
+
+    Examples
+    --------
+    >>> import math
+    >>> from bearingcore import Bearing
+    >>> bearing = Bearing.from_drawing(
+    ...     9, 7.94e-3, 39.04e-3, 4.13e-3, 4.21e-3, diametral_clearance=10e-6
+    ... )
+    >>> round(math.degrees(bearing.free_contact_angle), 2)
+    9.07
+    """
+    D_b = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    if contact_angle is None and diametral_clearance is None:
+        raise checks.refuse(
+            "contact_angle", None, "a number [rad], unless diametral_clearance is given"
+        )
+    angle = check_contact_angle(0.0 if contact_angle is None else contact_angle)
+    dimensions: dict[str, Any] = {
+        "ball_diameter": D_b,
+        "pitch_diameter": checks.real_number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
+        "contact_angle": angle,
+        "inner_groove_radius": inner_groove_radius,
+        "outer_groove_radius": outer_groove_radius,
+        "youngs_modulus": youngs_modulus,
+        "poisson": poisson,
+        "ball_youngs_modulus": ball_youngs_modulus,
+        "ball_poisson": ball_poisson,
+    }
+    dimensions |= drawing.checked(dimensions)
+    follows = drawing.derive(**dimensions)._asdict()
+    s = 0.0 if diametral_clearance is None else diametral_clearance
+    s = drawing.check_clearance(s, angle, D_b, follows["groove_center_distance"])
+    if groove_center_radius is not None:
+        follows["groove_center_radius"] = groove_center_radius
+    return cls(n_balls=n_balls, **dimensions, **follows, radial_clearance=0.5 * s)
+
+
 def drawn(bearing: Bearing) -> Bearing:
     """One row of steel balls with the dimensions of a bearing, in usual grooves.
 
@@ -43,6 +126,29 @@ def drawn(bearing: Bearing) -> Bearing:
         USUAL_GROOVES["outer"] * ball,
         contact_angle=bearing.contact_angle,
         diametral_clearance=2.0 * bearing.radial_clearance,
+    )
+
+
+def seated(self: Bearing) -> Bearing:
+    """The same bearing given by its free contact angle, without clearance on top.
+
+    Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
+    same loads δz is smaller by that and all else is equal. Two things are not the same, as
+    both depend on α0 and not on the angle under load: a defect lowers the ball along the
+    unloaded line of contact, here at α_f; and the cage turns a little faster. ValueError where an
+    interference presses the balls: no contact angle amounts to it.
+    """
+    if self.diametral_play < 0.0:
+        raise checks.refuse("radial_clearance", self.radial_clearance, "one that leaves play", "m")
+    return dataclasses.replace(self, contact_angle=self.free_contact_angle, radial_clearance=0.0)
+
+
+def with_balls_of(self: Bearing, material: BallMaterial) -> Bearing:
+    """The bearing with balls of a material and their density; ValueError without a drawing."""
+    return self.replace(
+        ball_youngs_modulus=material.youngs_modulus,
+        ball_poisson=material.poisson,
+        density=material.density,
     )
 
 

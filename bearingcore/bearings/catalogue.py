@@ -244,7 +244,7 @@ def _bearing(
             grooves["outer"] / 1e3,
             contact_angle=math.radians(angle),
             diametral_clearance=clearance / 1e6,
-        )
+        ).replace(dynamic_load_rating=None if rating is None else rating * 1e3)
     except FieldError as error:
         column = _COLUMN_OF_FIELD.get(error.field, error.field)
         faults.append(f"line {number}, column {column}: {error}")

@@ -31,6 +31,7 @@ from bearingcore.bearings.designation_tables import (
     matched_clearance,
     rows_of,
 )
+from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.inside import (
     Inside,
     accuracy,
@@ -39,6 +40,7 @@ from bearingcore.bearings.inside import (
     tapered_rollers_from_ratings,
 )
 from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.bearings.nearest import nearest_known
 from bearingcore.bearings.self_aligning import USUAL_GROOVE
 from bearingcore.bearings.suffix import (
     ANGULAR_CONTACT,
@@ -46,8 +48,8 @@ from bearingcore.bearings.suffix import (
     DEEP_GROOVE,
     REINFORCED,
     ROLLERS,
-    SELF_ALIGNING,
-    TAPERED,
+    SELF_ALIGNING_BALLS,
+    TAPERED_ROLLERS,
     Suffix,
     in_small_letters,
     is_steep,
@@ -59,9 +61,9 @@ from bearingcore.common.numbers import number
 SERIES: Mapping[str, str] = {
     **dict.fromkeys(("60", "62", "63", "64", "160", "618", "619"), DEEP_GROOVE),
     **dict.fromkeys(("70", "72", "73"), ANGULAR_CONTACT),
-    **dict.fromkeys(("12", "13", "22", "23"), SELF_ALIGNING),
+    **dict.fromkeys(("12", "13", "22", "23"), SELF_ALIGNING_BALLS),
     **dict.fromkeys(("NU2", "NU3", "NU10", "NU22", "NU23"), ROLLERS),
-    **dict.fromkeys(("302", "303", "322", "323"), TAPERED),
+    **dict.fromkeys(("302", "303", "322", "323"), TAPERED_ROLLERS),
 }
 """Kind of bearing of each series; N, NJ and NUP have the dimensions of NU."""
 
@@ -76,8 +78,8 @@ LONGEST_DESIGNATION = 60
 _FORM = re.compile(
     BEFORE + r"(?P<letters>NUP|NU|NJ|NF|N|B|HR)?[ -]?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
 )
-_ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED: ROWS_OF_ROLLERS} | dict.fromkeys(
-    (DEEP_GROOVE, SELF_ALIGNING, ROLLERS), 0.0
+_ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED_ROLLERS: ROWS_OF_ROLLERS} | dict.fromkeys(
+    (DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS), 0.0
 )
 """Power of the number of rows in C_r; the rating of the others is that of the whole bearing."""
 
@@ -129,7 +131,7 @@ class Designation:
         if self.bearing.arrangement:
             stand = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
             kind = f"Two {self.kind}s, {stand}"
-        tapered = self.kind == TAPERED
+        tapered = self.kind == TAPERED_ROLLERS
         digits = 3 if tapered else 5
         note = (
             f"{kind}. By ISO {355 if tapered else 15}: bore {number(1e3 * self.bore, 4)} mm, "
@@ -157,13 +159,17 @@ def read_designation(text: str) -> Designation:
     ValueError
         for what is no designation, or one of another series or size.
     """
+    checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
     name = " ".join(text.upper().replace("–", "-").split())
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
     suffix = "" if form is None else form["suffix"] or ""
-    if form is None or basic is None or (_kind_of(basic) == TAPERED and is_steep(suffix)):
+    if form is None or basic is None or (_kind_of(basic) == TAPERED_ROLLERS and is_steep(suffix)):
+        near = nearest_known(name) if form is None or basic is None else ""
         raise checks.refuse(
-            "designation", text[:LONGEST_DESIGNATION], f"a bearing of the series {series_words()}"
+            "designation",
+            text[:LONGEST_DESIGNATION],
+            f"a bearing of the series {series_words()}{'; ' * bool(near)}{near}",
         )
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
@@ -171,7 +177,7 @@ def read_designation(text: str) -> Designation:
         size = _reinforced(name, basic, size, said.inside)
     assumed: list[str] = []
     angle = _angle(kind, size, said.angle, assumed)
-    none = kind in (ANGULAR_CONTACT, TAPERED)
+    none = kind in (ANGULAR_CONTACT, TAPERED_ROLLERS)
     clearance_class = "" if none else said.clearance_class or "CN"
     play = 0.0
     if clearance_class:
@@ -197,6 +203,7 @@ def read_designation(text: str) -> Designation:
     bearing = _mounted(bearing, kind, size, said, assumed)
     rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
+    known = None if said.is_ceramic or said.has_better_steel else rating
     return Designation(
         in_small_letters(name),
         basic,
@@ -204,9 +211,9 @@ def read_designation(text: str) -> Designation:
         size.bore,
         size.outside_diameter,
         size.width,
-        None if said.is_ceramic or said.has_better_steel else rating,
+        known,
         clearance_class,
-        bearing,
+        bearing.replace(dynamic_load_rating=known),
         tuple(assumed),
         said.inside,
     )
@@ -251,7 +258,7 @@ def inside_of(basic: str) -> Inside:
 def _inside(kind: str, size: Boundary, angle: float) -> Inside:
     """Balls or tapered rollers with the ratings of a line of the table at an angle [rad]."""
     rated = size.dynamic_rating, size.static_rating
-    if kind == TAPERED:
+    if kind == TAPERED_ROLLERS:
         return tapered_rollers_from_ratings(size.bore, size.outside_diameter, *rated, angle)
     return balls_from_ratings(
         size.bore,
@@ -259,7 +266,7 @@ def _inside(kind: str, size: Boundary, angle: float) -> Inside:
         *rated,
         angle,
         None if math.isnan(size.factor) else size.factor,
-        kind == SELF_ALIGNING,
+        kind == SELF_ALIGNING_BALLS,
     )
 
 
@@ -279,7 +286,7 @@ def _basic(letters: str, digits: str) -> str | None:
     """The number as the table has it; None where it has it not."""
     if letters in ("NU", "N", "NJ", "NUP"):
         digits = f"NU{digits}"
-    elif letters == "NF" or (letters == "HR" and SERIES.get(digits[:-2]) != TAPERED):
+    elif letters == "NF" or (letters == "HR" and SERIES.get(digits[:-2]) != TAPERED_ROLLERS):
         return None
     elif len(digits) == 4 and digits[:2] in ("68", "69"):  # as Japanese makers shorten 618, 619
         digits = f"61{digits[1:]}"
@@ -292,9 +299,9 @@ def _kind_of(basic: str) -> str:
 
 def _rated_angle(kind: str, size: Boundary) -> float:
     """Contact angle [rad] for which the table has the ratings."""
-    if kind == SELF_ALIGNING:
+    if kind == SELF_ALIGNING_BALLS:
         return ratings.contact_angle_of(size.axial_factor)
-    if kind == TAPERED:
+    if kind == TAPERED_ROLLERS:
         return ratings.tapered_angle_of(size.thrust_limit)
     return CATALOGUE_ANGLE if kind == ANGULAR_CONTACT else 0.0
 
@@ -333,7 +340,7 @@ def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[s
             return made.replace(estimated=("n_balls", "roller_length"))
         made = Bearing.tapered(count, D, inside.roller_length, pitch, angle)
         return made.replace(estimated=(*estimated, "roller_length"))
-    if kind == SELF_ALIGNING:
+    if kind == SELF_ALIGNING_BALLS:
         assumed.append(f"inner grooves of {USUAL_GROOVE:g} ball diameters")
         sphere = 0.5 * pitch / math.cos(angle) + 0.5 * D
         made = Bearing.self_aligning(count, D, sphere, USUAL_GROOVE * D, angle, 0.5 * play)
@@ -367,7 +374,7 @@ def _mounted(
     the lines of contact, through the middles of the rollers, meet the shaft there.
     """
     if not said.arrangement:
-        if kind == TAPERED:
+        if kind == TAPERED_ROLLERS:
             assumed.append("neither clearance nor preload, which are set as it is mounted")
         elif said.matched:
             assumed.append(f"no clearance, as {said.matched} is that of two such bearings")
@@ -379,7 +386,7 @@ def _mounted(
         return bearing.paired(distance, said.arrangement)
     back = said.arrangement == "back-to-back"
     reach = bearing.pitch_diameter * math.tan(bearing.contact_angle)
-    if kind == TAPERED:
+    if kind == TAPERED_ROLLERS:
         centers = 2.0 * (size.pressure_center if back else size.width - size.pressure_center)
         distance = centers - reach if back else centers + reach
         words = (
@@ -407,10 +414,10 @@ def _set(bearing: Bearing, kind: str, size: Boundary, said: Suffix) -> tuple[Bea
     if play < 0.0:
         return bearing, -play, f"an axial preload of {number(-1e6 * play)} µm{words}"
     words = f"an axial clearance of {number(1e6 * play)} µm{words}"
-    if kind == TAPERED:
+    if kind == TAPERED_ROLLERS:
         gap = 0.5 * play * math.tan(bearing.contact_angle)
     else:
-        sine = math.sin(bearing.contact_angle) + 0.5 * play / bearing.groove_center_distance
-        gap = math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2)
-        gap *= bearing.groove_center_distance
+        apart = center_distance(bearing.groove_center_distance)
+        sine = math.sin(bearing.contact_angle) + 0.5 * play / apart
+        gap = apart * (math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2))
     return bearing.replace(radial_clearance=gap), 0.0, words

@@ -12,10 +12,10 @@ from functools import cache
 from importlib import resources
 from typing import NamedTuple
 
-from bearingcore.bearings.suffix import CLEARANCE_CLASSES, DEEP_GROOVE, ROLLERS, SELF_ALIGNING
+from bearingcore.bearings.suffix import CLEARANCE_CLASSES, DEEP_GROOVE, ROLLERS, SELF_ALIGNING_BALLS
 from bearingcore.common import checks
 
-_CLEARANCE_KIND = {DEEP_GROOVE: "ball", SELF_ALIGNING: "self-aligning", ROLLERS: "roller"}
+_CLEARANCE_KIND = {DEEP_GROOVE: "ball", SELF_ALIGNING_BALLS: "self-aligning", ROLLERS: "roller"}
 
 
 class Boundary(NamedTuple):
@@ -59,7 +59,7 @@ def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, floa
     Parameters
     ----------
     kind
-        DEEP_GROOVE, SELF_ALIGNING or ROLLERS.
+        DEEP_GROOVE, SELF_ALIGNING_BALLS or ROLLERS.
     bore
         [m], cylindrical.
     clearance_class

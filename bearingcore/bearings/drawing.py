@@ -26,12 +26,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from bearingcore.bearings.hertz import in_series, race_contact
+from bearingcore.bearings.kinematics import GREATEST_CONTACT_ANGLE
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
 from bearingcore.fields import WIDEST_CONFORMITY
-
-GREATEST_CONTACT_ANGLE = math.radians(80.0)
-"""Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
 
 GROOVES = ("inner_groove_radius", "outer_groove_radius")
 OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
@@ -48,7 +46,7 @@ class Derived(NamedTuple):
     """Numbers that follow from a drawing, under the names of the fields of `Bearing`."""
 
     groove_center_radius: float
-    groove_center_distance: float
+    groove_center_distance: float | None
     load_deflection_factor: float
     outer_raceway_radius: float
     inner_raceway_radius: float
@@ -60,7 +58,7 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
     It must pass freely around the ball, and guide it.
     """
     name = f"{race}_groove_radius"
-    return checks.number(
+    return checks.real_number(
         name,
         radius,  # type: ignore[arg-type]  # None is refused there
         above=0.5 * ball_diameter,
@@ -69,23 +67,36 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
     )
 
 
-def check_contact_angle(angle: float) -> float:
-    """Unloaded contact angle [rad] as a float, else ValueError."""
-    return checks.number(
-        "contact_angle",
-        angle,
-        at_least=0.0,
-        at_most=GREATEST_CONTACT_ANGLE,
-        unit="rad",
-        note="0 to 80 degrees",
-    )
+def center_distance(distance: float | None) -> float:
+    """A0 [m] as a float; ValueError where there are no centres, as of rollers."""
+    return checks.real_number("groove_center_distance", distance, above=0.0, unit="m")  # type: ignore[arg-type]
 
 
 def check_material(name: str, value: float | None) -> float:
     """A Young's modulus [Pa] or a Poisson's ratio as a float, else ValueError."""
     if name.endswith("modulus"):
-        return checks.number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
-    return checks.number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+        return checks.real_number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
+    return checks.real_number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+
+
+def checked(values: Mapping[str, Any]) -> dict[str, float]:
+    """Groove radii and materials of a `Bearing` as floats, of one with a drawing.
+
+    ValueError where one is wrong or missing, or there without groove radii.
+    """
+    if all(values[name] is None for name in OPTIONAL_FIELDS):
+        for name in BALL_MATERIAL:
+            if values[name] is not None:
+                raise checks.refuse(name, values[name], "None, unless the bearing has groove radii")
+        return {}
+    found = {}
+    for name in GROOVES:
+        race = name.partition("_")[0]
+        found[name] = check_groove(race, values[name], values["ball_diameter"])
+    for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
+        if values[name] is not None or name not in BALL_MATERIAL:
+            found[name] = check_material(name, values[name])
+    return found
 
 
 def faults(values: Mapping[str, float | None]) -> Iterator[FieldError]:
@@ -176,60 +187,24 @@ def derive(
 
 
 def check_clearance(
-    diametral_clearance: float, contact_angle: float, groove_center_distance: float
+    diametral_clearance: float,
+    contact_angle: float,
+    ball_diameter: float,
+    groove_center_distance: float,
 ) -> float:
     """The clearance [m] on top of a contact angle [rad], if the balls still lock the ring.
 
     ValueError where the ring would have to move so far along the shaft that the free contact angle
-    passes GREATEST_CONTACT_ANGLE.
+    passes GREATEST_CONTACT_ANGLE, or for an interference above a ball's diameter.
     """
     most = 2.0 * groove_center_distance
     most *= math.cos(contact_angle) - math.cos(GREATEST_CONTACT_ANGLE)
-    return checks.number(
+    return checks.real_number(
         "diametral_clearance",
         diametral_clearance,
-        at_least=0.0,
+        at_least=-ball_diameter,
         at_most=most,
         unit="m",
         note="more would need a free contact angle above "
         f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
     )
-
-
-def fields(
-    *,
-    ball_diameter: float,
-    pitch_diameter: float,
-    inner_groove_radius: float,
-    outer_groove_radius: float,
-    contact_angle: float | None,
-    diametral_clearance: float | None,
-    youngs_modulus: float,
-    poisson: float,
-    ball_youngs_modulus: float | None = None,
-    ball_poisson: float | None = None,
-) -> dict[str, Any]:
-    """All fields of a `Bearing` but the number of balls; see `Bearing.from_drawing`."""
-    D_b = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
-    if contact_angle is None and diametral_clearance is None:
-        raise checks.refuse(
-            "contact_angle", None, "a number [rad], unless diametral_clearance is given"
-        )
-    dimensions: dict[str, Any] = {
-        "ball_diameter": D_b,
-        "pitch_diameter": checks.number("pitch_diameter", pitch_diameter, above=D_b, unit="m"),
-        "contact_angle": check_contact_angle(0.0 if contact_angle is None else contact_angle),
-        "inner_groove_radius": check_groove("inner", inner_groove_radius, D_b),
-        "outer_groove_radius": check_groove("outer", outer_groove_radius, D_b),
-        "youngs_modulus": check_material("youngs_modulus", youngs_modulus),
-        "poisson": check_material("poisson", poisson),
-        "ball_youngs_modulus": ball_youngs_modulus,
-        "ball_poisson": ball_poisson,
-    }
-    for name in BALL_MATERIAL:
-        if dimensions[name] is not None:
-            check_material(name, dimensions[name])
-    derived = derive(**dimensions)
-    s = 0.0 if diametral_clearance is None else diametral_clearance
-    s = check_clearance(s, dimensions["contact_angle"], derived.groove_center_distance)
-    return {**dimensions, **derived._asdict(), "radial_clearance": 0.5 * s}

@@ -44,7 +44,7 @@ def bearing_of_frequencies(orders: Mapping[str, float], pitch_diameter: float) -
         where the frequencies are too few or cannot be those of one bearing.
     """
     known = {
-        name: checks.number(name.upper(), value, above=0.0, unit="turns of the shaft")
+        name: checks.real_number(name.upper(), value, above=0.0, unit="turns of the shaft")
         for name, value in orders.items()
         if name in FREQUENCIES
     }

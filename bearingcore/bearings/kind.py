@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.bearings.contact import Contact
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -52,25 +52,6 @@ class Picture(NamedTuple):
     notes: tuple[str, ...]
 
 
-class ContactNumbers(NamedTuple):
-    """Numbers that all contacts of a row have in common, as `kernels.Contacts` has them.
-
-    Cosine and sine of the unloaded contact angle, distance of the groove centres [m], radius of
-    the inner ones [m] and how far along the shaft they are from the place of the row, towards
-    which it faces [m], load-deflection factor [N/m^exponent] and its exponent; greatest compression
-    and displacement along straight races [m] that the geometry allows.
-    """
-
-    cosine: float
-    sine: float
-    distance: float
-    groove_center_radius: float
-    groove_center_shift: float
-    factor: float
-    exponent: float
-    room: float
-
-
 class Kind:
     """A kind of bearing; the functions of its file are methods of a subclass.
 
@@ -85,7 +66,8 @@ class Kind:
     exponent, exponent_text
         of load over compression, as a number and raised in print.
     line_contact
-        True where elements touch their races along a line: life, film and ratings differ.
+        True where elements touch straight races along a line, which is fixed (see `Contact`): life,
+        film and ratings differ, and there are no groove centres.
     directions
         out of DIRECTIONS in which the inner ring can move.
     needed_directions
@@ -132,9 +114,9 @@ class Kind:
     estimate_spread: tuple[float, int] | None = None
     has_drawing: bool = True
 
-    def __reduce__(self) -> tuple[Callable[[str], Kind], tuple[str]]:
-        """A kind that has been sent to another process is the one that is known there."""
-        return kind_named, (self.name,)
+    def __reduce__(self) -> str:
+        """A kind sent to another process is the one of its file there, named in capitals."""
+        return self.name.replace("-", "_").upper()
 
     def __repr__(self) -> str:
         return repr(self.name)
@@ -177,7 +159,7 @@ class Kind:
 
     def derived(self, bearing: Bearing) -> Derived | None:
         """The fields that follow from others, or None where nothing follows."""
-        raise NotImplementedError
+        return None
 
     def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
         """A bearing with fields changed, and with what follows from them; see `Bearing.replace`."""
@@ -220,18 +202,47 @@ class Kind:
         """Volume [m³] of a rolling element; a ball's, π D_b³/6."""
         return math.pi / 6.0 * bearing.ball_diameter**3
 
-    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
-        """Numbers that the contacts of a bearing, or of one of its rows, have in common."""
-        return ContactNumbers(
-            cosine=math.cos(bearing.contact_angle),
-            sine=math.sin(bearing.contact_angle),
-            distance=bearing.groove_center_distance,
-            groove_center_radius=bearing.groove_center_radius,
-            groove_center_shift=0.0,
+    def contact(self, bearing: Bearing) -> Contact:
+        """The contact of each element of a bearing, or of one of its rows."""
+        return Contact(
+            angle=bearing.contact_angle,
+            lever=bearing.groove_center_radius,
+            beyond=0.0,
             factor=bearing.load_deflection_factor,
             exponent=self.exponent,
             room=bearing.ball_radius,
+            center_distance=bearing.groove_center_distance,
         )
+
+    def race_factors(self, bearing: Bearing) -> tuple[float, float]:
+        """Load-deflection factors [N/m^n] of an element's contacts with inner and outer race.
+
+        Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
+        series they are `load_deflection_factor`: of both contacts alike each is 2^n of it.
+        """
+        inner, outer = (
+            (self.race_contact(bearing, race).load_deflection_factor for race in ("inner", "outer"))
+            if self.groove_radius(bearing, "inner") is not None
+            else (1.0, 1.0)
+        )
+        n = self.exponent
+        scale = bearing.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
+        return scale * inner, scale * outer
+
+    def race_distances(self, bearing: Bearing) -> tuple[float, float]:
+        """Unloaded distances [m] of a ball's centre from the inner and outer groove's centre.
+
+        r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing. 0
+        and 0 where there are no such centres.
+        """
+        if bearing.groove_center_distance is None:
+            return 0.0, 0.0
+        r_i, r_o = self.groove_radius(bearing, "inner"), self.groove_radius(bearing, "outer")
+        inner, outer = 1.0, 1.0
+        if r_i is not None and r_o is not None:
+            inner, outer = r_i - bearing.ball_radius, r_o - bearing.ball_radius
+        scale = bearing.groove_center_distance / (inner + outer)
+        return scale * inner, scale * outer
 
     def check_mass(self) -> None:
         """ValueError where the mass of the elements cannot be reckoned with."""
@@ -243,10 +254,3 @@ class Kind:
         if not set(dofs) <= set(self.directions):
             allowed = f"{' and '.join(self.directions)}, as {self.carries}"
             raise checks.refuse("dofs", " ".join(dofs), allowed)
-
-
-def kind_named(name: str) -> Kind:
-    """The kind of a name; ValueError where there is none."""
-    from bearingcore.bearings import KINDS  # it lists the kinds, which are made of this class
-
-    return KINDS[checks.choice("kind", name, tuple(KINDS))]

@@ -9,11 +9,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 from bearingcore.bearings.ball import BALL, SECTION, Ball
-from bearingcore.bearings.drawing import check_contact_angle
-from bearingcore.bearings.kind import ContactNumbers, Variant
+from bearingcore.bearings.contact import Contact
+from bearingcore.bearings.drawing import GROOVES
+from bearingcore.bearings.kind import Variant
+from bearingcore.bearings.kinematics import check_contact_angle
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
@@ -83,16 +86,14 @@ class Row:
 
     def __post_init__(self) -> None:
         if self.contact_angle is not None:
-            angle = checks.number(
-                "contact_angle of a row", self.contact_angle, at_least=0.0, unit="rad"
-            )
-            object.__setattr__(self, "contact_angle", check_contact_angle(angle))
+            angle = check_contact_angle(self.contact_angle, "contact_angle of a row")
+            object.__setattr__(self, "contact_angle", angle)
         if self.n_balls is not None:
             count = checks.whole_number("n_balls of a row", self.n_balls, at_least=1, at_most=500)
             object.__setattr__(self, "n_balls", count)
         for name in LENGTHS:
             if (length := getattr(self, name)) is not None:
-                length = checks.number(f"{name} of a row", length, above=0.0, unit="m")
+                length = checks.real_number(f"{name} of a row", length, above=0.0, unit="m")
                 object.__setattr__(self, name, length)
         if self.facing not in (-1, 1) or isinstance(self.facing, bool):
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
@@ -103,7 +104,7 @@ class Row:
             ("offset", 1e-2, "m"),
             ("turn", 2.0 * math.pi, "rad"),
         ):
-            value = checks.number(
+            value = checks.real_number(
                 f"{name} of a row", getattr(self, name), at_least=-most, at_most=most, unit=unit
             )
             object.__setattr__(self, name, value)
@@ -126,8 +127,8 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
         for an unknown arrangement, or a preload of rows in tandem, which do not press each other.
     """
     checks.choice("arrangement", arrangement, ARRANGEMENTS)
-    half = 0.5 * checks.number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
-    push = 0.5 * checks.number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
+    half = 0.5 * checks.real_number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
+    push = 0.5 * checks.real_number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
     if arrangement == "tandem":
         if push > 0.0:
             raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")
@@ -165,6 +166,70 @@ def spaced(rows: tuple[Row, ...], distance: float | None, preload: float | None)
         dataclasses.replace(row, place=new.place, offset=new.offset)
         for row, new in zip(rows, made, strict=True)
     )
+
+
+def paired(self: Bearing, distance: float, arrangement: str, preload: float = 0.0) -> Bearing:
+    """Two rows like this one, `distance` [m] apart on the shaft.
+
+    `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
+    inner grooves are pushed along the shaft against each other.
+
+    Raises
+    ------
+    ValueError
+        for a bearing that has rows already, or without a contact angle for a preload.
+    """
+    if self.rows:
+        raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
+    _check_preload(self, preload)
+    return self.replace(rows=pair(distance, arrangement, preload))
+
+
+def respaced(self: Bearing, distance: float | None = None, preload: float | None = None) -> Bearing:
+    """The pair with another distance of its rows, or another preload [m]; see `paired`.
+
+    ValueError for a bearing that is no pair.
+    """
+    if not self.arrangement:
+        raise checks.refuse("rows", len(self.all_rows), "two rows that form a pair")
+    _check_preload(self, preload or 0.0)
+    return self.replace(rows=spaced(self.rows, distance, preload))
+
+
+def _check_preload(bearing: Bearing, preload: float) -> None:
+    if preload > 0.0 and bearing.contact_angle == 0.0:
+        raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+
+
+def pressure_centers_apart(bearing: Bearing) -> float | None:
+    """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
+
+    With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+    """
+    if bearing.arrangement not in ("back-to-back", "face-to-face"):
+        return None
+    meets = [
+        row.place - row.facing * 0.5 * own.pitch_diameter * math.tan(own.contact_angle)
+        for row, own in ((row, bearing.of_row(k)) for k, row in enumerate(bearing.rows))
+    ]
+    return abs(meets[1] - meets[0])
+
+
+@lru_cache(maxsize=256)
+def with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
+    """The bearing without rows and with what one of them has of its own."""
+    values: dict[str, Any] = dict(own)
+    if not bearing.is_drawn:
+        for name in LENGTHS:
+            if name in values:
+                raise checks.refuse(
+                    f"{name} of a row", values[name], "None, unless the bearing has groove radii"
+                )
+    elif "ball_diameter" in values:
+        larger = values["ball_diameter"] / bearing.ball_diameter
+        for name in GROOVES:
+            values.setdefault(name, larger * getattr(bearing, name))
+    return bearing.replace(rows=()).replace(**values)
 
 
 class Rows(Ball):
@@ -225,14 +290,13 @@ class Rows(Ball):
         second = (f"second_{name}" for name in own)
         return (*given, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
 
-    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
-        """Those of a row: its inner groove's centres are where the line of contact meets r_d.
+    def contact(self, bearing: Bearing) -> Contact:
+        """That of a row: its inner groove's centres are where the line of contact meets r_d.
 
         They are (r_d − D_p/2) tan α0 beyond the balls', which of a drawing is (r_i − D_b/2) sin α0.
         """
         beyond = bearing.groove_center_radius - 0.5 * bearing.pitch_diameter
-        shift = beyond * math.tan(bearing.contact_angle)
-        return super().contact_numbers(bearing)._replace(groove_center_shift=shift)
+        return super().contact(bearing)._replace(beyond=beyond * math.tan(bearing.contact_angle))
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         meet = self.variant(bearing) in ("back-to-back", "face-to-face")

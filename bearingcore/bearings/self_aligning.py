@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from bearingcore.bearings import drawing
 from bearingcore.bearings.hertz import RaceContact, in_series, race_contact, spherical_contact
 from bearingcore.bearings.kind import ISO_76_SELF_ALIGNING, Kind, Picture, Variant
+from bearingcore.bearings.kinematics import check_contact_angle
 from bearingcore.bearings.rows import Row
 from bearingcore.common import checks
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 POISSON = 0.3
 """Poisson's ratio of ball and rings; the modulus is the one that gives the factor K."""
 
-USUAL_ANGLE = math.radians(10.0)
+ASSUMED_ANGLE = math.radians(10.0)
 USUAL_GROOVE = 0.53
 """Contact angle [rad] and inner groove radius over the ball that are assumed for a new one."""
 
@@ -34,50 +35,86 @@ _FOLLOWS = (
 )
 
 
-def fields(
+def self_aligning(
+    cls: type[Bearing],
     n_balls: int,
     ball_diameter: float,
     sphere_radius: float,
     inner_groove_radius: float,
     contact_angle: float,
-    radial_clearance: float,
-    youngs_modulus: float,
-    poisson: float,
-) -> dict[str, Any]:
-    """All fields of a self-aligning `Bearing`; see `Bearing.self_aligning`."""
-    angle = drawing.check_contact_angle(contact_angle)
-    checks.number("contact_angle", angle, above=0.0, unit="rad")
-    diameter = checks.number("ball_diameter", ball_diameter, above=0.0, unit="m")
-    sphere = checks.number("sphere_radius", sphere_radius, above=diameter, unit="m")
+    radial_clearance: float = 0.0,
+    youngs_modulus: float = 210e9,
+    poisson: float = 0.3,
+) -> Bearing:
+    """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+
+    See `bearingcore.bearings.self_aligning` for what follows from these.
+
+    Parameters
+    ----------
+    n_balls
+        of each row.
+    ball_diameter, sphere_radius, inner_groove_radius
+        D_b, R_e and r_i [m].
+    contact_angle
+        α0 [rad] of both rows, above 0.
+    radial_clearance
+        r_L [m].
+    youngs_modulus, poisson
+        E [Pa] and ν; steel by default.
+
+    Raises
+    ------
+    ValueError
+        for a drawing that cannot be built.
+    """
+    angle = check_contact_angle(contact_angle)
+    checks.real_number("contact_angle", angle, above=0.0, unit="rad")
+    diameter = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
+    sphere = checks.real_number("sphere_radius", sphere_radius, above=diameter, unit="m")
     drawing.check_groove("inner", inner_groove_radius, diameter)
     pitch = (2.0 * (sphere - 0.5 * diameter)) * math.cos(angle)
     distance = sphere + inner_groove_radius - diameter
-    inner = race_contact(
-        "inner", diameter, pitch, inner_groove_radius, angle, youngs_modulus, poisson
-    )
-    outer = spherical_contact(diameter, sphere, youngs_modulus, poisson)
+    sizes = (diameter, pitch, sphere, inner_groove_radius, angle)
     place = distance * math.sin(angle)
-    return {
-        "kind": SELF_ALIGNING,
-        "n_balls": n_balls,
-        "ball_diameter": diameter,
-        "pitch_diameter": pitch,
-        "contact_angle": angle,
-        "groove_center_radius": distance * math.cos(angle),
-        "groove_center_distance": distance,
-        "radial_clearance": radial_clearance,
-        "load_deflection_factor": in_series(
-            inner.load_deflection_factor, outer.load_deflection_factor
-        ),
-        "outer_raceway_radius": sphere,
-        "inner_raceway_radius": 0.5 * pitch - 0.5 * diameter * math.cos(angle),
-        "rows": (Row(-place, -1), Row(place, 1)),
-    }
+    return cls(
+        kind=SELF_ALIGNING,
+        n_balls=n_balls,
+        ball_diameter=diameter,
+        pitch_diameter=pitch,
+        contact_angle=angle,
+        groove_center_radius=distance * math.cos(angle),
+        groove_center_distance=distance,
+        radial_clearance=radial_clearance,
+        load_deflection_factor=_factor(*_contacts(*sizes, youngs_modulus, poisson)),
+        outer_raceway_radius=sphere,
+        inner_raceway_radius=0.5 * pitch - 0.5 * diameter * math.cos(angle),
+        rows=(Row(-place, -1), Row(place, 1)),
+    )
+
+
+def _contacts(
+    ball: float,
+    pitch: float,
+    sphere: float,
+    groove: float,
+    angle: float,
+    modulus: float,
+    poisson: float,
+) -> tuple[RaceContact, RaceContact]:
+    """Contacts of a ball with the inner groove and with the sphere."""
+    inner = race_contact("inner", ball, pitch, groove, angle, modulus, poisson)
+    return inner, spherical_contact(ball, sphere, modulus, poisson)
+
+
+def _factor(inner: RaceContact, outer: RaceContact) -> float:
+    return in_series(inner.load_deflection_factor, outer.load_deflection_factor)
 
 
 def inner_groove(bearing: Bearing) -> float:
     """Inner groove radius r_i = A0 + D_b − R_e [m]."""
-    return bearing.groove_center_distance + bearing.ball_diameter - bearing.outer_raceway_radius
+    distance = drawing.center_distance(bearing.groove_center_distance)
+    return distance + bearing.ball_diameter - bearing.outer_raceway_radius
 
 
 class SelfAligning(Kind):
@@ -110,6 +147,8 @@ class SelfAligning(Kind):
     def recognizes(self, bearing: Bearing) -> bool:
         if len(bearing.rows) != 2 or bearing.contact_angle == 0.0 or bearing.is_drawn:
             return False
+        if bearing.groove_center_distance is None or bearing.roller_length is not None:
+            return False
         radius = bearing.groove_center_distance * math.cos(bearing.contact_angle)
         place = bearing.groove_center_distance * math.sin(bearing.contact_angle)
         return math.isclose(bearing.groove_center_radius, radius, rel_tol=1e-9) and all(
@@ -128,7 +167,7 @@ class SelfAligning(Kind):
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         ball = bearing.ball_diameter
-        angle = bearing.contact_angle or USUAL_ANGLE
+        angle = bearing.contact_angle or ASSUMED_ANGLE
         return bearing.self_aligning(
             bearing.n_balls,
             ball,
@@ -143,9 +182,6 @@ class SelfAligning(Kind):
 
     def facts(self, bearing: Bearing) -> tuple[str, ...]:
         return ("sphere_rows_apart", "load_deflection_factor", "groove_center_distance")
-
-    def derived(self, bearing: Bearing) -> None:
-        return None
 
     def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
         """A bearing with what it is drawn by changed: all else follows."""
@@ -177,25 +213,16 @@ class SelfAligning(Kind):
 
     def race_contact(self, bearing: Bearing, race: str) -> RaceContact:
         """Contact of a ball; the modulus is the one that gives K."""
-
-        def both(modulus: float) -> dict[str, RaceContact]:
-            return {
-                "inner": race_contact(
-                    "inner",
-                    bearing.ball_diameter,
-                    bearing.pitch_diameter,
-                    inner_groove(bearing),
-                    bearing.contact_angle,
-                    modulus,
-                    POISSON,
-                ),
-                "outer": spherical_contact(
-                    bearing.ball_diameter, bearing.outer_raceway_radius, modulus, POISSON
-                ),
-            }
-
-        unit = in_series(*(contact.load_deflection_factor for contact in both(1.0).values()))
-        return both(bearing.load_deflection_factor / unit)[race]
+        sizes = (
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+            bearing.outer_raceway_radius,
+            inner_groove(bearing),
+            bearing.contact_angle,
+        )
+        modulus = bearing.load_deflection_factor / _factor(*_contacts(*sizes, 1.0, POISSON))
+        inner, outer = _contacts(*sizes, modulus, POISSON)
+        return inner if race == "inner" else outer
 
     def carries_thrust_one_way(self, bearing: Bearing) -> bool:
         return False  # both rows are of one ring, and carry it both ways between them

@@ -14,8 +14,8 @@ from typing import NamedTuple
 from bearingcore.common import checks
 
 DEEP_GROOVE, ANGULAR_CONTACT = "deep groove ball bearing", "angular-contact ball bearing"
-SELF_ALIGNING, ROLLERS = "self-aligning ball bearing", "cylindrical roller bearing"
-TAPERED = "tapered roller bearing"
+SELF_ALIGNING_BALLS, ROLLERS = "self-aligning ball bearing", "cylindrical roller bearing"
+TAPERED_ROLLERS = "tapered roller bearing"
 
 CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
@@ -140,11 +140,11 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         is_ceramic=is_ceramic,
         has_better_steel=_BETTER_STEEL.search(rest) is not None,
     )
-    if said.is_ceramic and kind in (ROLLERS, TAPERED):
+    if said.is_ceramic and kind in (ROLLERS, TAPERED_ROLLERS):
         raise refused(CERAMIC_ROLLERS)
-    if kind == SELF_ALIGNING and _SEALED.search(rest):
+    if kind == SELF_ALIGNING_BALLS and _SEALED.search(rest):
         raise refused(SEALED)
-    if kind == SELF_ALIGNING and _REINFORCED.match(rest):
+    if kind == SELF_ALIGNING_BALLS and _REINFORCED.match(rest):
         return said._replace(inside="E")
     if kind == DEEP_GROOVE and _REINFORCED.match(rest):
         if not re.match(r"[ /-]*ETN9", rest):
@@ -174,11 +174,13 @@ def _arrangement(kind: str, text: str, count: str, pair: re.Match[str] | None) -
         universal = kind == ANGULAR_CONTACT and _UNIVERSAL_PAIR.search(text)
         if count != "2" and not universal and not _TWO.search(text):
             return ""
-        raise ValueError(ONE_OF_TWO if kind in (ANGULAR_CONTACT, TAPERED) else ONLY_PAIRS_OF)
+        raise ValueError(
+            ONE_OF_TWO if kind in (ANGULAR_CONTACT, TAPERED_ROLLERS) else ONLY_PAIRS_OF
+        )
     first = (pair["letter"] or pair[0])[0]
-    if kind not in (ANGULAR_CONTACT, TAPERED):
+    if kind not in (ANGULAR_CONTACT, TAPERED_ROLLERS):
         raise ValueError(ONLY_PAIRS_OF)
-    if kind == TAPERED and first == "T":
+    if kind == TAPERED_ROLLERS and first == "T":
         raise ValueError(NO_TANDEM)
     if _SPACER.search(text):
         raise ValueError(SPACED)

@@ -27,25 +27,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.bearings import inside
-from bearingcore.bearings.drawing import Derived
-from bearingcore.bearings.kind import DIRECTIONS, ContactNumbers, Picture, Variant
+from bearingcore.bearings.contact import Contact
+from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
 from bearingcore.bearings.line_contact import (
     RollerContact,
     roller_contact,
-    series_factor,
     tapered_profile_drop,
 )
-from bearingcore.bearings.roller import Roller, checked_sizes, length_of
+from bearingcore.bearings.roller import Roller, length_of, rollers
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
 from bearingcore.common import checks
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
-
-WRITTEN_DISTANCE = 10.0
-"""[m] that files and links have for the centres of straight races; contacts take them straight."""
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
@@ -53,37 +48,27 @@ USUAL_ANGLE = math.radians(14.0361)
 _PREFIX = "tapered-"
 
 
-def fields(
+def tapered(
+    cls: type[Bearing],
     n_rollers: int,
     roller_diameter: float,
     roller_length: float,
     pitch_diameter: float,
     contact_angle: float,
-    radial_clearance: float,
-) -> dict[str, Any]:
-    """All fields of a `Bearing` of one row of tapered rollers; see `Bearing.tapered`."""
-    sizes = checked_sizes(roller_diameter, roller_length, pitch_diameter)
-    return {
-        "kind": TAPERED,
-        "n_balls": n_rollers,
-        "contact_angle": contact_angle,
-        "radial_clearance": radial_clearance,
-        **sizes,
-        **_derived(**sizes, contact_angle=contact_angle)._asdict(),
-    }
+    radial_clearance: float = 0.0,
+) -> Bearing:
+    """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
 
+    Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
+    race. See `bearingcore.bearings.tapered` for what is left out.
 
-def _derived(
-    ball_diameter: float, roller_length: float, pitch_diameter: float, contact_angle: float
-) -> Derived:
-    across = ball_diameter * math.cos(contact_angle)
-    return Derived(
-        groove_center_radius=0.5 * pitch_diameter,
-        groove_center_distance=WRITTEN_DISTANCE,
-        load_deflection_factor=series_factor(roller_length),
-        outer_raceway_radius=0.5 * (pitch_diameter + across),
-        inner_raceway_radius=0.5 * (pitch_diameter - across),
-    )
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+    sizes = (roller_diameter, roller_length, pitch_diameter)
+    return rollers(cls, TAPERED, n_rollers, sizes, contact_angle, radial_clearance)
 
 
 class Tapered(Roller):
@@ -132,7 +117,7 @@ class Tapered(Roller):
 
     def check(self, bearing: Bearing) -> None:
         length_of(bearing)
-        checks.number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
+        checks.real_number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
         if bearing.is_drawn:
             raise checks.refuse(
                 "inner_groove_radius", bearing.inner_groove_radius, "None of tapered rollers"
@@ -175,18 +160,9 @@ class Tapered(Roller):
     def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
         return super().replaced(bearing, {"kind": self} | changes)
 
-    def derived(self, bearing: Bearing) -> Derived:
-        return _derived(
-            bearing.ball_diameter,
-            length_of(bearing),
-            bearing.pitch_diameter,
-            bearing.contact_angle,
-        )
-
-    def contact_numbers(self, bearing: Bearing) -> ContactNumbers:
+    def contact(self, bearing: Bearing) -> Contact:
         # a rib holds the roller on the inner race: half its length on, its middle is past the outer
-        numbers = super().contact_numbers(bearing)
-        return numbers._replace(distance=kernels.STRAIGHT, room=0.5 * length_of(bearing))
+        return super().contact(bearing)._replace(room=0.5 * length_of(bearing))
 
     def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)

@@ -1,15 +1,20 @@
-"""Checks of what comes in: each returns the value, or raises a `FieldError`."""
+"""Checks of what comes in: each returns the value, or raises a `FieldError`.
+
+Of a value of a wrong type it is a `FieldTypeError`, which is a `TypeError` too.
+"""
 
 from __future__ import annotations
 
 import math
 import reprlib
-from typing import SupportsFloat
+from typing import SupportsFloat, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.errors import FieldError, Interval
+from bearingcore.errors import FieldError, FieldTypeError, Interval
+
+T = TypeVar("T")
 
 
 def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
@@ -17,7 +22,21 @@ def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: f
     return FieldError(field, value, allowed, unit, numbers)
 
 
-def number(
+def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
+    """`value` if it is of a type, else FieldTypeError; `wanted` says so in other words."""
+    if isinstance(value, kind):
+        return value
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    raise FieldTypeError(field, value, wanted or f"{article} {kind.__name__}")
+
+
+def _error(value: object) -> type[FieldError]:
+    """The error for what is no number: of words, None or a truth value it is their type."""
+    right = isinstance(value, SupportsFloat) and not isinstance(value, bool)
+    return FieldError if right else FieldTypeError
+
+
+def real_number(
     field: str,
     value: SupportsFloat,
     *,
@@ -43,13 +62,14 @@ def number(
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    raise FieldError(field, given, Interval(at_least, at_most, above, below, note), unit)
+    raise _error(given)(field, given, Interval(at_least, at_most, above, below, note), unit)
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:
     """`value` if it is one of `options`, else ValueError."""
     if not (isinstance(value, str) and value in options):
-        raise refuse(field, value, ", ".join(options))
+        error = FieldError if isinstance(value, str) else FieldTypeError
+        raise error(field, value, ", ".join(options))
     return value
 
 
@@ -57,11 +77,11 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
     """`value` as an int inside the limits, else ValueError. 14.0 counts as 14, True does not."""
     allowed = f"a whole number from {at_least} to {at_most}"
     if isinstance(value, bool):
-        raise refuse(field, value, allowed)
+        raise FieldTypeError(field, value, allowed)
     try:
         x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
     except (TypeError, ValueError, OverflowError):
-        raise refuse(field, value, allowed) from None
+        raise _error(value)(field, value, allowed) from None
     if not at_least <= x <= at_most or x != round(x):
         raise refuse(field, x, allowed)
     return round(x)
@@ -73,7 +93,7 @@ def finite(field: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
     try:
         row = np.array(values, dtype=float).reshape(-1)
     except (TypeError, ValueError, OverflowError):
-        raise refuse(field, values, allowed) from None
+        raise FieldTypeError(field, values, allowed) from None
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)
     return row

@@ -8,10 +8,13 @@ them into what people read, and puts the unit into the name (`extent_deg`).
 from __future__ import annotations
 
 import csv
+import dataclasses
 import io
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from html import escape
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,8 +22,19 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.units import UNITS, factor_between
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+T = TypeVar("T")
+
 READ_UNITS = {"rad": "deg", "m": "µm"}
 """Units for people instead of radians and metres."""
+
+MOST_ROWS, MOST_COLUMNS = 10, 8
+"""Of a table that is printed; the middle of a larger one is left out."""
+
+LONGEST_VALUE, LONGEST_REPR = 24, 120
+"""Letters of a value beside its meaning, and of a result in a line."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +82,7 @@ class Column:
 
 
 class ResultTable(Mapping[str, NDArray[Any]]):
-    """Columns of a result by name: `table["k_yy"]` its numbers, `table.unit("k_yy")` their unit.
+    """Columns of a result by name: `table["k_yy"]` its numbers, `unit("k_yy")` their unit.
 
     Columns may differ in length where a result has several kinds of rows.
     """
@@ -128,6 +142,53 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         """Comma-separated text under names that hold their units; short columns end empty."""
         return as_csv(self.named())
 
+    def frame(self) -> DataFrame:
+        """A pandas data frame under names that hold their units; short columns end in NaN."""
+        import pandas as pd  # imported late: it takes as long as all of this package
+
+        return pd.DataFrame({name: pd.Series(values) for name, values in self.named().items()})
+
+    @property
+    def _is_one_row(self) -> bool:
+        return all(column.values.size == 1 for column in self.columns)
+
+    def _lines(self) -> list[tuple[str, str, str]]:
+        """A line a column of a single row: its name, its value with the unit, its meaning."""
+        return [
+            (one.name, f"{_digits(one.values[0])} {_unit(one)}".rstrip(), one.meaning)
+            for one in self.columns
+        ]
+
+    def _headed(self) -> DataFrame:
+        size = self.columns[0].values.size  # what is as long as the first stands in its rows
+        alike = [one for one in self.columns if one.values.size == size]
+        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in alike]
+        return self.only(*(one.name for one in alike)).frame().set_axis(heads, axis=1)
+
+    def __str__(self) -> str:
+        """The table as text: of a single row a line a column, of many the first and last rows."""
+        if not self._is_one_row:
+            return str(self._headed().to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
+        lines = self._lines()
+        name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
+        value = min(value, LONGEST_VALUE)
+        rows = (f"{one:<{name}}  {of:<{value}}  {what}".rstrip() for one, of, what in lines)
+        return "\n".join(textwrap.fill(row, 100, subsequent_indent=" " * 4) for row in rows)
+
+    def _repr_html_(self) -> str:
+        """The table in a notebook, turned like the text."""
+        if not self._is_one_row:
+            return str(self._headed().to_html(max_cols=2 * MOST_COLUMNS, border=0, **_PRINTED))
+        import pandas as pd
+
+        frame = pd.DataFrame(self._lines(), columns=["", "value", "meaning"])
+        with pd.option_context("display.max_colwidth", None):  # sentences are long
+            return str(frame.to_html(index=False, border=0, justify="left"))
+
+    def __repr__(self) -> str:
+        """The columns by name."""
+        return _cut(f"ResultTable({', '.join(self)})")
+
 
 def table_of(*columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, str]) -> ResultTable:
     """A table of (name, unit, numbers) or (name, unit, numbers, meaning)."""
@@ -135,6 +196,60 @@ def table_of(*columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, s
     for name, unit, values, *meaning in columns:
         made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
     return ResultTable(made)
+
+
+def shown_as_table(result: type[T]) -> type[T]:
+    """A class with `.table()` that is printed as its table, in notebooks too.
+
+    Its `repr` is one line: the first fields, of arrays their shapes.
+    """
+
+    def heading(self: Any) -> str:
+        name, sentence = type(self).__name__, getattr(self, "sentence", "")
+        return f"{name}: {sentence}" if sentence and "sentence" not in self.table() else name
+
+    def text(self: Any) -> str:
+        return f"{heading(self)}\n{self.table()}"
+
+    def html(self: Any) -> str:
+        return f"<p>{escape(heading(self))}</p>{self.table()._repr_html_()}"
+
+    shown: Any = result
+    shown.__repr__, shown.__str__, shown._repr_html_ = short_repr, text, html
+    return result
+
+
+def short_repr(value: Any) -> str:
+    """Class and first fields of a dataclass or named tuple in a line, of arrays the shapes."""
+    fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
+    names = [field.name for field in fields if field.repr] or value._fields
+    parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
+    return _cut(f"{type(value).__name__}({', '.join(parts)})")
+
+
+def _short(value: Any) -> str:
+    """A field in short; empty where it is a value of several fields itself, or nothing."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return f" {value.shape}"
+    if value is None or (isinstance(value, str) and not value):
+        return ""
+    if isinstance(value, str | tuple):
+        text = repr(value)
+        return f"={text}" if len(text) <= 40 else ""
+    return f"={_digits(value)}" if np.ndim(value) == 0 and np.isreal(value) is True else ""
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_REPR else f"{text[: LONGEST_REPR - 2]}…)"
+
+
+def _unit(column: Column) -> str:
+    return "" if column.unit == "1" else column.unit
+
+
+def _digits(value: Any) -> str:
+    """A number with six digits, anything else as it is."""
+    return f"{value:.6g}" if isinstance(value, float | np.floating) else str(value)
 
 
 def as_csv(columns: Mapping[str, NDArray[Any]]) -> str:
@@ -158,3 +273,8 @@ def _cell(value: Any) -> str:
         return f"{value:.9g}"
     text = str(value)
     return f"'{text}" if isinstance(value, str) and text.startswith(_FORMULA) else text
+
+
+_PRINTED: dict[str, Any] = {
+    "max_rows": MOST_ROWS, "show_dimensions": True, "float_format": _digits
+}  # fmt: skip

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference, number, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.motion import Motion, fine_step_rate, simulate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
@@ -32,6 +32,7 @@ SETTLING = 0.12
 """[s] of motion that is left out, several times the slowest mode's decay."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class BallComparison:
     """One scene with massless balls and with balls that have mass.
@@ -112,7 +113,7 @@ def compare_balls(
     ValueError
         where a motion has no answer.
     """
-    checks.number("budget", budget, above=0.0, unit="dB")
+    checks.real_number("budget", budget, above=0.0, unit="dB")
     motions, seconds = [], []
     for balls in (MASSLESS, WITH_MASS):
         begin = time.thread_time()  # others may be using the processor

@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.dynamics.modes import contact_damping
-from bearingcore.scene import packing
+from bearingcore.common.byte_cache import lru_cache_by_bytes
+from bearingcore.scene.defect import floor_bytes
+from bearingcore.scene.packing import PackedMotion, PackedScene, pack
 from bearingcore.scene.scene import DOF_NAMES, Scene
-from bearingcore.statics.ball_positions import static_balls
-from bearingcore.statics.equilibrium import equilibrium
-from bearingcore.statics.passes import drops_at
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.equilibrium import Equilibrium
+from bearingcore.statics.positions import equilibrium_over_all
 from bearingcore.statics.status import StaticStatus
 
 Array = NDArray[np.float64]
@@ -39,47 +38,46 @@ def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
     return 1 if flat else 2
 
 
-def ball_system(
-    scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
-) -> kernels.BallSystem:
-    """System of a scene with heavy balls for the kernels, moving along `dofs`.
+def _balls(packed: PackedScene) -> kernels.StaticBalls:
+    """The balls of a scene that was packed with their mass."""
+    assert packed.balls is not None
+    return packed.balls
+
+
+def ball_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.BallSystem:
+    """System of a scene with heavy balls for the kernels.
 
     `velocities` takes these as variables, which general-purpose integrators take; places are
     then radial and axial always.
     """
-    c = contact_damping(scene)
-    flat = place_parts(scene, dofs) == 1
+    flat = place_parts(packed.scene, packed.dofs) == 1
     variables = kernels.VELOCITIES if velocities else kernels.PLANAR if flat else kernels.SMOOTH
-    return kernels.BallSystem(
-        packing.rotor(scene, dofs, c)._replace(variables=variables),
-        packing.contacts(scene.bearing),
-        packing.races(scene, c, weight=True),
-        packing.path(scene, "inner"),
-        packing.path(scene, "outer"),
-    )
+    return kernels.BallSystem(packed.rotor._replace(variables=variables), *_balls(packed))
 
 
-def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) -> Array | None:
+def ball_start(
+    packed: PackedMotion, massless: Equilibrium, parts: int | None = None
+) -> Array | None:
     """State of rings and balls at rest at cage angle 0, at the scene's speed.
 
     Displacements and velocities of both rings, places of the balls, their velocities. None where
-    there is no static state.
+    there is no static state. `massless` is that of massless balls at
+    cage angle 0.
     """
-    massless = equilibrium(scene, [0.0], dofs)
+    dofs = packed.dofs
     if massless.status[0] >= StaticStatus.NOT_CARRIED:
         return None
-    system = ball_system(scene, dofs)
+    system = _balls(packed)
     q, _, _, place, _, status, _, _ = kernels.ball_positions(
         massless.cage_angles,
         massless.leads,
         massless.state,
-        static_balls(scene, system.races),
-        packing.static_load(scene, dofs),
+        system,
+        packed.load,
     )
     if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
-    bodies = packing.body_numbers(scene, dofs)
-    number = packing.direction_numbers(dofs)
+    bodies, number = packed.bodies, packed.load.active
     angle = system.contacts.angle
     c, s = np.cos(angle), np.sin(angle)
     radial = system.races.centrifugal - system.races.weight * s
@@ -93,13 +91,27 @@ def ball_start(scene: Scene, dofs: tuple[str, ...], parts: int | None = None) ->
     balls = place[0]
     balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s
     balls[1] += outer[2] + reach * (outer[3] * s - outer[4] * c)
-    kept = balls[: place_parts(scene, dofs) if parts is None else parts]
-    return np.concatenate([rings.ravel(), kept.ravel(), np.zeros(kept.size)])
+    moved = balls[: place_parts(packed.scene, dofs) if parts is None else parts]
+    return np.concatenate([rings.ravel(), moved.ravel(), np.zeros(moved.size)])
+
+
+def march_balls(
+    packed: PackedMotion, massless: Equilibrium, h: float, every: int, history: Array, place: Array
+) -> int | None:
+    """Fill `history` and `place` by steps of h [s], a row after `every` of them.
+
+    Returns the number of steps after which all was finite; None where there is no static state to
+    start from: `massless` is that of massless balls at cage angle 0.
+    """
+    y = ball_start(packed, massless)
+    if y is None:
+        return None
+    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place))
 
 
 def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
-    n = bearing.contact_exponent
+    n = bearing.kind.exponent
     inner, outer = (
         n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in bearing.race_factors
     )
@@ -114,20 +126,17 @@ def resonances(scene: Scene, load: float) -> list[float]:
     ]
 
 
-@lru_cache(maxsize=512)
-def heaviest_load(scene: Scene) -> float:
+@lru_cache_by_bytes(
+    512,
+    32_000_000,
+    lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
+    lambda packed: (packed.scene, packed.dofs),
+)
+def heaviest_load(packed: PackedScene) -> float:
     """Greatest static load [N] of a ball over all positions; 0 where none is known."""
-    load = over_all_positions(scene, 31).ball_load
+    load = equilibrium_over_all(packed, 31).ball_load
     known = load[np.isfinite(load)]
     return float(known.max()) if known.size else 0.0
-
-
-def contact_resonance(scene: Scene) -> float:
-    """Frequency sqrt((k_i + k_e)/m_b)/2π [Hz] of the heaviest loaded ball between its contacts.
-
-    Of rows that are unlike the highest at that load, whichever row it is that carries it.
-    """
-    return max(resonances(scene, heaviest_load(scene)))
 
 
 @lru_cache(maxsize=512)
@@ -137,49 +146,44 @@ def contact_resonance_band(scene: Scene) -> tuple[float, float]:
     A ball's resonance goes with the sixth root of its load (Hertz), so the band is narrow although
     loads are not. 0 for both where no ball is known to carry load.
     """
-    heaviest = heaviest_load(scene)
+    heaviest = heaviest_load(pack(scene))
     return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
 
 
-def fastest_decay(scene: Scene) -> float:
+def fastest_decay(packed: PackedMotion) -> float:
     """The fastest decay [1/s] of a ball's motion between its contacts, 0 where it is undamped."""
-    races = packing.races(scene, contact_damping(scene), weight=False)
+    races = _balls(packed).races
     return float((races.damping.sum(axis=0) / races.mass).max())
 
 
-def ball_step_rate(scene: Scene, sample_rate: float) -> float:
+def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
     """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
 
     As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
-    needed = max(
-        STEPS_A_CONTACT_CYCLE * contact_resonance(scene), fastest_decay(scene) / STABLE_DECAY
-    )
+    decay, heaviest = fastest_decay(packed), heaviest_load(packed)
+    resonance = max(resonances(packed.scene, heaviest))
+    needed = max(STEPS_A_CONTACT_CYCLE * resonance, decay / STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
 
 
 def loads_of_races(
-    scene: Scene,
-    dofs: tuple[str, ...],
-    history: Array,
-    place: Array,
-    turning: tuple[float, float],
+    packed: PackedScene, history: Array, place: Array, turning: tuple[float, float]
 ) -> Array:
     """Elastic loads (2, n, N_b) [N] at inner and outer race of a motion's rows; NaN as they are.
 
     turning: cage angle [rad] of the first row, and from row to row.
     """
-    system = ball_system(scene, dofs)
-    contacts, races = system.contacts, system.races
+    contacts, races, *paths = _balls(packed)
     start, turn = turning
     cage: Array = start + turn * np.arange(len(history), dtype=np.float64)
-    angle = packing.ball_angles(scene.bearing, cage)
+    angle = contacts.angles_at(cage)
     c, s = np.cos(angle), np.sin(angle)
     axial = place[:, 1] if place.shape[1] > 1 else 0.0
     loads = np.zeros((2, *angle.shape))
     for race, name in enumerate(("inner", "outer")):
         x = np.zeros((5, len(history), 1))
-        x[packing.direction_numbers(dofs), :, 0] = history[:, 3 * race].T
+        x[packed.load.active, :, 0] = history[:, 3 * race].T
         # Equations (8) to (12), of the contact between a ball and this race
         r = (x[0] + contacts.arm * x[4]) * c + (x[1] - contacts.arm * x[3]) * s - place[:, 0]
         z = x[2] + contacts.reach * (x[3] * s - x[4] * c) - axial
@@ -187,12 +191,14 @@ def loads_of_races(
             r, z = r - contacts.clearance, z + contacts.offset
         else:
             r, z = -r, -z
-        drop = drops_at(scene, cage, name)
+        drop = kernels.drops_of(contacts, paths[race], cage, cage)
         m = r * contacts.line_r + z * contacts.line_z - drop
         w = z * contacts.line_r - r * contacts.line_z
         A = races.distance[race]
         rise = m * (2.0 * A + m) + w * w
-        reached = np.where(A + m > 0.0, rise / (np.hypot(A + m, w) + A), np.abs(w) - A)
+        length = np.maximum(np.hypot(A + m, w) + A, 1e-300)
+        reached = np.where(A + m > 0.0, rise / length, np.abs(w) - A)
+        reached = np.where(contacts.fixed, m, reached)
         loads[race] = races.factor[race] * np.maximum(reached, 0.0) ** contacts.exponent
     loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
     return loads

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
-from bearingcore.common.kept import kept
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common import checks
+from bearingcore.common.byte_cache import lru_cache_by_bytes
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.dynamics.damping import contact_damping
 from bearingcore.scene.defect import floor_bytes
-from bearingcore.scene.packing import contacts
+from bearingcore.scene.packing import PackedScene, contacts, pack
 from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import (
     ANGLES_A_PERIOD,
@@ -21,16 +22,20 @@ from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     Equilibrium,
     equilibrium,
+    equilibrium_of,
 )
-from bearingcore.statics.positions import ROUNDS, extremes, over_all_positions, positions, turns
+from bearingcore.statics.positions import (
+    ROUNDS,
+    equilibrium_over_all,
+    extremes,
+    positions_of,
+    turns,
+)
 
 Array = NDArray[np.float64]
 
-DAMPING_OVER_STIFFNESS = 1e-5
-"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
-0.25e-5 to 2.5e-5 s."""
 
-
+@shown_as_table
 @dataclass(frozen=True)
 class Modes:
     """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
@@ -160,19 +165,21 @@ def frequency_bands(
     ValueError
         where the support lacks a number, by its name.
     """
+    checks.instance("scene", scene, Scene)
     n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
-    found = positions(scene, n)
-    state = over_all_positions(scene, n, most_contacts=most_contacts)
+    packed = pack(scene)
+    found = positions_of(packed, n)
+    state = equilibrium_over_all(packed, n, most_contacts)
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(state)
 
     def frequencies(cage_angles: Array, shaft_angles: Array) -> Array:
-        return search.frequencies(equilibrium(scene, cage_angles, shaft_angles=shaft_angles))
+        return search.frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
     ends = extremes(found, search.frequencies(state), frequencies, rounds=rounds)
-    there = equilibrium(scene, ends.cage_angles.ravel(), shaft_angles=ends.shaft_angles.ravel())
+    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
     least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     if not (turns(scene) or coarse):
         # dampers that come in with a ball move the ends a little: there are few samples here
@@ -339,15 +346,25 @@ def _frequencies_like(
     return np.asarray(np.take_along_axis(frequency, order, axis=1).T)
 
 
-@kept(512, 32_000_000, lambda _, scene: 1000 + floor_bytes(scene.defects))
 def highest_natural_frequency(scene: Scene) -> float:
     """The greatest undamped natural frequency [Hz] of a scene over all its positions.
 
     NaN where no angle has a static state. It decides how finely a motion must be stepped.
     """
-    dofs = scene.active_dofs
+    return highest_frequency_of(pack(scene))
+
+
+@lru_cache_by_bytes(
+    512,
+    32_000_000,
+    lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
+    lambda packed: (packed.scene, packed.dofs),
+)
+def highest_frequency_of(packed: PackedScene) -> float:
+    """`highest_natural_frequency` of a scene that is packed."""
+    scene, dofs = packed.scene, packed.dofs
     index = [DOF_NAMES.index(name) for name in dofs]
-    K_b = over_all_positions(scene, 31).stiffness[:, index][:, :, index]
+    K_b = equilibrium_over_all(packed, 31).stiffness[:, index][:, :, index]
     known = np.isfinite(K_b).all(axis=(1, 2))
     if not known.any():
         return math.nan
@@ -382,32 +399,6 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
     )
     e *= state.carries[..., None]
     return np.swapaxes(e, 1, 2) @ e
-
-
-@lru_cache(maxsize=512)
-def _mean_stiffness_a_ball(healthy: Scene) -> float:
-    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] of a scene, over one period of its curves."""
-    angles = np.arange(120) * (healthy.bearing.period / 120)
-    state = equilibrium(healthy, angles)
-    good = state.converged & (state.loaded_balls > 0)
-    if not good.any():
-        return math.nan
-    radial = state.term("k_xx")[good] + state.term("k_yy")[good]
-    return float(radial.mean() / state.loaded_balls[good].mean())
-
-
-def contact_damping(scene: Scene) -> float:
-    """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
-
-    The paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to
-    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
-    state to take it from.
-    """
-    if scene.contact_damping is not None:
-        return scene.contact_damping
-    # the damping depends on bearing and load only; other fields would make needless cache entries
-    stiffness = _mean_stiffness_a_ball(scene.healthy().replace(shaft_speed=0.0))
-    return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
 
 
 def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:

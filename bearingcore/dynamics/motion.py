@@ -12,21 +12,22 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
-    ball_start,
     ball_step_rate,
-    ball_system,
     loads_of_races,
+    march_balls,
     place_parts,
 )
+from bearingcore.dynamics.damping import damped, packed_motion
 from bearingcore.dynamics.low_pass import bandwidth, hermite_weights, low_passed, rows_needed
-from bearingcore.dynamics.modes import contact_damping, highest_natural_frequency
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene import packing
+from bearingcore.scene.packing import PackedMotion, PackedScene
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import Spectrum, spectrum
-from bearingcore.statics.equilibrium import equilibrium
+from bearingcore.statics.equilibrium import Equilibrium, equilibrium_of
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.status import StaticStatus
 
@@ -51,6 +52,7 @@ KEPT = 4
 """Rows a sample, at most, that a motion of balls with mass is filtered from."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Motion:
     """Motion of inner and outer ring, n samples along the directions `dofs`.
@@ -195,50 +197,56 @@ class Motion:
 
         Of balls without mass both are the same.
         """
+        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
         if self.ball_place is None:
-            loads = self.ball_loads(start, stop)
+            loads = self._ball_loads(packed, start, stop)
             return np.stack([loads, loads])
-        first, last = slice(start, stop).indices(len(self.time))[:2]
-        return loads_of_races(
-            self.scene,
-            self.dofs,
-            self.history[first:last],
-            self.ball_place[first:last],
-            (
-                first * self.scene.cage_speed / self.sample_rate,
-                self.scene.cage_speed / self.sample_rate,
-            ),
-        )
-
-    def _with_mass(self) -> NDArray[np.float64]:
-        if self.ball_place is None:
-            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
-        return self.ball_place
+        return self._race_loads(packed, self.ball_place, start, stop)
 
     def ball_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
 
-        Of balls with mass those at the outer race. Fewer samples cost less: a short stretch is all
+        Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
         that a figure of contact forces needs.
         """
+        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
+        return self._ball_loads(packed, start, stop)
+
+    def with_ball_loads(self, packed: PackedScene) -> Motion:
+        """The same motion with the loads of its balls."""
+        return replace(self, ball_load=self._ball_loads(packed, 0, None))
+
+    def _race_loads(
+        self, packed: PackedScene, place: NDArray[np.float64], start: int, stop: int | None
+    ) -> NDArray[np.float64]:
+        first, last = slice(start, stop).indices(len(self.time))[:2]
+        turned = self.scene.cage_speed / self.sample_rate
+        begin = first * self.scene.cage_speed / self.sample_rate
+        return loads_of_races(packed, self.history[first:last], place[first:last], (begin, turned))
+
+    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> NDArray[np.float64]:
         if self.ball_place is not None:
-            return self.race_loads(start, stop)[1]
+            return self._race_loads(packed, self.ball_place, start, stop)[1]
         samples = slice(start, stop).indices(len(self.time))[:2]
         inner, outer = (
             _sample(self.history, body, 0, self.sample_rate, self._history_rate, *samples)
             for body in ("inner", "outer")
         )
-        scene = self.scene
         loads = kernels.elastic_loads(
             inner - outer,
-            packing.direction_numbers(self.dofs),
-            float(samples[0] * scene.cage_speed / self.sample_rate),
-            scene.cage_speed / self.sample_rate,
-            packing.contacts(scene.bearing),
-            packing.path(scene),
+            packed.load.active,
+            float(samples[0] * self.scene.cage_speed / self.sample_rate),
+            self.scene.cage_speed / self.sample_rate,
+            packed.contacts,
+            packed.path,
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
         return np.asarray(loads)
+
+    def _with_mass(self) -> NDArray[np.float64]:
+        if self.ball_place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
+        return self.ball_place
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
@@ -322,12 +330,14 @@ def simulate(
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
         it, a shaft that stands still, or a support that lacks a number.
     """
-    duration = checks.number("duration", duration, above=0.0, unit="s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.instance("scene", scene, Scene)
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
-    packing.body_numbers(scene, dofs)  # refuses a support that lacks a number
-    highest = highest_natural_frequency(scene)
+    packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
+    packed = damped(packed)
+    highest = highest_frequency_of(packed)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
             "sample_rate",
@@ -335,9 +345,10 @@ def simulate(
             f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
             f"of {highest:.0f} Hz",
         )
+    rest = equilibrium_of(packed, [0.0])
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
-        step_rate = default_step_rate(scene, sample_rate, highest)
+        step_rate = step_rate_of(packed, sample_rate, highest)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(
@@ -360,7 +371,8 @@ def simulate(
     n_steps = (rows - 1) * every
     shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # without what follows
     time = np.arange(n) / sample_rate
-    n_balls = packing.contacts(scene.bearing).angle.size
+    n_balls = packed.contacts.angle.size
+    parts = place_parts(scene, dofs)
     if shown > most_steps:
         # NaN everywhere, without the memory of it
         nothing = np.broadcast_to(
@@ -370,7 +382,7 @@ def simulate(
             f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
             f"allowed are most_steps = {thousands(most_steps)}"
         )
-        nowhere = np.broadcast_to(np.float64(math.nan), (n, place_parts(scene, dofs), n_balls))
+        nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
         return Motion(
             scene, dofs, sample_rate, step_rate, MotionStatus.TOO_MANY_STEPS, 0, time,
             np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
@@ -378,30 +390,24 @@ def simulate(
         )  # fmt: skip
     h = 1.0 / step_rate
     place = filtered = None
-    y = ball_start(scene, dofs) if with_mass else static_start(scene, dofs)
     history = np.empty((rows, 6, len(dofs)))
     if with_mass:
-        place = np.empty((-(-rows // kept), place_parts(scene, dofs), n_balls))
-    if y is None:
-        history[:] = math.nan
-        if place is not None:
-            place[:] = math.nan
-        reason = equilibrium(scene, [0.0], dofs).reason(0)
-        done, status, detail = 0, MotionStatus.NO_START, f": {reason}"
+        place = np.empty((-(-rows // kept), parts, n_balls))
+        marched = march_balls(packed, rest, h, every, history, place)
     else:
-        if place is None:
-            done = march_from(scene, y, h, history)
-        else:
-            system = ball_system(scene, dofs)
-            done = int(kernels.march_balls(y, h, 0.0, every, system, history, place))
-        status, detail = MotionStatus.COMPLETED, ""
-        if done < n_steps:
-            history[done // every + 1 :] = math.nan
-            if place is not None:
-                place[done // a_sample + 1 :] = math.nan
-            rate = thousands(step_rate)
-            status = MotionStatus.DIVERGED
-            detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+        marched = march_from(packed, rest, h, history)
+    done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
+    if marched is None:
+        status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
+    elif done < n_steps:
+        rate = thousands(step_rate)
+        status = MotionStatus.DIVERGED
+        detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+    if status is not MotionStatus.COMPLETED:
+        first = 0 if marched is None else 1
+        history[done // every + first :] = math.nan
+        if place is not None:
+            place[done // a_sample + first :] = math.nan
     if place is not None:
         both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
         filtered, place = np.stack(both), place[:n]
@@ -420,51 +426,52 @@ def simulate(
         detail=detail,
         filtered=filtered,
     )
-    return replace(motion, ball_load=motion.ball_loads()) if ball_loads else motion
+    return motion.with_ball_loads(packed) if ball_loads else motion
 
 
-def march_from(scene: Scene, y: NDArray[np.float64], h: float, history: NDArray[np.float64]) -> int:
-    """Steps of h [s] from the state y (4 nd,) at cage angle 0, which is moved.
+def march_from(
+    packed: PackedMotion, rest: Equilibrium, h: float, history: NDArray[np.float64]
+) -> int | None:
+    """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
 
-    history (steps + 1, 6, nd) is filled. Returns the number of steps after which all was finite.
+    Returns the number of steps after which all was finite; None where there is no static state.
     """
-    system = moving_system(scene, scene.active_dofs)
+    y = static_start(packed, rest)
+    if y is None:
+        return None
+    system = moving_system(packed)
     kernels.turn_smooth(y, 1.0, 0.0, system)
     return int(kernels.march(y, h, 0.0, system, history))
 
 
-def moving_system(
-    scene: Scene, dofs: tuple[str, ...], *, velocities: bool = False
-) -> kernels.System:
-    """System of a scene with massless balls for the kernels, moving along `dofs`.
-
-    See `packing.rotor`.
+def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:
+    """System of a scene with massless balls for the kernels; see `packing.rotor`.
 
     Raises
     ------
     ValueError
         for balls with mass: only `simulate` knows them.
     """
-    if scene.balls != MASSLESS:
+    balls = packed.scene.balls
+    if balls != MASSLESS:
         raise checks.refuse(
-            "balls", scene.balls, f"{MASSLESS} here: only a simulated motion knows their mass"
+            "balls", balls, f"{MASSLESS} here: only a simulated motion knows their mass"
         )
-    return kernels.System(
-        packing.rotor(scene, dofs, contact_damping(scene), velocities=velocities),
-        packing.contacts(scene.bearing),
-        packing.path(scene),
-    )
+    rotor = packed.rotor._replace(variables=kernels.VELOCITIES) if velocities else packed.rotor
+    return kernels.System(rotor, packed.contacts, packed.path)
 
 
-def static_start(scene: Scene, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
-    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state."""
-    start = equilibrium(scene, [0.0], dofs)
-    if start.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
+def static_start(packed: PackedMotion, rest: Equilibrium) -> NDArray[np.float64] | None:
+    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
+
+    `rest` is the static state at cage angle 0.
+    """
+    if rest.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
-    bodies = packing.body_numbers(scene, dofs)
-    y = np.zeros((4, len(dofs)))
+    bodies = packed.bodies
+    y = np.zeros((4, len(packed.dofs)))
     y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
-    y[0] = y[2] + start.state[0, packing.direction_numbers(dofs)]
+    y[0] = y[2] + rest.state[0, packed.load.active]
     return y.ravel()
 
 
@@ -484,10 +491,16 @@ def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float
 
     Where balls have mass a multiple, see `ball_step_rate`. Raises ValueError where none is finite.
     """
+    return step_rate_of(packed_motion(scene), sample_rate, highest)
+
+
+def step_rate_of(packed: PackedMotion, sample_rate: float, highest: float) -> float:
+    """`default_step_rate` of a scene that is packed."""
+    scene = packed.scene
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
     if scene.balls == WITH_MASS:
-        needed = max(needed, ball_step_rate(scene, sample_rate))
+        needed = max(needed, ball_step_rate(packed, sample_rate))
     if not math.isfinite(needed):
         raise checks.refuse("the step rate that the scene needs", needed, "a finite one [Hz]")
     if needed <= sample_rate:
@@ -497,13 +510,13 @@ def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:
     """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
-    highest = highest_natural_frequency(scene)
-    return max(default_step_rate(scene, sample_rate, highest), sample_rate)
+    packed = packed_motion(scene)
+    return max(step_rate_of(packed, sample_rate, highest_frequency_of(packed)), sample_rate)
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
     """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
-    step_rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+    step_rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
     ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)
     whole = round(ratio)
     if abs(ratio - whole) > 1e-9 * ratio:

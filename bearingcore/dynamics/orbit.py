@@ -21,26 +21,28 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import (
     PASSED,
     PASSED_OF_ORBITS,
     acceleration_lines,
     hermite_weights,
 )
-from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
-    default_step_rate,
     moving_system,
     static_start,
+    step_rate_of,
 )
 from bearingcore.dynamics.status import OrbitStatus
 from bearingcore.scene import packing
+from bearingcore.scene.packing import PackedMotion
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum import Spectrum
-from bearingcore.statics.equilibrium import equilibrium
+from bearingcore.statics.equilibrium import equilibrium_of
 
 MOST_BALL_PASSES = 400
 """The longest common period, in ball passes, that is looked for."""
@@ -54,11 +56,16 @@ MARCHED_BEFORE = (2, 20, 60)
 CLOSED = 1e-7
 """An orbit is closed when it misses its beginning by this part of its own size."""
 
+STILL = 1e-12
+"""[m] Below this, a hundredth of an atom, rings stand still: all balls of a row that is pressed
+together carry, and their passing moves the rings by no more than digits."""
+
 
 LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 """Losses of stability by the place at which the largest multiplier leaves the unit circle."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Orbit:
     """A periodic motion of a scene and what becomes of small disturbances of it.
@@ -133,7 +140,7 @@ class Orbit:
         """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
         parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
         # from the equations of motion: it jumps as balls touch, and no interpolation follows that
-        moving = moving_system(self.scene, self.dofs, velocities=True)
+        moving = moving_system(packed_motion(self.scene, self.dofs), velocities=True)
         rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
         inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
         return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
@@ -172,12 +179,12 @@ class Orbit:
 
         ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
         """
-        sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
         least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
-        resolution = checks.number(
+        resolution = checks.real_number(
             "resolution", resolution, at_least=least, at_most=0.5 * sample_rate, unit="Hz"
         )
-        duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
+        duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
         segment = round(sample_rate / resolution)
         hop = segment - segment // 2
         segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
@@ -256,7 +263,8 @@ def orbit(
     ValueError
         for a shaft that stands still or a support that lacks a number.
     """
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.instance("scene", scene, Scene)
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
     shortest = common_ball_passes(scene)
     if ball_passes is None:
@@ -275,16 +283,18 @@ def orbit(
         return nothing
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
-    steps = _steps_in(scene, period, step_rate)
+    packed = packed_motion(scene)
+    steps = _steps_in(packed, period, step_rate)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
-    shooting = _Shooting(scene, dofs, period, steps, give_up, most_steps)
-    y = static_start(scene, dofs) if start is None else _state_at_start(start, dofs)
+    shooting = _Shooting(packed, period, steps, give_up, most_steps)
+    rest = equilibrium_of(packed, [0.0])
+    y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
-        why = equilibrium(scene, [0.0], dofs).reason(0)
+        why = rest.reason(0)
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.own(y)
     if start is not None:
@@ -300,8 +310,8 @@ def orbit(
     return shooting.reported(found)
 
 
-def _steps_in(scene: Scene, period: float, step_rate: float | None) -> int:
-    rate = step_rate or default_step_rate(scene, 65536.0, highest_natural_frequency(scene))
+def _steps_in(packed: PackedMotion, period: float, step_rate: float | None) -> int:
+    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
     return max(math.ceil(period * rate), 8)
 
 
@@ -310,7 +320,8 @@ def least_steps(scene: Scene, ball_passes: int | None = None) -> int:
     passes = ball_passes or common_ball_passes(scene)
     if passes is None or scene.shaft_speed == 0.0:
         return 0
-    return 2 * _steps_in(scene, passes * scene.bearing.ball_spacing / scene.cage_speed, None)
+    period = passes * scene.bearing.ball_spacing / scene.cage_speed
+    return 2 * _steps_in(packed_motion(scene), period, None)
 
 
 def common_ball_passes(scene: Scene) -> int | None:
@@ -346,8 +357,7 @@ class _Shooting:
 
     def __init__(
         self,
-        scene: Scene,
-        dofs: tuple[str, ...],
+        packed: PackedMotion,
         period: float,
         steps: int,
         give_up: Callable[[], bool] | None = None,
@@ -359,12 +369,12 @@ class _Shooting:
         self.calls = 0
         self.given_up = False
         self._give_up = give_up
-        self._system = moving_system(scene, dofs)
+        self._system = moving_system(packed)
         self._step = period / steps
-        self.history = np.empty((steps + 1, 6, len(dofs)))
+        self.history = np.empty((steps + 1, 6, len(packed.dofs)))
         # velocities count over the highest natural frequency, so that all of y are lengths
-        omega = 2.0 * math.pi * highest_natural_frequency(scene)
-        self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(dofs))
+        omega = 2.0 * math.pi * highest_frequency_of(packed)
+        self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
 
     def own(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
         """A state of displacements and velocities in the variables that are marched."""
@@ -408,11 +418,11 @@ class _Shooting:
         return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
-        """|P(y) − y| over the size of the motion between."""
+        """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
         size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
-        if not (np.all(np.isfinite(end)) and size > 0.0):
+        if not (np.all(np.isfinite(end)) and math.isfinite(size)):
             return math.inf
-        return float(np.linalg.norm((end - y) * self.scale) / size)
+        return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
 
 
 def _newton(
@@ -469,6 +479,9 @@ def _newton(
 def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
     """The first state of another orbit; None where it moves along other directions or is none."""
     first = start.history[0]
-    if start.dofs != dofs or not np.all(np.isfinite(first)):
-        return static_start(start.scene, dofs) if start.dofs == dofs else None
+    if start.dofs != dofs:
+        return None
+    if not np.all(np.isfinite(first)):
+        packed = packed_motion(start.scene, dofs)
+        return static_start(packed, equilibrium_of(packed, [0.0]))
     return np.concatenate([first[0], first[1], first[3], first[4]])

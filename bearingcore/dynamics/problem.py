@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.damping import packed_motion
+from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import moving_system, static_start
-from bearingcore.scene import packing
+from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import equilibrium
+from bearingcore.statics.equilibrium import equilibrium_of
 from bearingcore.statics.passes import path_kinks
 
 Array = NDArray[np.float64]
@@ -65,16 +66,17 @@ def motion_problem(scene: Scene) -> MotionProblem:
     ValueError
         for a shaft that stands still, or where there is no static state to start from.
     """
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
-    dofs = scene.active_dofs
-    rest = static_start(scene, dofs)
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    packed = packed_motion(scene)
+    state = equilibrium_of(packed, [0.0])
+    rest = static_start(packed, state)
     if rest is None:
-        reason = equilibrium(scene, [0.0], dofs).reason(0)
+        reason = state.reason(0)
         raise checks.refuse("scene", reason, "one with a static state to start from")
-    load = float(np.linalg.norm(packing.body_numbers(scene, dofs).force)) or 1.0
-    compression = packing.typical_compression(scene.bearing, load)
-    turning = 2.0 * math.pi * (highest_natural_frequency(scene) or 1000.0)
-    scale = compression * np.repeat([1.0, turning, 1.0, turning], len(dofs))
+    load = float(np.linalg.norm(packed.bodies.force)) or 1.0
+    compression = typical_compression(scene.bearing, load)
+    turning = 2.0 * math.pi * (highest_frequency_of(packed) or 1000.0)
+    scale = compression * np.repeat([1.0, turning, 1.0, turning], len(packed.dofs))
     return MotionProblem(
-        scene, dofs, rest.ravel(), scale, moving_system(scene, dofs, velocities=True)
+        scene, packed.dofs, rest.ravel(), scale, moving_system(packed, velocities=True)
     )

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.dynamics.modes import contact_damping, loaded_directions
+from bearingcore.dynamics.damping import contact_damping
+from bearingcore.dynamics.modes import loaded_directions
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.positions import over_all_positions
@@ -50,6 +51,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     ValueError
         for speeds that are negative or do not increase, or where a cage angle has no static state.
     """
+    checks.instance("scene", scene, Scene)
     try:
         import ross  # imported late: optional, and slow
     except ImportError as error:

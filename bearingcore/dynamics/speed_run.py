@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import frequency_bands, highest_natural_frequency
 from bearingcore.dynamics.motion import (
@@ -28,10 +28,11 @@ from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.scene.scene import MASSLESS, Scene
 
-SETTLING = 0.5
+SETTLING_SHARE = 0.5
 """Part of a marched motion that is left out of its spectrum as transient."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class SpeedRun:
     """Spectra of the housing's acceleration at n shaft speeds.
@@ -133,11 +134,11 @@ def speed_run(
     if not 1 <= speeds.size <= 1000:
         raise checks.refuse("number of shaft_speeds", int(speeds.size), "1 to 1000")
     for speed in speeds:
-        checks.number("shaft_speeds", speed, above=0.0, unit="rad/s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    most = MOST_SAMPLES / sample_rate * (1.0 - SETTLING)
-    duration = checks.number("duration", duration, above=0.0, at_most=most, unit="s")
-    resolution = checks.number(
+        checks.real_number("shaft_speeds", speed, above=0.0, unit="rad/s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    most = MOST_SAMPLES / sample_rate * (1.0 - SETTLING_SHARE)
+    duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
+    resolution = checks.real_number(
         "resolution", resolution, at_least=1.0 / duration, at_most=0.5 * sample_rate, unit="Hz"
     )
     dofs = scene.active_dofs
@@ -159,7 +160,7 @@ def speed_run(
         )
 
     shape = (speeds.size, frequency.size, len(dofs))
-    lasting = duration / (1.0 - SETTLING)
+    lasting = duration / (1.0 - SETTLING_SHARE)
     steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
     if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
         return run_of(
@@ -205,7 +206,7 @@ def speed_run(
             refusals[i] = error
             continue
         if motion.completed:
-            lines = motion.spectrum(resolution, SETTLING * lasting).density
+            lines = motion.spectrum(resolution, SETTLING_SHARE * lasting).density
             density[i, : len(lines)] = lines
     if len(refusals) == speeds.size:
         raise refusals[0]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.progress import Cancelled, Progress, in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.motion import (
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
@@ -30,6 +30,7 @@ OUTCOMES = tuple(MapOutcome)
 """Meaning of the codes of `StabilityMap.outcome`."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class StabilityMap:
     """Largest Floquet multiplier over two fields of a scene.

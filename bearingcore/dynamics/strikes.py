@@ -43,7 +43,7 @@ def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
     return tuple(
         Flight(ball, float(time[first]), float(time[last]))
         for ball in range(free.shape[1])
-        for first, last in _stretches(free[:, ball])
+        for first, last in _runs_of_true(free[:, ball])
     )
 
 
@@ -56,7 +56,7 @@ def strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
     for index, race in enumerate(RACES_OF_LOADS):
         for ball in range(loads.shape[2]):
             load = loads[index, :, ball]
-            for first, last in _stretches(load > 0.0):
+            for first, last in _runs_of_true(load > 0.0):
                 if first == 0:
                     continue
                 falls = np.flatnonzero(np.diff(load[first : last + 1]) <= 0.0)
@@ -71,7 +71,7 @@ RACES_OF_LOADS = ("inner", "outer")
 """In the order of the loads."""
 
 
-def _stretches(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs_of_true(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """First and last index of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], which.astype(np.int8), [0]])))
     return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.numbers import with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_comparison import compare_motions
 from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.dynamics.modes import highest_natural_frequency
@@ -77,6 +77,7 @@ class Alternative:
         return self.own_seconds - self.seconds
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Alternatives:
     """Effect of other models, a row each.

@@ -19,6 +19,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference
 from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_parts
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import low_passed, rows_needed
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import default_step_rate, simulate
@@ -35,6 +36,7 @@ from bearingcore.experiments.points import (
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 from bearingcore.signals.spectrum_difference import third_octave_edges
+from bearingcore.statics.equilibrium import equilibrium_of
 
 Array = NDArray[np.float64]
 
@@ -57,7 +59,7 @@ AROUND = (2 / 3, 1.0, 4 / 3, 8 / 3)
 FINER = 8
 """As many times more for the second family, whose order is lower."""
 
-LEFT_OUT = (
+BALLS_LEFT_OUT = (
     "general-purpose methods, which hold to tolerances between strikes and take five times as long "
     "(tests compare with them); implicit and exponential steps of the balls alone, which lose an "
     "order whenever a contact opens or closes"
@@ -75,7 +77,7 @@ class BallMarch:
 
 Report = Callable[[float], object]
 
-Marcher = Callable[[Scene, int, float, float, Report], BallMarch]
+BallMarcher = Callable[[Scene, int, float, float, Report], BallMarch]
 """(scene, steps a sample, duration [s], sample rate [Hz], report of the part done) -> BallMarch"""
 
 MOST_KEPT = 8
@@ -98,7 +100,13 @@ def _by_own_steps(
     history, place, y = _empty(scene, duration, kept * sample_rate, kept, place_parts(scene, dofs))
     every = stride // kept
     done = kernels.march_balls(
-        y, 1.0 / (stride * sample_rate), 0.0, every, ball_system(scene, dofs), history, place
+        y,
+        1.0 / (stride * sample_rate),
+        0.0,
+        every,
+        ball_system(packed_motion(scene)),
+        history,
+        place,
     )
     failure = _failure(done, every * (len(history) - 1))
     return BallMarch(_sampled(history, duration, sample_rate, kept), 4 * done, failure)
@@ -118,7 +126,7 @@ def _sampled(history: Array, duration: float, sample_rate: float, kept: int) -> 
 def _in_velocities(
     scene: Scene, stride: int, duration: float, sample_rate: float, report: Report = _unreported
 ) -> BallMarch:
-    system = ball_system(scene, scene.active_dofs, velocities=True)
+    system = ball_system(packed_motion(scene), velocities=True)
     kept = _kept(stride)
     rate, every = kept * sample_rate, stride // kept
     history, place, y = _empty(scene, duration, rate, 1, 2)
@@ -147,7 +155,8 @@ def _empty(
 
 
 def _start(scene: Scene, parts: int) -> Array:
-    start = ball_start(scene, scene.active_dofs, parts)
+    packed = packed_motion(scene)
+    start = ball_start(packed, equilibrium_of(packed, [0.0]), parts)
     if start is None:
         raise checks.refuse("scene", "without a static state", "one that a motion can start from")
     return start
@@ -157,7 +166,7 @@ def _failure(done: int, steps: int) -> str:
     return "" if done >= steps else f"diverged after {done} of {steps} steps"
 
 
-BALL_METHODS: dict[str, Marcher] = {
+BALL_METHODS: dict[str, BallMarcher] = {
     "RK4": _by_own_steps,
     "RK4 in velocities": _in_velocities,
 }
@@ -217,7 +226,7 @@ def balls_experiment(
     """
     if unknown := scene.bearing.kind.mass_unknown:
         raise ValueError(f"there is no model with the mass of {unknown}")
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     scene = scene.replace(balls=WITH_MASS)
     usual = default_step_rate(scene, sample_rate, highest_natural_frequency(scene))
     own = max(round(usual / sample_rate), 1)
@@ -271,7 +280,7 @@ def balls_experiment(
         "evaluations of all contacts",
         {"": reference},
         (),
-        LEFT_OUT,
+        BALLS_LEFT_OUT,
     )
     return measured_in_turn(experiment, tasks, str, measure, watch, begin=_SHARE_OF_REFERENCE)
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from bearingcore import kernels
 from bearingcore.common.numbers import thousands
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import moving_system
 from bearingcore.dynamics.problem import Array, MotionProblem
 from bearingcore.dynamics.status import MotionStatus
@@ -88,7 +89,11 @@ def _runge_kutta(*, velocities: bool) -> Marcher:
     def march(
         problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
     ) -> March:
-        system = problem.system if velocities else moving_system(problem.scene, problem.dofs)
+        system = (
+            problem.system
+            if velocities
+            else moving_system(packed_motion(problem.scene, problem.dofs))
+        )
         n_steps = intervals(step_rate, duration)
         history = np.empty((n_steps + 1, 6, len(problem.dofs)))
         y = problem.start.copy()
@@ -184,11 +189,11 @@ def by_cvode(
     def fill(t: float, y: Array, rates: Array) -> None:
         rates[:] = rate(t, y)
 
-    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_CALLS)
+    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
     return np.array(solver.solve(time, start).y)
 
 
-MOST_CALLS = 500_000
+MOST_RATES = 500_000
 """Right-hand sides after which a general-purpose method is given up."""
 
 
@@ -197,15 +202,15 @@ class _TooManyCallsError(RuntimeError):
 
 
 class _Limited:
-    """A right-hand side that counts, and gives up after MOST_CALLS."""
+    """A right-hand side that counts, and gives up after MOST_RATES."""
 
     def __init__(self, problem: MotionProblem) -> None:
         self._problem, self.calls = problem, 0
 
     def rate(self, t: float, y: Array) -> Array:
         self.calls += 1
-        if self.calls > MOST_CALLS:
-            raise _TooManyCallsError(f"more than {thousands(MOST_CALLS)} right-hand sides")
+        if self.calls > MOST_RATES:
+            raise _TooManyCallsError(f"more than {thousands(MOST_RATES)} right-hand sides")
         return self._problem.rate(t, y)
 
 

@@ -17,7 +17,7 @@ import msgspec
 
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.progress import CancelledError
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.models import models_experiment
@@ -103,6 +103,7 @@ def _processor() -> str:
     return names[0] if names else platform.processor() or platform.machine()
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Measurements:
     """Measurements on one scene.

@@ -41,7 +41,7 @@ TOLERANCES = {
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""
 
-LEFT_OUT = (
+MOTIONS_LEFT_OUT = (
     "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
     "with the right-hand side in NumPy, five times slower with the same errors; exponential and "
     "multirate methods, as no part of the motion is slow while another is fast"
@@ -117,8 +117,8 @@ def motion_experiment(
     ValueError
         for unknown methods, a shaft that stands still, or a scene without a static state.
     """
-    duration = checks.number("duration", duration, above=0.0, unit="s")
-    sample_rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     names = usable_methods() if methods is None else tuple(methods)
     for name in names:
         checks.choice("method", name, tuple(METHODS))
@@ -141,7 +141,9 @@ def motion_experiment(
         "right-hand sides",
         {"": reference.reference},
         (),
-        LEFT_OUT if HAS_CVODE else f"{LEFT_OUT}; CVODE, as scikit-sundae is not installed",
+        MOTIONS_LEFT_OUT
+        if HAS_CVODE
+        else f"{MOTIONS_LEFT_OUT}; CVODE, as scikit-sundae is not installed",
     )
     return measured_in_turn(
         experiment,

@@ -13,11 +13,11 @@ import numpy as np
 
 from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 T = TypeVar("T")
 
-Shown = Callable[["Experiment"], object]
+ShowExperiment = Callable[["Experiment"], object]
 """Called with what there is of an experiment, after each point."""
 
 RIGHT = "right"
@@ -115,6 +115,7 @@ class Reference:
         return f"{text}. {self.note}" if self.note else text
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Experiment:
     """Points of several methods on one problem.
@@ -254,7 +255,7 @@ class Watch:
 
     progress: Progress | None = None
     cancelled: Cancelled | None = None
-    shown: Shown | None = None
+    shown: ShowExperiment | None = None
 
     def show(self, experiment: Experiment) -> None:
         """Show what there is."""

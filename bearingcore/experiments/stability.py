@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.progress import in_turn
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.modes import (
     contact_damping,
     highest_natural_frequency,
@@ -27,7 +27,7 @@ from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import at_rate
-from bearingcore.experiments.points import NOT_WATCHED, Reference, Watch
+from bearingcore.experiments.points import NOT_WATCHED, RIGHT, Reference, Watch
 from bearingcore.experiments.references import MotionReference, motion_reference
 from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
 from bearingcore.signals.spectrum_difference import BAND
@@ -35,7 +35,7 @@ from bearingcore.statics.positions import over_all_positions
 
 Array = NDArray[np.float64]
 
-RIGHT, LOST, WRONG, DIVERGED = "right", "amplitude lost", "wrong", "diverged"
+LOST, WRONG, DIVERGED = "amplitude lost", "wrong", "diverged"
 VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
 """`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should
 be by more than a tenth. `wrong`: neither, out of tune or too large. `diverged`: it has grown beyond
@@ -71,6 +71,7 @@ class Trial:
     amplitude: float
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class StabilityChart:
     """Verdicts over methods and steps, with what linear theory predicts.
@@ -95,7 +96,7 @@ class StabilityChart:
     reference: Reference
     completed: bool = True
 
-    def found_limit(self, method: str) -> float:
+    def stability_limit(self, method: str) -> float:
         """Least step rate tried [Hz] from which on the method never diverged; inf for none."""
         limit = math.inf
         for trial in sorted(self.trials, key=lambda t: -t.step_rate):
@@ -131,8 +132,8 @@ def linear_limits(scene: Scene) -> dict[str, float]:
     systems = []
     # the softer ones of thousands of positions need no eigenvalues
     size = (state.stiffness[:, index, index] / mass[: len(dofs)]).sum(axis=1)
-    hardest = np.argsort(-np.where(state.converged, size, -math.inf))[:31]
-    for k in hardest[state.converged[hardest]]:
+    stiffest = np.argsort(-np.where(state.converged, size, -math.inf))[:31]
+    for k in stiffest[state.converged[stiffest]]:
         K = two_body_matrix(state.stiffness[k][np.ix_(index, index)], scene.support.stiffness(dofs))
         C = two_body_matrix(damping[k][np.ix_(index, index)], scene.support.damping(dofs))
         systems.append((K / mass[:, None], C / mass[:, None]))

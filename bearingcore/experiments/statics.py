@@ -50,13 +50,13 @@ ANGLE_ERRORS = {
 }
 """Errors of a choice of cage angles by name."""
 
-LEFT_OUT = (
+STATICS_LEFT_OUT = (
     "gradient descent on the energy, which takes hundreds of evaluations an angle; plain "
     "Newton steps, which find no way where no ball is touched; the compiled Newton at looser "
     "tolerances, as its last step squares the error and nothing is saved"
 )
 
-WRONG, STRICT = 0.1, 1e-6
+WRONG_STIFFNESS, STRICT = 0.1, 1e-6
 """Where a solver with the second tolerance or less calls an answer solved whose
 stiffness errs by more than the first, it has failed."""
 
@@ -87,9 +87,9 @@ class StaticProblem:
 
 def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
-    packed = packing.contacts(scene.bearing)
-    phi = packing.ball_angles(scene.bearing, angles)
-    force, active = packing.static_load(scene, scene.active_dofs)
+    numbers = packing.pack(scene)
+    packed, (force, active) = numbers.contacts, numbers.load
+    phi = packed.angles_at(angles)
     guess = np.zeros(5)
     load = float(np.linalg.norm(force[active]))
     if load > 0.0:
@@ -127,15 +127,17 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
     A = np.sqrt(guarded**2 + across**2)  # Equation (7)
-    # A - A0 without the difference: lines of centres of rollers are a million compressions long
-    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / (A + A0), A - A0)
-    delta = np.maximum(apart, 0.0)
+    # A - A0 without the difference: lines of centres are a thousand compressions long
+    whole = np.maximum(A + A0, 1e-300)
+    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
+    delta = np.maximum(np.where(one.fixed, longer, apart), 0.0)
     length = np.maximum(A, 1e-300)
-    eu, ew = guarded / length, across / length
+    eu = np.where(one.fixed, 1.0, guarded / length)
+    ew = np.where(one.fixed, 0.0, across / length)
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
     k1 = n * one.factor * delta ** (n - 1.0)
     Q = k1 * delta / n  # Equation (13)
-    k2 = np.where(along > 0.0, Q / length, 0.0)
+    k2 = np.where((along > 0.0) & ~one.fixed, Q / length, 0.0)
     e = er[..., None] * R + ez[..., None] * Z
     t = -ez[..., None] * R + er[..., None] * Z
     force = (Q[..., None] * e).sum(axis=1)  # Equation (15)
@@ -144,7 +146,7 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     return Contacts((Q * delta / (n + 1.0)).sum(axis=1), force, stiffness, Q)
 
 
-class Found(NamedTuple):
+class Solved(NamedTuple):
     """Displacements (m, 5), which of them the solver calls solved, and evaluations in all."""
 
     q: Any
@@ -152,7 +154,7 @@ class Found(NamedTuple):
     evaluations: int
 
 
-def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
+def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Solved:
     """Displacements q (m, 5) [m] after Newton steps whose forces are 80-bit numbers.
 
     The stiffness stays in double precision, which only makes the steps slightly wrong. Solved are
@@ -169,7 +171,7 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Found:
         back = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
         precise[:, active] -= np.einsum("mij,mj->mi", back, unbalanced)
     exact = np.isfinite(q).all(axis=1) & (residuals(problem, precise) <= 1e-15)
-    return Found(precise, exact, steps * len(q))
+    return Solved(precise, exact, steps * len(q))
 
 
 def residuals(problem: StaticProblem, q: Any) -> Array:
@@ -212,9 +214,9 @@ class _OneByOne:
         """The answer at an angle."""
         self.q[k, self.active], self.solved[k] = u * self.length, solved
 
-    def found(self) -> Found:
+    def solutions(self) -> Solved:
         """All answers."""
-        return Found(self.q, self.solved, self.evaluations)
+        return Solved(self.q, self.solved, self.evaluations)
 
     def _at(self, u: Array, k: int) -> Contacts:
         self.evaluations += 1
@@ -233,7 +235,7 @@ def _by_scipy(
     method: str,
     warm: bool,
     starts: Array | None = None,
-) -> Found:
+) -> Solved:
     """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
 
     They start from the guess, `warm` from the angle before, or from `starts` (m, 5) [m].
@@ -257,10 +259,10 @@ def _by_scipy(
                 one.unbalanced, start, args=(k,), jac=one.jacobian, method=method, tol=tolerance
             )
             one.take(k, answer.x, answer.success)
-    return one.found()
+    return one.solutions()
 
 
-def _by_minimize(problem: StaticProblem, tolerance: float) -> Found:
+def _by_minimize(problem: StaticProblem, tolerance: float) -> Solved:
     """`scipy.optimize.minimize` (trust-exact) on the energy, angle by angle, from the guess."""
     from scipy.optimize import minimize  # imported late: slow to import
 
@@ -271,10 +273,10 @@ def _by_minimize(problem: StaticProblem, tolerance: float) -> Found:
             method="trust-exact", options={"gtol": tolerance},
         )  # fmt: skip
         one.take(k, answer.x, answer.success)
-    return one.found()
+    return one.solutions()
 
 
-def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Found:
+def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Solved:
     """The program's own, whose tolerance is fixed: each angle starts from the one before.
 
     Without `warm` from the guess; that takes a call an angle, whose cost is in the time.
@@ -287,10 +289,10 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Fo
         for part in parts
     ]
     q, status, evaluations = (np.concatenate([one[i] for one in states]) for i in (0, 4, 7))
-    return Found(q, status == kernels.CONVERGED, int(evaluations.sum()))
+    return Solved(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 
-Solver = Callable[[StaticProblem, float], Found]
+Solver = Callable[[StaticProblem, float], Solved]
 
 _TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-12)
 OWN = "compiled energy Newton"
@@ -342,7 +344,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     if alone:
         near = _by_scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
         q = np.where(other.solved[:, None], other.q, near.q)
-        other = Found(q, other.solved | near.solved, 0)
+        other = Solved(q, other.solved | near.solved, 0)
     at = contacts(problem, exact.q)
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
@@ -439,7 +441,7 @@ def statics_experiment(
         "evaluations of all contacts per equilibrium",
         {case: truth.reference for case, truth in truths.items()},
         (),
-        LEFT_OUT,
+        STATICS_LEFT_OUT,
     )
     return measured_in_turn(
         experiment,
@@ -490,7 +492,7 @@ def _measured(problem: StaticProblem, truth: StaticReference, name: str, toleran
         errors = static_errors(
             problem, found.q[known].astype(float), truth.stiffness[known], truth.load[known], known
         )
-        if tolerance <= STRICT and not errors["stiffness"] <= WRONG:
+        if tolerance <= STRICT and not errors["stiffness"] <= WRONG_STIFFNESS:
             status = "failed: a wrong answer that it calls solved"
     n = len(problem.angles)
     return Point(

@@ -6,9 +6,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bearingcore.files.units import UNITS, kind_of, unit_in
+from bearingcore.files.units import SPEEDS, UNITS, kind_of, unit_in, unit_named
 
-SIGNAL, TIME, OTHER = "signal", "time", "other"
+SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
+ROLES = (SIGNAL, TIME, SPEED, OTHER)
 
 _SAYS = {
     "x": {"x", "ax", "accx", "xacc", "hor", "horiz", "horizontal", "h", "lateral"},
@@ -34,7 +35,16 @@ _PHRASES = (
 )
 _NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
 _NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no"}
-_TIMES = {"t", "time", "seconds", "zeit", "temps", "timestamp", "date", "datetime", "datum"}
+_TIMES = {
+    "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
+    "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
+    "timedelta",
+}  # fmt: skip
+_BEFORE_TIME = {
+    "elapsed", "relative", "rel", "absolute", "abs", "sample", "sampling", "system", "local",
+    "measurement", "recording", "record", "log", "run", "scan", "host", "device", "unix", "time",
+}  # fmt: skip
+"""Words before "time"; elsewhere it may end the name of a signal, as in "X105_DE_time"."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +56,7 @@ class Column:
     name
         its heading.
     role
-        "signal", "time" or "other".
+        one of `ROLES`: "signal", "time", "speed" or "other".
     unit
         that the heading gives, one of `UNITS` for a signal; None where it gives none.
     direction
@@ -80,11 +90,20 @@ def column_of(name: str) -> Column:
     """Meaning of a column by its heading."""
     words = words_of(name)
     unit = unit_in(name)
-    first = re.split(r"[\s_\[(/,]", name.strip().lower(), maxsplit=1)[0]
-    # LabVIEW's name for the time of each row
-    timed = first in _TIMES or re.fullmatch(r"x[_ ]values?", name.strip().lower()) is not None
-    if timed and (unit is None or kind_of(unit) == "time"):
+    leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
+    bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
+    first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
+    if unit is None and kind_of(unit_named(first) or "") == "time" and len(first) > 1 and not more:
+        unit = unit_named(first)  # "milliseconds"
+    timed = (
+        first in _TIMES
+        or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
+        or re.fullmatch(r"x[_ ]values?", name.strip().lower())  # LabVIEW's time of each row
+    )
+    if (timed and unit is None) or (unit is not None and kind_of(unit) == "time"):
         return Column(name, TIME, unit)
+    if unit in SPEEDS:
+        return Column(name, SPEED, unit)
     if (unit is not None and unit not in UNITS) or (words & _NOT_SIGNALS and unit is None):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
@@ -117,6 +136,7 @@ def places_in(name: str) -> list[str]:
         r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
     )
     found += [f"bearing {one or other}" for one, other in numbered]
+    found += re.findall(r"(?<![a-z])point \d+", name.lower())
     return list(dict.fromkeys(found))
 
 
@@ -179,11 +199,11 @@ def choose(
 
 def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
     """Signals of one place by their directions."""
-    named = {
-        axis: next((i for i in signals if columns[i].direction == axis), None)
-        for axis in ("x", "y")
-    }
-    by_name = {axis: index for axis, index in named.items() if index is not None}
+    named = {axis: [i for i in signals if columns[i].direction == axis] for axis in ("x", "y")}
+    if any(len(there) > 1 for there in named.values()):
+        question = "The file holds several signals of one direction. Which is at this bearing?"
+        return Choice({}, "", question, tuple(signals))
+    by_name = {axis: there[0] for axis, there in named.items() if there}
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:

@@ -25,8 +25,8 @@ class Collection:
     ----------
     name
         of the collection.
-    mark
-        the mark that is named as the reason.
+    clue
+        the clue that is named as the reason.
     variable
         regular expression of the whole name of a column.
     file
@@ -52,7 +52,7 @@ class Collection:
     """
 
     name: str
-    mark: str
+    clue: str
     variable: str = ""
     file: str = ""
     scalars: tuple[str, ...] = ()
@@ -73,7 +73,7 @@ class Collection:
 
 
 _CASE_WESTERN = "Case Western Reserve"
-_ALL_OF_CASE_WESTERN: Any = {"unit": "g", "mark": "variables named", "rpm": 1764.0}
+_ALL_OF_CASE_WESTERN: Any = {"unit": "g", "clue": "variables named", "rpm": 1764.0}
 """Speeds are from 1730 to 1797 rpm, by the load; most files say it."""
 _ENDS = "_(DE|FE|BA)_time"
 _DRIVE_END: Any = {"bearing": "6205-2RS, CWRU drive end", "place": "drive end"}
@@ -196,7 +196,7 @@ class Known:
     signals: str = ""
 
 
-def known_look(
+def recognize(
     names: Sequence[str],
     rows: int,
     clock: int,
@@ -238,7 +238,7 @@ def known_look(
 
 
 def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Named]) -> Known:
-    why = f"{row.mark} as in the {row.name} collection"
+    why = f"{row.clue} as in the {row.name} collection"
     speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
     load = next((one for one in named if one.name.rpartition(".")[2] == "load"), None)
     force = None
@@ -267,4 +267,4 @@ def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Name
 
 
 def _guess(value: T, why: str, unit: str = "") -> Finding[T]:
-    return Finding(value, why, stated=False, strong=True, unit=unit)
+    return Finding(value, why, stated=False, strong=True, file_unit=unit)

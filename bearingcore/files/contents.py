@@ -17,20 +17,24 @@ from bearingcore.files import facts
 from bearingcore.files.channels import (
     OTHER,
     SIGNAL,
+    SPEED,
     TIME,
     Choice,
     Column,
     choose,
     column_of,
 )
-from bearingcore.files.collections import Known, known_look
+from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
-from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of
-from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES
+from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
+from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 USUAL_LEVEL = 5.0
 """[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
+
+TWO_RATES = 0.01
+"""Relative difference from which on a column of times and a remark give two sample rates."""
 
 GRAVITY_SHARE = 0.1
 """Relative difference to gravity up to which a mean is taken for it."""
@@ -62,6 +66,10 @@ class FileColumns:
         columns of dates or times of day, in seconds since the first.
     full_scale_known
         whether the numbers are in a unit; False for parts of full scale (WAV).
+    notes
+        sentences on what was not read.
+    given
+        what is said of columns by hand, by index; it goes before all guesses.
 
     Raises
     ------
@@ -79,6 +87,8 @@ class FileColumns:
     headed: bool = True
     stamps: tuple[int, ...] = ()
     full_scale_known: bool = True
+    notes: tuple[str, ...] = ()
+    given: Mapping[int, Column] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         rows = len(self.columns)
@@ -86,7 +96,7 @@ class FileColumns:
             raise checks.refuse(
                 f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
             )
-        for name in ("scalars", "texts"):
+        for name in ("scalars", "texts", "given"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
 
@@ -144,13 +154,23 @@ def contents_of(table: FileColumns) -> FileContents:
         *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
     ]
     clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
-    known = known_look(table.names, len(table.columns), clock, named, table.headed, table.name)
+    clock = 0 if any(index < clock for index in table.given) else clock
+    known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
+    by_hand = {index for index, column in table.given.items() if column.role == SIGNAL}
     moving = [
-        column.role == SIGNAL and _moves(table.columns[:, index])
+        column.role == SIGNAL
+        and (not by_hand or index in by_hand)
+        and _moves(table.columns[:, index])
         for index, column in enumerate(columns)
     ]
-    choice = choose(columns, moving, known.why or "as the headings say", table.name, known.place)
+    choice = choose(
+        columns,
+        moving,
+        "as given" if by_hand else known.why or "as the headings say",
+        table.name,
+        known.place,
+    )
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     said = {**{one.name: _text(one) for one in named}, **table.texts}
@@ -179,6 +199,18 @@ def _columns(
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
+    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
+    if len(labels) == len(columns):  # a cell of the columns' names
+        columns = [
+            dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
+            for label, column in zip(labels, columns, strict=True)
+        ]
+    said = facts.units_said(table.remarks, table.texts)
+    signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
+    if len(said) > 1 and len(said) == len(signals):  # each channel's own
+        for index, unit in zip(signals, said, strict=True):
+            role = SIGNAL if unit is None or unit in UNITS else OTHER
+            columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
     if known.signals:
         columns = [
             column if re.fullmatch(known.signals, column.name) else Column(column.name, OTHER)
@@ -194,27 +226,53 @@ def _columns(
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
-    time = table.stamps[0] if table.stamps else None
-    if time is None:
-        time = next((i for i, column in enumerate(columns) if column.role == TIME), None)
-    if time is None and len(columns) > 1 and not table.headed and table.sample_rate is None:
-        # a first column without a name that rises evenly is a time, or counts the rows
-        found = sampling_of(table.columns[:, 0])
-        if found.stated and not found.trouble:
-            time = 0
-    if time is None:
-        return tuple(columns), None
-    for index in table.stamps:
-        columns[index] = Column(table.names[index], TIME)
-    columns[time] = Column(table.names[time], TIME, columns[time].unit)
-    unit = TIMES.get(columns[time].unit or "s", 1.0)
-    sampling = sampling_of(table.columns[:, time], unit)
-    if not table.stamps and _counts(table.columns[:, time], columns[time]):
-        columns[time] = Column(table.names[time], OTHER)
-        return tuple(columns), None
-    return tuple(columns), sampling
+    stamped = [index for index in table.stamps if index not in table.given]
+    for index in stamped:
+        columns[index] = Column(table.names[index], TIME, "s")
+    for index, column in table.given.items():
+        columns[index] = column
+    if any(column.role == TIME for column in table.given.values()):
+        time = next(index for index, column in table.given.items() if column.role == TIME)
+        unit = columns[time].unit
+        found = times_of(table.columns[:, time], unit)
+        return tuple(columns), dataclasses.replace(
+            found, stated=found.stated or (unit is not None and found.sample_rate is not None)
+        )
+    if stamped:
+        return tuple(columns), times_of(table.columns[:, stamped[0]], "s")
+    return _with_times(table, columns)
 
 
+def _with_times(
+    table: FileColumns, columns: list[Column]
+) -> tuple[tuple[Column, ...], Sampling | None]:
+    """The columns, and what those say that count rows or are times: by name, or as they rise."""
+    found: dict[int, Sampling] = {}
+    for index, column in enumerate(columns):
+        timed, values = column.role == TIME, table.columns[:, index]
+        rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
+        if index in table.given or not (timed or rises):
+            continue
+        if _counts(values, column):
+            columns[index] = Column(column.name, OTHER)
+        elif timed:
+            found[index] = times_of(values, column.unit)
+        elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
+            # what rises evenly all along is no vibration
+            columns[index] = Column(column.name, OTHER)
+            if not sampling.trouble:
+                columns[index] = Column(column.name, TIME)
+                sampling = times_of(values)
+                reason = f"{sampling.reason} “{column.name}”"
+                found[index] = dataclasses.replace(sampling, reason=reason)
+    time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
+    return tuple(columns), None if time is None else found[time]
+
+
+_LABELS = re.compile(
+    r"(?i)(.*\.)?([a-z0-9]+[ _]?)?"
+    r"(names?|labels?|channels?|sensors?|columns|items|headings?)\{\d+\}"
+)
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 
 
@@ -223,6 +281,16 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
     of = column.name.rpartition(".")[0].lower()
     for name, text in texts.items():
         parent, _, end = name.lower().rpartition(".")
+        unit = facts.unit_of(end, text)
+        if (
+            unit is not None
+            and column.role == SIGNAL
+            and column.unit is None
+            and parent
+            and parent in (of, column.name.lower())
+        ):
+            role = SIGNAL if unit in UNITS else OTHER
+            column = dataclasses.replace(column, unit=unit, role=role)
         if of and parent == of and end in _DESCRIBES:
             said = column_of(text)
             column = dataclasses.replace(
@@ -235,7 +303,8 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
 
 def _counts(time: NDArray[np.float64], column: Column) -> bool:
     """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
-    return column.unit is None and bool(np.all(np.diff(time) == 1.0))
+    whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
+    return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
 
 
 def _moves(signal: NDArray[np.float64]) -> bool:
@@ -252,6 +321,11 @@ def _rate(
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    if timed and said and timed.stated and said.stated:
+        if abs(timed.value / said.value - 1.0) > TWO_RATES:
+            reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+            return dataclasses.replace(timed, reason=reason, stated=False)
+        return timed
     for finding in (timed, said):
         if finding is not None and finding.stated:
             return finding
@@ -265,9 +339,9 @@ def _unit(
     if len(units) == 1 and (unit := next(iter(units))) is not None:
         name = next(columns[index].name for index in picked if columns[index].unit)
         return Finding(unit, f"the name “{name}”")
-    said = facts.unit_said(table.remarks, table.texts)
-    if said is not None:
-        return Finding(said, "a line of the file")
+    said = facts.units_said(table.remarks, table.texts)
+    if len(said) == 1 and (unit := said[0]) is not None:
+        return Finding(unit, "a line of the file")
     if known.unit is not None:
         return known.unit
     if not picked:
@@ -302,7 +376,7 @@ def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
     for index, column in enumerate(columns):
-        if column.role == OTHER and column.unit in ("rpm", "Hz", "rad/s"):
+        if column.role == SPEED and column.unit is not None:
             speeds = table.columns[:, index]
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
@@ -313,7 +387,7 @@ def _speed(
                     if steady
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
-                return Finding(mean * SPEEDS[column.unit], words, steady, unit=column.unit)
+                return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
     return facts.shaft_speed_in(named, table.name)
 
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
 from bearingcore.files.units import FORCES, SPEEDS, TIMES, unit_in, unit_named
@@ -24,15 +25,15 @@ class Finding(Generic[T]):
     Attributes
     ----------
     value
-        in SI units.
+        in SI units: Hz of a sample rate, rad/s of a shaft speed, N of a load; words of a name.
     reason
         its place, or why it is likely, in a few words.
     stated
         whether the file says so; else it is a guess to be confirmed.
     supported
         whether anything speaks for a guess; else the value is a default.
-    unit
-        the unit in which the file gives it, where that is known.
+    file_unit
+        the unit in which the file gives it, where that is known; `value` is in SI all the same.
     strong
         whether a guess is good enough to be taken before it is confirmed, as those that follow
         from a known collection.
@@ -42,8 +43,13 @@ class Finding(Generic[T]):
     reason: str
     stated: bool = True
     supported: bool = True
-    unit: str = ""
+    file_unit: str = ""
     strong: bool = False
+
+    @property
+    def in_file_unit(self) -> float:
+        """The number of a shaft speed as the file gives it [file_unit]; in SI where no unit is."""
+        return float(self.value) / SPEEDS[self.file_unit or "rad/s"]  # type: ignore[arg-type]
 
     @property
     def taken(self) -> bool:
@@ -62,19 +68,34 @@ class Named:
 
 MOST_REMARKS = 100
 
+_NUMBER = r"[-+]?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
-    r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?([-+]?\d[\d.,]*(?:[eE][-+]?\d+)?)\"?"
+    r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?"
+    rf"({_NUMBER})\"?"
     r"[\s;,]*([^\W\d_][\w./^²-]{0,9}|1/min|°C)?\s*\W*"
 )
 
+_SEVERAL = re.compile(
+    rf"([^\W\d][\w .()/\[\]°²µ-]{{0,40}}?)\s*[:=]\s*({_NUMBER})[ \t]*"
+    r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
+)
+_WITH_UNIT = re.compile(
+    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*(k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min)?\W*",
+    re.IGNORECASE,
+)
+"""A number with the unit of a rate or a speed, with no mark before it or no name."""
+
 _RATES = {
-    "fs", "sr", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "samplefreq",
+    "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
+    "scanrate", "sr", "samplefrequency", "samplingfrequency", "samplefreq",
     "samplingfreq", "sampfreq", "samprate", "abtastrate", "abtastfrequenz", "samplespersecond",
-    "fsample", "fsamp", "fshz", "sampleratehz", "samplingratehz", "samplingfrequencyhz", "srhz",
+    "fsample", "fsamp",
 }  # fmt: skip
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
-    "samplingperiod", "timeincrement", "abtastintervall", "ts",
+    "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
+    "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
+    "tinterval",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -88,6 +109,9 @@ BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
 
+LEAST_STATED, GREATEST_STATED = 100.0, 5e6
+"""[Hz] of recordings of vibration; another "sample rate" is asked about."""
+
 LEAST_RATE = 500.0
 """[Hz] below which a "rate" is the shaft's, not that of the samples."""
 
@@ -97,23 +121,55 @@ FASTEST_IN_HZ = 150.0
 
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
-    found = []
-    for number, line in enumerate(lines):
-        if number >= MOST_REMARKS:
-            break
-        match = _REMARK.fullmatch(line.strip())
-        if match is None:
-            continue
-        name, text, unit = match.groups()
+    kept = [line.strip() for line in islice(lines, MOST_REMARKS)]
+    under = [one for pair in pairwise(kept) for one in _under(*pair)]
+    return [*(one for line in kept for one in _in_line(line)), *under]
+
+
+def _under(names: str, values: str) -> Iterator[Named]:
+    """A rate or an interval under its name, in a cell of an oscilloscope's headings."""
+    above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
+    for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
+        value = _number(text) if re.fullmatch(_NUMBER, text) else None
+        if value is not None and _rate_key(name) in _RATES | _INTERVALS:
+            yield Named(name, value, unit_in(name))
+
+
+def _in_line(line: str) -> Iterator[Named]:
+    match = _REMARK.fullmatch(line)
+    cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
+    if match is not None:
+        found = [match.groups()]
+    elif len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None:
+        # of each channel the same, or the settings of an instrument beside its numbers
+        others = {cell for cell in cells[1:] if cell}
+        alone = len(others) == 1 or not cells[2]
+        found = [(cells[0], cells[1], None)] if alone else []
+    else:
+        found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
+    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
+        match = _WITH_UNIT.fullmatch(part.strip())
+        if match is not None and match[3]:
+            turns = unit_named(match[3]) == "rpm"
+            found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
+        elif match is not None and match[1] and _key(match[1]) in _RATES | _SPEEDS | {"rpm"}:
+            found.append((match[1], match[2], None))
+    for name, text, unit in found:
         value = _number(text)
         if value is not None:
-            of_unit = unit_named(unit) if unit else unit_in(name)
-            found.append(Named(name.strip(), value, of_unit))
-    return found
+            yield Named(name.strip(), value, unit_named(unit) if unit else unit_in(name))
+
+
+def names_a_fact(line: str) -> bool:
+    """Whether a line says a rate, a speed or a load."""
+    keys = {_rate_key(one.name) for one in named_in([line])}
+    known = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS
+    return bool(keys & known) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
 def _number(text: str) -> float | None:
     """A number as a person writes it, with a point or a comma."""
+    text = re.sub(r"(?<=\d) (?=\d{3}\b)", "", text.rstrip(".,"))
     if re.fullmatch(r"\d{1,3}(,\d{3})+(\.\d+)?", text):
         text = text.replace(",", "")
     try:
@@ -129,23 +185,42 @@ def _key(name: str) -> str:
     return re.sub(r"[\W_]+", "", bare).lower()
 
 
+def _rate_key(name: str) -> str:
+    """The same without the unit at its end: "fs_hz"."""
+    return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+
+
+_OTHER_RATE = re.compile(r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf")
+
+
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz]"""
+    found: list[Finding[float]] = []
     for one in named:
-        key, value = _key(one.name), one.value
+        key, value = _rate_key(one.name), one.value
         if not (math.isfinite(value) and value > 0.0):
             continue
         if key in _RATES:
             rate = value * (1e3 if one.unit == "kHz" else 1.0)
-            return Finding(rate, f"“{one.name}” in the file")
-        if key in _INTERVALS and value < 1.0:
+            found.append(Finding(rate, f"“{one.name}” in the file"))
+        if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
             step = value * TIMES.get(one.unit or "s", 1.0)
-            return Finding(1.0 / step, f"“{one.name}” in the file")
+            found.append(Finding(1.0 / step, f"“{one.name}” in the file"))
+    if found:
+        first = found[0]
+        if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
+            reason = f"{first.reason}, which names another one too"
+            return dataclasses.replace(first, reason=reason, stated=False)
+        if LEAST_STATED <= first.value <= GREATEST_STATED:
+            return first
+        if LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
+            return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
+        return dataclasses.replace(first, stated=False)
     for one in named:
-        if _key(one.name) == "rate" and one.value >= LEAST_RATE:
-            return Finding(
-                one.value, f"“{one.name}” in the file, if it is that of the samples", False
-            )
+        value = one.value * (1e3 if one.unit == "kHz" else 1.0)
+        likely = _key(one.name) == "rate" or one.unit in ("Hz", "kHz")
+        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
+            return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
     match = re.search(
         r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower()
     )
@@ -165,24 +240,26 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             continue
         words = f"“{one.name}” in the file"
         if "rpm" in key or (one.unit == "rpm" and key in _SPEEDS | {"n"}):
-            found.append(Finding(value * SPEEDS["rpm"], words, unit="rpm"))
+            found.append(Finding(value * SPEEDS["rpm"], words, file_unit="rpm"))
         elif key in _FREQUENCIES:
             unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
-            found.append(Finding(value * SPEEDS[unit], words, unit=unit))
+            found.append(Finding(value * SPEEDS[unit], words, file_unit=unit))
         elif key in _SPEEDS:
             if one.unit is not None and one.unit in SPEEDS:
-                found.append(Finding(value * SPEEDS[one.unit], words, unit=one.unit))
+                found.append(Finding(value * SPEEDS[one.unit], words, file_unit=one.unit))
             else:
                 unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
                 taken = f"{words}, taken as {unit}"
-                found.append(Finding(value * SPEEDS[unit], taken, False, unit=unit))
-        elif key == "rate" and value < LEAST_RATE:
+                found.append(Finding(value * SPEEDS[unit], taken, False, file_unit=unit))
+        elif key == "rate" and value < LEAST_RATE and one.unit != "kHz":
             stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
             found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
-    match = re.search(r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower())
+    match = re.search(
+        r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
+    )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
-        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, unit="rpm"))
+        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, file_unit="rpm"))
     if not found:
         return None
     first = next((one for one in found if one.stated), found[0])
@@ -213,12 +290,25 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
     }
 
 
-def unit_said(lines: Iterable[str], texts: Mapping[str, str]) -> str | None:
-    """The unit that a line such as "Unit: g" gives to all columns, or None."""
-    pairs = [line.partition(mark)[::2] for line in lines for mark in (":", "=") if mark in line]
-    for name, text in [*pairs, *texts.items()]:
-        if _key(name) in ("unit", "units", "einheit", "yunit", "yunits", "yunitlabel"):
-            unit = unit_named(text.strip(" ;,\t\"'[]()"))
-            if unit is not None:
-                return unit
-    return None
+_UNITS = {
+    "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
+    "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
+    "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
+}  # fmt: skip
+
+
+def unit_of(name: str, text: str) -> str | None:
+    """The unit that words with a name such as "unit" give, or None."""
+    return unit_named(text.strip(" ;,\t\"'[]()")) if _key(name) in _UNITS else None
+
+
+def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
+    """Units that lines such as "Unit: g" give: one for all columns, or one a channel."""
+    for line in lines:
+        name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
+        cells = re.split(r"[\t;,]", text.strip(" \t;,"))
+        units = [unit_of(name, cell) for cell in takewhile(str.strip, cells)]
+        if any(units):
+            return units if len(set(units)) > 1 else units[:1]
+    said = {unit_of(name, text) for name, text in texts.items()} - {None}
+    return list(said) if len(said) == 1 else []

@@ -7,6 +7,7 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 from __future__ import annotations
 
 import io
+import re
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,6 +18,8 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
+from bearingcore.files import libraries
+from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -43,24 +46,37 @@ def read(
         for a damaged, empty or mis-shaped file.
     """
     if content and text_only:
-        return _text(name, content, most_numbers, most_columns)
+        return read_text(name, content, most_numbers, most_columns)
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
+    if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
+        inside, content = libraries.unzipped(name, content)
+        about, columns = read(inside, content, most_numbers, most_columns)
+        return {"name": f"{name.removesuffix('/' + inside)}/{inside}", **about}, columns
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
+    known = libraries.library_for(name, content)
+    kind: str
+    walk: Any
     if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it
-        kind = "HDF5 file"
-        walk: Any = _walk_hdf5
+        kind, walk = "HDF5 file", _walk_hdf5
+    elif known is not None:
+        kind, walk = known
+    elif content[:4] == b"PK\x03\x04":
+        kind, walk = "NumPy file", libraries.npz
+    elif re.match(rb"# Created by Octave", content):
+        kind, walk = "text of Octave", _walk_octave
+    elif content[:6] == b"Octave":
+        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     elif (
         content[:6] == b"MATLAB"
         or content[126:128] in (b"IM", b"MI")
         or name.lower().endswith(".mat")
     ):
-        kind = "MATLAB file"
-        walk = _walk_matlab
+        kind, walk = "MATLAB file", _walk_matlab
     else:
-        return _text(name, content, most_numbers, most_columns)
+        return read_text(name, content, most_numbers, most_columns)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -72,13 +88,6 @@ def read(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
     return found.table(name, kind, most_numbers, most_columns)
-
-
-def _text(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
-    columns, headings, remarks, stamps = read_text(name, content, most_numbers, most_columns)
-    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
-    about = {"names": names, "remarks": remarks, "headed": headings is not None, "stamps": stamps}
-    return about, columns
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
@@ -119,10 +128,12 @@ class Variables:
         """Keep a real matrix or a word; anything else is passed over."""
         if value.dtype.kind in "iuf" and value.ndim <= 2:
             self.numbers[path] = np.atleast_2d(value)
-        elif value.dtype.kind in "OSU" and value.size and len(self.texts) < MOST_SCALARS:
-            first = value.ravel()[0]
-            text = first.decode("utf-8", "replace") if isinstance(first, bytes) else str(first)
-            self.texts[path] = text[:LONGEST_TEXT].strip()
+        elif value.dtype.kind in "OSU":
+            words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
+            for index, word in enumerate(words):
+                text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
+                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
+                self.texts[of] = text[:LONGEST_TEXT].strip()
 
     def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
         """Vectors and matrices about as long as the longest as columns, and the rest."""
@@ -167,6 +178,10 @@ def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_colum
 def _check_depth(depth: int) -> None:
     if depth > DEEPEST:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
+
+
+def _walk_octave(content: bytes, found: Variables) -> None:
+    walk_octave(content, found.add)
 
 
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
@@ -246,7 +261,8 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         found.add(path, _as_in_matlab(item))
     for name, value in item.attrs.items():
-        if np.size(value) == 1 and not name.startswith(_OF_THE_FORMAT):
+        word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
+        if word and not name.startswith(_OF_THE_FORMAT):
             found.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 

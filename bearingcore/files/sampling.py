@@ -6,12 +6,15 @@ proposed; rows after a jump are not joined to those before it.
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.common.numbers import count, number, thousands, with_prefix
+from bearingcore.files.facts import GREATEST_STATED, LEAST_STATED
+from bearingcore.files.units import TIMES
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 UNEVEN = 0.5
@@ -59,11 +62,69 @@ class Sampling:
     reason: str = "the time column"
 
 
+LIKELY_RATES = 500.0, 1e6
+"""[Hz]"""
+
+_SINCE_1970 = 1e9, 2.6e9
+"""[s] from 2001 to 2052, counted as computers do."""
+
+
+def times_of(time: NDArray[np.float64], unit: str | None = None) -> Sampling:
+    """Sample rate and faults of a column of times whose unit may not be known.
+
+    Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
+    has is a proposal, in the unit that would make it a likely one.
+    """
+    finite = time[np.isfinite(time)]
+    first = float(finite[0]) if finite.size else 0.0
+    low, high = _SINCE_1970
+    dated = next((name for name in _PARTS if low <= first * TIMES[name] <= high), None)
+    found = sampling_of(time, TIMES[unit or dated or "s"])
+    if unit is None and dated is not None:
+        found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
+    rate = found.sample_rate
+    if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
+        return found
+    per_second = rate * TIMES[unit or dated or "s"]
+    low, high = LIKELY_RATES
+    likely = next((name for name in _PARTS if low <= per_second / TIMES[name] <= high), None)
+    said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
+    if likely is None:
+        reason = f"{found.reason}; no recording of vibration is so: in {said}"
+        return dataclasses.replace(found, stated=False, reason=reason)
+    reason = f"{found.reason}, if it is in {likely}; in {said}"
+    rate = per_second / TIMES[likely]
+    return dataclasses.replace(found, sample_rate=rate, stated=False, reason=reason)
+
+
+_PARTS = ("s", "ms", "µs", "ns", "d")
+
+
+def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
+    """First and last (excluded) of the longest stretch that is true all along."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
+    if not edges.size:
+        return 0, 0
+    starts, ends = edges[::2], edges[1::2]
+    longest = int((ends - starts).argmax())
+    return int(starts[longest]), int(ends[longest])
+
+
 def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
     """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)
     if not np.isfinite(time).all():
-        return Sampling(None, False, 0, n, "There are gaps in the time column.")
+        first, last = longest_run(np.isfinite(time))
+        if last - first < FEWEST_SAMPLES:
+            return Sampling(None, False, 0, n, "There are gaps in the time column.")
+        part = sampling_of(time[first:last], unit)
+        trouble = (
+            f"Times are missing in {count(int(np.isnan(time).sum()), 'row')}. Only the longest "
+            f"whole part is used: rows {first + 1} to {last} of {n}. {part.trouble}"
+        )
+        return dataclasses.replace(
+            part, first=first + part.first, last=first + part.last, trouble=trouble.strip()
+        )
     with np.errstate(over="ignore"):
         steps = np.diff(time)
     if not np.isfinite(steps).all():

@@ -3,12 +3,13 @@
 A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
 of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
 `Recording` of the columns that are the housing's acceleration, once what is missing is given.
+What is said by hand, with `Table.with_columns` or in `read_recording`, goes before every guess.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,17 +17,26 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.numbers import number
+from bearingcore.common.numbers import count, number
+from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
-from bearingcore.files.units import UNITS, differentiated, kind_of, level_doubt
+from bearingcore.files.sampling import longest_run
+from bearingcore.files.units import SPEEDS, TIMES, UNITS, differentiated, kind_of, level_doubt
 from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
 """Of a file."""
 
+SHOWN_ROWS = 8
+
 RATE_DOUBT = 0.005
 """By how much a typed rate may differ from the one that the times say, unsaid."""
+
+
+_UNITS_OF: Mapping[str, Mapping[str, float]] = {
+    SIGNAL: UNITS, TIME: TIMES, SPEED: SPEEDS, OTHER: {}
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -37,6 +47,41 @@ class Table(FileColumns):
     def contents(self) -> FileContents:
         """Statements of the file about itself, and guesses at the rest."""
         return contents_of(self)
+
+    @property
+    def first_rows(self) -> list[list[float]]:
+        """The first rows of numbers, to show under the columns' names."""
+        rows: list[list[float]] = self.columns[:SHOWN_ROWS].tolist()
+        return rows
+
+    def with_columns(self, given: Mapping[int | str, Column]) -> Table:
+        """The table with the meaning of some columns as it is given; it goes before all guesses.
+
+        Parameters
+        ----------
+        given
+            by number from 0 or by name: the role, unit, direction and place. A time without a unit
+            is guessed at by its rate, a signal without one by its size. The names are the file's.
+
+        Raises
+        ------
+        FieldError
+            for an unknown column, role, unit or direction, or a second column of times.
+        """
+        said = dict(self.given)
+        for key, column in given.items():
+            index = self.index_of(key)
+            checks.choice("role", column.role, ROLES)
+            units = _UNITS_OF[column.role]
+            if column.unit is not None and units:
+                checks.choice("unit", column.unit, tuple(units))
+            if column.direction:
+                checks.choice("direction", column.direction, ("x", "y", "z"))
+            said[index] = dataclasses.replace(column, name=self.names[index])
+        timed = [self.names[i] for i, column in said.items() if column.role == TIME]
+        if len(timed) > 1:
+            raise checks.refuse("columns", " and ".join(timed), "one column of times")
+        return dataclasses.replace(self, given=said)
 
     def recording(
         self,
@@ -75,7 +120,7 @@ class Table(FileColumns):
             for an unknown column, direction or unit, an unknown rate, columns of several
             bearings, or a voltage without a sensitivity.
         """
-        picked = [self._index(column) for column in columns]
+        picked = [self.index_of(column) for column in columns]
         if len(set(picked)) != len(picked) or len(picked) != len(directions):
             raise checks.refuse(
                 "columns", list(columns), f"{len(directions)} different ones, one a direction"
@@ -83,9 +128,10 @@ class Table(FileColumns):
         self._check_one_bearing(picked)
         contents = self.contents
         units = [self._unit(index, unit) for index in picked]
-        scale = checks.number("full_scale", full_scale, above=0.0, unit=unit or "")
+        scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
-        first, last = self._rows(picked)
+        first, last, gaps = self._rows(picked)
+        notes = [*self.notes, *notes, gaps]
         signal = self.columns[first:last, picked] * scale
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
             notes += self._to_acceleration(signal, units, rate, sensitivity)
@@ -112,7 +158,7 @@ class Table(FileColumns):
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
             if kind_of(unit) == "voltage":
-                signal[:, index] /= checks.number(
+                signal[:, index] /= checks.real_number(
                     "sensitivity",
                     np.nan if sensitivity is None else sensitivity,
                     above=0.0,
@@ -128,7 +174,8 @@ class Table(FileColumns):
         return notes
 
     def _check_one_bearing(self, picked: Sequence[int]) -> None:
-        places = {self.contents.columns[i].place: self.names[i] for i in picked}
+        guessed = [index for index in picked if index not in self.given]
+        places = {self.contents.columns[i].place: self.names[i] for i in guessed}
         places.pop("", None)
         if len(places) > 1:
             sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
@@ -163,7 +210,7 @@ class Table(FileColumns):
                     "sample_rate", None, f"a number [Hz]: the file does not say it{guess}.{why}"
                 )
             return stated.value, [trouble]
-        rate = checks.number("sample_rate", given, above=0.0, unit="Hz")
+        rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
         if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
             notes.append(
@@ -172,18 +219,28 @@ class Table(FileColumns):
             )
         return rate, notes
 
-    def _rows(self, picked: Sequence[int]) -> tuple[int, int]:
-        """The rows without a jump of the time that all of the columns have."""
+    def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:
+        """The longest part without a jump of the time or a gap in the columns; what is left out."""
         sampling = self.contents.sampling
         first, last = (
             (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
         )
-        missing = np.isnan(self.columns[first:last, picked]).any(axis=1)
-        filled = np.flatnonzero(~missing)
+        whole = np.logical_and.reduce(np.isfinite(self.columns[first:last, picked]), axis=1)
+        filled = np.flatnonzero(whole)
         # gaps at the end are where a column is shorter than the longest
-        return first, first + int(filled[-1]) + 1 if filled.size else last
+        last = first + int(filled[-1]) + 1 if filled.size else last
+        missing = int((~whole[: last - first]).sum())
+        begin, end = longest_run(whole)
+        if not missing or end - begin < FEWEST_SAMPLES:
+            return first, last, ""  # the recording says which sample is no number
+        said = (
+            f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is used: "
+            f"rows {first + begin + 1} to {first + end} of {len(self.columns)}."
+        )
+        return first + begin, first + end, said
 
-    def _index(self, column: int | str) -> int:
+    def index_of(self, column: int | str) -> int:
+        """The number from 0 of a column by its number or name; `FieldError` where there is none."""
         if isinstance(column, str) and column in self.names:
             return self.names.index(column)
         if isinstance(column, int) and 0 <= column < len(self.names):
@@ -192,15 +249,17 @@ class Table(FileColumns):
 
 
 def read_table(name: str, content: bytes) -> Table:
-    """The columns of numbers in a file: text (CSV), WAV, MATLAB or HDF5.
+    """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    What it is shows in its first bytes. It is read in a process of its own with limits of time and
-    memory: see `bearingcore.files.child`.
+    Octave's text and NumPy's files are read too, and with the packages of the extra `files` UFF,
+    TDMS and Parquet; also a zip of one of them. What it is shows in its first bytes. It is read in
+    a process of its own with limits of time and memory: see `bearingcore.files.child`.
 
     Parameters
     ----------
     name
-        of the file; it may hold a hint ("12k", "1797rpm").
+        of the file; it may hold a hint ("12k", "1797rpm"). "rig.zip/run1.csv" is one of the files
+        in a zip.
     content
         the whole file.
 
@@ -212,9 +271,12 @@ def read_table(name: str, content: bytes) -> Table:
     size = len(content)
     if size > MOST_BYTES:
         raise checks.refuse(
-            f"size of {name}", f"{size / 2**20:.0f} MB", f"at most {MOST_BYTES // 2**20} MB"
+            f"size of {name}",
+            f"{size / 2**20:.0f} MB",
+            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
+            "their tables, or export a shorter part",
         )
     about, columns = read_file(name, content)
-    for words in ("names", "remarks", "stamps"):
+    for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return Table(columns=columns, name=name, **about)
+    return Table(columns=columns, **{"name": name, **about})

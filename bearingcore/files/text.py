@@ -7,6 +7,7 @@ in its first lines; pandas reads the rest. Runs in the process of `child` alone.
 
 from __future__ import annotations
 
+import dataclasses
 import io
 import math
 import re
@@ -14,11 +15,16 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from itertools import islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.numbers import thousands
+from bearingcore.files.facts import named_in, names_a_fact
+from bearingcore.files.units import UNITS, unit_in
+from bearingcore.signals.recording import FEWEST_SAMPLES
 
 MOST_HEADINGS = 100
 """Lines with words before the first line of numbers."""
@@ -29,22 +35,28 @@ LONGEST_REMARK = 200
 SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
+READABLE = (
+    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, Parquet, or "
+    "a zip of one of these; export it as CSV where it is none of them"
+)
+"""Formats of files."""
+
+MOST_WRONG = 0.01
+"""Share of lines without numbers, from which on a text is no table."""
+
 
 def read_text(
     name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[NDArray[np.float64], list[str] | None, list[str], list[int]]:
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
     -------
+    about
+        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
-    headings
-        of the columns, where there are as many as columns.
-    remarks
-        the lines above the numbers, headings among them.
-    stamps
-        columns that were dates or times of day.
+        Columns of words, and empty ones, are left out.
 
     Raises
     ------
@@ -54,30 +66,58 @@ def read_text(
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
     if b"\x00" in content[:4096]:
-        raise checks.refuse("file", name, "text with numbers (CSV), WAV or MATLAB")
-    content = content.removeprefix(b"\xef\xbb\xbf")
+        raise checks.refuse("file", name, READABLE)
+    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[[\s\[]*-?\.?\d", content):  # a list, as Python and JSON write it
+        content = content.replace(b"],", b"\n").translate(None, b"[]")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
     if width > most_columns:
-        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
-    headings = _headings(remarks, style, width)
-    columns = _numbers(content[begin:], style, width, most_numbers // width + 1)
-    if columns is None:
-        line, text, allowed = _culprit(content, begin, style, width)
-        raise checks.refuse(f"line {line} of {name}", text[:40], allowed)
-    if columns.size > most_numbers:
+        turned = _rows(content[begin:], style, width, most_columns)
+        if turned is None or turned[0].size > most_numbers:
+            raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+        columns, names = turned
+        return _about(columns, names or _headings(remarks, style, columns), remarks)
+    most_rows = most_numbers // width + 1
+    body, notes = _without_a_cut_line(content[begin:], style, width)
+    read = _numbers(body, style, width, most_rows)
+    if read is None:
+        above = content.count(b"\n", 0, begin) + 1
+        body, more = _mended(name, body, style, width, above)
+        notes += more
+        read = _numbers(body, style, width, most_rows)
+        if read is None:
+            raise checks.refuse("file", name, READABLE)
+    if read.size > most_numbers:
         raise checks.refuse(
-            f"count of numbers in {name}", f"over {most_numbers}", f"at most {most_numbers}"
+            f"count of numbers in {name}",
+            f"over {most_numbers}",
+            f"at most {most_numbers}; split it by rows and join the parts",
         )
-    return columns, headings, remarks, list(style.stamps)
+    headings = _headings(remarks, style, read)
+    kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    if len(kept) < width and kept:
+        read = read[:, kept]
+        headings = headings and [headings[i] for i in kept]
+    return _about(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+
+
+def _about(
+    columns: NDArray[np.float64], headings: list[str] | None, remarks: list[str], *more: list[Any]
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
+    fields = {"names": names, "remarks": remarks, "headed": headings is not None}
+    return {**fields, **dict(zip(("stamps", "notes"), more, strict=False))}, columns
 
 
 # -- how numbers are written -----------------------------------------------------------------------
 
-_DATE = r"(?:\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4})[T _;,\t]+"
-_SECOND = rf"((?:{_DATE})?\d\d?:\d\d:\d\d)"
-_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d)?"
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
+_DATE = rf"(?:{_DAY})[T _;,\t]+"
+_SECOND = rf"((?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d)"
+_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d|\s?[AP]M\b)?"
 _POINT_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}(\.\d+)?{_ZONE}")
 _COMMA_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}([.,]\d+)?{_ZONE}")
 
@@ -104,7 +144,9 @@ class _Clock:
         """Whole seconds since the first stamp."""
         hour, minute, second = (int(number) for number in text[-8:].lstrip("T _;,\t").split(":"))
         whole = hour * 3600 + minute * 60 + second
-        if len(text) > 8:
+        if " day" in text:
+            whole += 86_400 * int(text.split()[0])
+        elif len(text) > 8:
             whole += 86_400 * _day(re.split(r"[T _;,\t]", text, maxsplit=1)[0])
         else:
             self._midnights += whole < self._last - 43_200
@@ -117,7 +159,10 @@ class _Clock:
 
 def _day(text: str) -> int:
     """Number of a day; ValueError for one that is in no calendar."""
-    one, two, three = (int(number) for number in re.split(r"[-/.]", text))
+    parts = re.split(r"[-/.]", text.lower())
+    if parts[1] in _MONTHS:
+        return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
+    one, two, three = (int(number) for number in parts)
     if one > 31:
         return date(one, two, three).toordinal()
     american = "/" in text and two <= 31 and one <= 12
@@ -132,6 +177,7 @@ class _Style:
     delimiter: str | None
     decimal_comma: bool
     stamps: tuple[int, ...] = ()
+    words: tuple[int, ...] = ()
     clock: Callable[[re.Match[str]], str] | None = field(default=None, compare=False)
 
     @property
@@ -142,6 +188,8 @@ class _Style:
     def plain(self, text: str) -> str:
         """Text with points in its numbers, without quotation marks, times as seconds."""
         text = text.replace('"', "")
+        if " sec" in text:
+            text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
             text = self.stamp.sub(self.clock, text)
         return text.replace(",", ".") if self.decimal_comma else text
@@ -151,6 +199,7 @@ _STYLES = (
     _Style(";", True),
     _Style("\t", True),
     _Style(",", False),
+    _Style("|", False),
     _Style(None, False),
     _Style(None, True),
 )
@@ -160,15 +209,31 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
     return [cell.strip() for cell in line.split(delimiter)]
 
 
-def _row(line: str, delimiter: str | None) -> list[float] | None:
-    """The numbers of a plain line, or None where there is anything else, or nothing."""
+MISSING = {"", "na", "n/a", "#n/a", "null", "none", "-", "--"}
+"""Cells that hold no number, in lower case, apart from "nan" itself."""
+
+
+def _number(cell: str) -> float | None:
+    """The number in a cell, NaN in an empty one; None for anything else."""
+    if cell.lower() in MISSING:
+        return math.nan
     try:
-        numbers = [float(cell) if cell else math.nan for cell in _cells(line, delimiter)]
+        return None if "_" in cell else float(cell)  # Python takes 1_000 for a number
     except ValueError:
         return None
-    if "_" in line or all(math.isnan(number) for number in numbers):
-        return None  # Python takes 1_000 for a number
-    return numbers
+
+
+def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[float] | None:
+    """The numbers of a plain line, or None where there is anything else, or nothing.
+
+    Cells of columns of `words` are NaN.
+    """
+    cells = _cells(line, delimiter)
+    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    found = [number for number in numbers if number is not None]
+    if len(found) < len(numbers) or all(math.isnan(number) for number in found):
+        return None
+    return found
 
 
 def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
@@ -198,12 +263,18 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     plain = trial.plain("\n".join(lines)).split("\n")
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
-    first = _row(plain[0], style.delimiter)
+    words = _columns_of_words(plain, style.delimiter)
+    first = _row(plain[0], style.delimiter, words)
+    if first is None and len(plain) == SAMPLE and style.delimiter is not None:
+        # LabVIEW's comment is at the end of the first row alone
+        second = _row(plain[1].rstrip(f"{style.delimiter} "), style.delimiter) or []
+        line = style.delimiter.join(_cells(plain[0], style.delimiter)[: len(second)])
+        first = _row(line, style.delimiter) if len(second) > 1 else None
     if first is None:
         return None
     closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
     width = len(first) - (closed and len(first) > 1)
-    rows = [_row(line, style.delimiter) for line in plain]
+    rows = [_row(line, style.delimiter, words) for line in plain]
     fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
@@ -211,7 +282,19 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     cells = _cells(marked, style.delimiter)[:width]
     stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
     clock = _Clock() if clocked else None
-    return fits, _Style(style.delimiter, style.decimal_comma, stamps, clock), width
+    return fits, _Style(style.delimiter, style.decimal_comma, stamps, words, clock), width
+
+
+def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
+    """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
+    rows = [_cells(line, delimiter) for line in lines]
+    if (len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES) or len(
+        {len(row) for row in rows}
+    ) > 1:
+        return ()
+    kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
+    words = next(iter(kinds)) if len(kinds) == 1 else ()
+    return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
 
 
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
@@ -251,17 +334,27 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
             rest = io.BytesIO(content)
             rest.seek(place)
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
-            found = _style(sample, remarks[-1] if remarks else "")
+            numbered = _is_numbered(sample)
+            found = None if numbered else _style(sample, remarks[-1] if remarks else "")
             if found is not None:
                 return *_one_column(*found, sample, remarks), place, remarks
             words += 1
-            remarks.append(bare[:LONGEST_REMARK])
+            remarks.append(_decoded(line) if numbered else bare[:LONGEST_REMARK])
             if words > MOST_HEADINGS:
                 break
         place += len(line)
     if not begin:
         raise checks.refuse("file", name, "one that holds lines of numbers")
     raise checks.refuse(f"start of {name}", begin[:40], "a table of numbers, headings above it")
+
+
+def _is_numbered(lines: Sequence[str]) -> bool:
+    """Whether the first line is the headings of a data frame with numbers for names: 0, 1, 2."""
+    match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
+    names = re.findall(r"\d+", lines[0])
+    counted = names == [str(index) for index in range(len(names))]
+    named = match is not None and (match[1] or ("." in "".join(lines[1:2]) and len(names) > 1))
+    return bool(named and counted)
 
 
 def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
@@ -283,51 +376,87 @@ def _one_column(
     return style, width
 
 
-def _headings(remarks: Sequence[str], style: _Style, width: int) -> list[str] | None:
+def _headings(
+    remarks: Sequence[str], style: _Style, columns: NDArray[np.float64]
+) -> list[str] | None:
     """The names of the columns, out of the last line above them that fits; each with its unit.
 
-    A line of units alone may be between the names and the numbers.
+    A line of units alone may be between the names and the numbers. Columns without a name are
+    called by their number.
     """
-    lines = remarks[-3:]
-    names = _names(lines[-1], style, width) if lines else None
+    width = columns.shape[1]
+    # a rate or a speed is no name; the place of a line that names two columns is the last
+    lines = [line for line in remarks if not _is_remark(line, style, width)][-3:]
+    names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
     if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in names):
-        above = _names(lines[-2], style, width)
+        above = _names(lines[-2], style, columns)
         if above is not None:
             names = [
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
                 for name, unit in zip(above, names, strict=True)
             ]
-    if not all(names) or len(set(names)) < width or all(_row(cell, None) for cell in names):
+    given = [name for name in names if name]
+    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
+        return None  # numbers beside the settings of an instrument
+    if not given or len(set(given)) < len(given) or all(_row(cell, None) for cell in given):
         return None
-    return names
+    return [name or f"column {index + 1}" for index, name in enumerate(names)]
 
 
-_WORDS_OF_A_ROW = {"comment", "comments", "kommentar", "remark", "remarks", "note", "notes"}
+def _is_remark(line: str, style: _Style, width: int) -> bool:
+    """Whether a line says something else than the names of columns."""
+    if width > 1:
+        single = [cell for cell in _cells(line, style.delimiter) if cell]
+        numbers = ":" in line or "=" in line or any(_number(cell) is not None for cell in single)
+        return numbers and names_a_fact(line)
+    if unit_in(line) in UNITS and re.search(r"[\[(]", line):
+        return False
+    return bool(named_in([line])) or ":" in line or "=" in line or len(line) > LONGEST_HEADING
+
+
+LONGEST_HEADING = 60
+"""[characters] of the name of the only column."""
+
+_WORDS_OF_A_ROW = {
+    "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
+    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled",
+}  # fmt: skip
 _UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
-def _names(line: str, style: _Style, width: int) -> list[str] | None:
-    """The cells of a heading, by any delimiter, if there are as many as columns."""
+_BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
+
+
+def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] | None:
+    """The cells of a heading, by any delimiter, if there are as many as columns.
+
+    Names of columns of words, and of rows, need not be there.
+    """
+    width = columns.shape[1]
     if width == 1:
         return [line.strip(' "\t,;')]
     for cells in (
         line.split(style.delimiter),
         *(line.split(delimiter) for delimiter in (";", "\t", ",")),
-        re.split(r"\s{2,}", line),
-        re.split(r"\s+(?![\[(])", line),
+        *(() if re.search(r"[,;\t]", line) else _BLANKS),
     ):
+        cells = re.split(cells, line) if isinstance(cells, str) else cells
         names = [cell.strip().strip('"').strip() for cell in cells]
-        if len(names) == width + 1 and not names[-1]:
-            names.pop()
-        if len(names) == width + 1 and names[-1].lower() in _WORDS_OF_A_ROW:
+        while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
             names.pop()  # LabVIEW names a column of words, which is empty
+        if len(names) == width - 1 and _counts_rows(columns[:, 0]):
+            names.insert(0, "")  # R names no column of the rows' names
         if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
             names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
         if len(names) == width:
             return names
     return None
+
+
+def _counts_rows(column: NDArray[np.float64]) -> bool:
+    return len(column) > 1 and column[0] in (0.0, 1.0) and bool(np.all(np.diff(column) == 1.0))
 
 
 # -- numbers ---------------------------------------------------------------------------------------
@@ -351,37 +480,94 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
             index_col=False,
             comment="#",
             skipinitialspace=True,
-            dtype=float,
+            dtype={i: (str if i in style.words else float) for i in range(width + 1)},
+            na_values=sorted(MISSING),
             encoding="latin-1",
             nrows=most_rows,
         )
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
-    columns = frame.to_numpy()
+    for index in style.words:
+        frame[index] = np.nan
+    columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
-    if unsure and _wrong_line(body, style, width) is not None:
+    lines = io.BytesIO(body)
+    if unsure and next(_wrong_lines(lines, style, width), None) is not None:
         return None  # pandas fills short lines
     return columns[:, :width]
 
 
-def _wrong_line(body: bytes, style: _Style, width: int) -> tuple[int, str, str] | None:
-    """The first line that is not `width` numbers and gaps: its number from 0, it, what it lacks."""
-    for index, line in enumerate(io.BytesIO(body)):
+def _wrong_lines(
+    lines: Iterable[bytes], style: _Style, width: int
+) -> Iterator[tuple[int, str, str]]:
+    """Lines that are not `width` numbers and gaps: number from 0, the line, what it lacks."""
+    for index, line in enumerate(lines):
         text = _decoded(line)
         if not text.strip() or text[0] in "#%":
             continue
         cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
-        if len(cells) != width:
-            return index, text.strip(), f"{width} columns as in the first"
-        if _row("\n".join(cells), "\n") is None and any(cells):
-            return index, text.strip(), "numbers"
-    return None
+        words = [_number(cell) is None for cell in cells]
+        if any(word for i, word in enumerate(words[:width]) if i not in style.words):
+            yield index, text.strip(), "numbers"
+        elif len(cells) != width:
+            comment = len(cells) > width and all(words[width:])
+            yield index, text.strip(), "" if comment else f"{width} columns as in the first"
 
 
-def _culprit(content: bytes, begin: int, style: _Style, width: int) -> tuple[int, str, str]:
-    """Number from 1 and text of the line that cannot be read, and what is allowed there."""
-    above = content.count(b"\n", 0, begin) + 1
-    index, text, allowed = _wrong_line(content[begin:], style, width) or (0, "", "numbers")
-    return above + index, text, allowed
+def _without_a_cut_line(body: bytes, style: _Style, width: int) -> tuple[bytes, list[str]]:
+    """Many lines without the last one where that is cut off, and a sentence on it."""
+    last = body.rstrip().rfind(b"\n") + 1
+    # another clock: the time begins with the first line
+    other = dataclasses.replace(style, clock=None if style.clock is None else _Clock())
+    wrong = next(_wrong_lines([body[last:]], other, width), None)
+    if wrong is None or not wrong[2] or body.count(b"\n") <= FEWEST_SAMPLES:
+        return body, []
+    text = re.sub(r"[^ -\uffff]", "", wrong[1])[:40]
+    return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
+
+
+def _mended(
+    name: str, body: bytes, style: _Style, width: int, above: int
+) -> tuple[bytes, list[str]]:
+    """Lines with gaps in place of a few that hold no numbers, and sentences on them.
+
+    The first line has the number `above`.
+    """
+    lines = body.splitlines(keepends=True)
+    most = int(MOST_WRONG * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
+    wrong: list[tuple[int, str, str]] = []
+    for index, text, allowed in _wrong_lines(lines, style, width):
+        if not allowed:  # numbers, and a comment behind them
+            lines[index] = (style.delimiter or " ").join(
+                _decoded(lines[index]).split(style.delimiter)[:width]
+            ).encode("latin-1", "replace") + b"\n"
+            continue
+        wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
+        if len(wrong) > most:
+            raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
+    notes = []
+    for index, _, _ in wrong:
+        lines[index] = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
+    if wrong:
+        index, text, _ = wrong[0]
+        number = "One line holds" if len(wrong) == 1 else f"{thousands(len(wrong))} lines hold"
+        first = f"line {above + index}, “{text}”"
+        notes.append(f"{number} no numbers ({first}) and count as missing.")
+    return b"".join(lines), notes
+
+
+def _rows(
+    body: bytes, style: _Style, width: int, most_rows: int
+) -> tuple[NDArray[np.float64], list[str] | None] | None:
+    """Signals that are written in a row each, as columns with their names; None for others."""
+    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
+    plain = [style.plain(line).rstrip(" ") for line in lines]
+    rows = [_row(line, style.delimiter, style.words) for line in plain]
+    whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
+    if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
+        return None
+    named = style.words == (0,)
+    names = [_cells(line, style.delimiter)[0] for line in plain] if named else None
+    return np.delete(np.array(whole).T, style.words, axis=0), names

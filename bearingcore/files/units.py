@@ -45,7 +45,7 @@ VOLTAGES: Mapping[str, float] = MappingProxyType({"V": 1.0, "mV": 1e-3})
 UNITS: Mapping[str, float] = MappingProxyType({**ACCELERATIONS, **VELOCITIES, **VOLTAGES})
 """All that can be made an acceleration, in the SI unit of their kind."""
 
-_TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "min": 60.0, "h": 3600.0}
+_TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86_400.0}
 TIMES: Mapping[str, float] = MappingProxyType(_TIMES)
 """[s]"""
 
@@ -77,10 +77,12 @@ _WRITTEN = {
     "V": "volt volts",
     "mV": "millivolt millivolts",
     "s": "sec secs second seconds sekunden sekunde",
-    "ms": "msec millisecond milliseconds",
-    "µs": "us usec microsecond microseconds",
+    "ms": "msec msecs millis millisecond milliseconds millisekunden",
+    "µs": "us usec usecs micros microsecond microseconds mikrosekunden",
+    "ns": "nsec nsecs nanos nanosecond nanoseconds",
     "min": "minute minutes",
     "h": "hour hours",
+    "d": "days",
     "N": "newton",
     "kN": "kilonewton",
     "lb": "lbs lbf",
@@ -98,7 +100,24 @@ _ALIASES = {unit.lower(): unit for unit in (*UNITS, *_TIMES, *FORCES, *SPEEDS, *
 _ALIASES |= {word: unit for unit, words in _WRITTEN.items() for word in words.split()}
 
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?)\s*[\])]")
-_LOOSE = {"g", "gs", "mg", "v", "mv", "s", "ms", "us", "rpm", "hz", "n", "kn", "ips"}
+_LOOSE = {
+    "g",
+    "gs",
+    "mg",
+    "v",
+    "mv",
+    "s",
+    "ms",
+    "us",
+    "ns",
+    "volt",
+    "volts",
+    "rpm",
+    "hz",
+    "n",
+    "kn",
+    "ips",
+}
 """Short words that are units at the end of a name, as in "sensor_g"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3

@@ -8,7 +8,7 @@ from bearingcore.kernels.balls.motion import march_balls
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
 from bearingcore.kernels.balls.structs import BallSystem, Races
 from bearingcore.kernels.compiling import all_on_disk, kept_on_disk
-from bearingcore.kernels.contact import POINT_CONTACT, STRAIGHT
+from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.modes import DOUBTFUL, modes_like
 from bearingcore.kernels.motion.march import (
     between_steps,
@@ -25,6 +25,7 @@ from bearingcore.kernels.path import (
     PATH_COLUMNS,
     TABLE,
     ball_path,
+    drops_of,
     roll_over,
 )
 from bearingcore.kernels.statics import (
@@ -76,7 +77,6 @@ __all__ = [
     "RESIDUAL_AIM",
     "RESIDUAL_LIMIT",
     "SMOOTH",
-    "STRAIGHT",
     "TABLE",
     "TOO_MANY",
     "VELOCITIES",
@@ -93,6 +93,7 @@ __all__ = [
     "ball_path",
     "ball_positions",
     "between_steps",
+    "drops_of",
     "elastic_loads",
     "kept_on_disk",
     "march",

@@ -19,9 +19,6 @@ from bearingcore.kernels.compiling import inlined
 # than this part of A0 to passing, rounding decides whether they have.
 GUARD = 1e-12
 
-STRAIGHT = 1e15
-"""Distance A0 [m] of the centres of straight races: no displacement turns their contact."""
-
 POINT_CONTACT = 1.5
 """Exponent of a ball between grooves (Hertz)."""
 
@@ -51,16 +48,21 @@ def compression(m, w, A0):
     m and w are the ball's displacement along and across the unloaded line of contact, so that
     (A0 + m, w) is the vector between the groove centres (Eqs. 8-10). δ ≤ 0 is a gap. In place of
     1/A is 0 where the centres have passed each other: only what is across the line counts
-    there, and the contact does not swivel.
+    there, and the contact does not swivel. Nor does one without centres, whose A0 is 0: its
+    line is fixed, and m is all that counts.
     """
     p = A0 + m
     if p > 0.0:
         rise = m * (2.0 * A0 + m) + w * w  # A² − A0² without its cancellation
         if rise <= 0.0:
             return 0.0, 1.0, 0.0, 0.0
+        if A0 == 0.0:
+            return m, 1.0, 0.0, 0.0
         A = math.sqrt(p * p + w * w)
         bend = 1.0 / A
         return rise / (A + A0), p * bend, w * bend, bend if p > GUARD * A0 else 0.0  # Equation (7)
+    if A0 == 0.0:
+        return 0.0, 1.0, 0.0, 0.0
     return max(abs(w) - A0, 0.0), 0.0, 1.0 if w > 0.0 else -1.0, 0.0
 
 
@@ -84,7 +86,8 @@ def race_touch(r, z, drop, A, j, contacts):
     """
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
-    delta, eu, ew, bend = compression(r * ca + z * sa - drop, z * ca - r * sa, A)
+    along = r * ca + z * sa - drop
+    delta, eu, ew, bend = compression(along, z * ca - r * sa, A)
     return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
 
 
@@ -101,15 +104,15 @@ def touch(x, cj, sj, drop, j, contacts):
 def has_left(x, cj, sj, j, contacts):
     """Whether the inner ring at contact j has left the outer one, whatever the ball has sunk by.
 
-    Where races are straight, it has moved along them by more than `Contacts.room`; else it has
-    moved back by all of the distance of the groove centres, where no groove is any more.
+    Across a fixed line of contact it has moved along the races by more than `Contacts.room`; else
+    it has moved back by all of the distance of the groove centres, where no groove is any more.
     """
     r, z = ring_at_ball(x, cj, sj, j, contacts)
     r -= contacts.clearance[j]
     z += contacts.offset[j]
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
-    if contacts.distance[j] >= STRAIGHT:
+    if contacts.fixed[j]:
         return abs(z * ca - r * sa) > contacts.room[j]
     return r * ca + z * sa <= -contacts.distance[j]
 

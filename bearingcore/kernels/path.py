@@ -125,6 +125,19 @@ def ball_path(ball_angles, cage_angles, row, path):
     return drops
 
 
+def drops_of(contacts, path, cage_angles, turned):
+    """Drop (n, balls) [m] of each ball on a path at cage angles (n,) [rad], row after row.
+
+    turned (n,) [rad]: the cage angle at which the shaft is where it is.
+    """
+    angles, drops = contacts.angles_at(cage_angles), []
+    for row, (first, count) in enumerate(contacts.rows.tolist()):
+        own = angles[:, first : first + count]
+        cage = np.broadcast_to((contacts.relative_speed[first] * turned)[:, None], own.shape)
+        drops.append(ball_path(own.ravel(), cage.ravel(), row, path).reshape(own.shape))
+    return np.concatenate(drops, axis=1)
+
+
 @compiled
 def fill_drops(ball_angles, cage_angles, row, path, drops):
     """Body of `ball_path`."""
@@ -191,7 +204,7 @@ def place_balls(cage, contacts, circle_c, circle_s, c, s):
     rows = contacts.rows
     for row in range(rows.shape[0]):
         first = rows[row, 0]
-        turned = contacts.pace[first] * cage
+        turned = contacts.relative_speed[first] * cage
         last = first + rows[row, 1]
         turn_balls(math.cos(turned), math.sin(turned), circle_c, circle_s, c, s, first, last)
 
@@ -228,8 +241,8 @@ def drops_of_balls(cage, lead, contacts, path, d, slope):
             first = rows[row, 0]
             n = rows[row, 1]
             spacing = 2.0 * math.pi / n
-            pace = contacts.pace[first]
-            turned = pace * cage
+            speed = contacts.relative_speed[first]
+            turned = speed * cage
             start = turned + contacts.angle[first]
             ahead = lead if turn != 0.0 else 0.0
             begin = (defects[k, CENTER] + turn * turned + ahead - half - start) / spacing
@@ -238,7 +251,7 @@ def drops_of_balls(cage, lead, contacts, path, d, slope):
             while ball <= end:
                 j = first + int(ball) % n
                 d[j], rise = path_drop(start + spacing * ball, turned, lead, row, path)
-                slope[j] = pace * rise
+                slope[j] = speed * rise
                 ball += 1.0
 
 
@@ -260,7 +273,7 @@ def lay_out_turning_force(start, turn, count, rotor, passage):
     if rotor.turning_force == 0.0:
         return
     for i in range(count):
-        shaft = rotor.shaft_pace * (start + i * turn)
+        shaft = rotor.shaft_ratio * (start + i * turn)
         passage.push[i, 0] = rotor.turning_force * math.cos(shaft)
         passage.push[i, 1] = rotor.turning_force * math.sin(shaft)
 
@@ -275,11 +288,11 @@ def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
     for row in range(rows.shape[0]):
         first = rows[row, 0]
         last = first + rows[row, 1]
-        pace = contacts.pace[first]
-        turn_c = math.cos(pace * turn)
-        turn_s = math.sin(pace * turn)
-        cage_c = math.cos(pace * start)
-        cage_s = math.sin(pace * start)
+        speed = contacts.relative_speed[first]
+        turn_c = math.cos(speed * turn)
+        turn_s = math.sin(speed * turn)
+        cage_c = math.cos(speed * start)
+        cage_s = math.sin(speed * start)
         for i in range(count):
             c = passage.c[i]
             s = passage.s[i]

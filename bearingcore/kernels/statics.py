@@ -8,7 +8,6 @@ import numpy as np
 
 from bearingcore.kernels.compiling import called, compiled, inlined
 from bearingcore.kernels.contact import (
-    STRAIGHT,
     carried,
     components,
     compression_under,
@@ -243,11 +242,12 @@ def with_factors(contacts, factor):
     """The same contacts with other load-deflection factors (n,)."""
     return Contacts(
         contacts.angle,
-        contacts.pace,
+        contacts.relative_speed,
         contacts.arm,
         contacts.reach,
         contacts.line_r,
         contacts.line_z,
+        contacts.fixed,
         contacts.distance,
         contacts.clearance,
         contacts.offset,
@@ -301,8 +301,8 @@ def stiffest_contact(contacts):
 
 @inlined
 def curved_length(contacts, j):
-    """A0 [m] of a contact of curved races, along which the energy's valley is curved; else 0."""
-    return contacts.distance[j] if contacts.distance[j] < STRAIGHT else 0.0
+    """A0 [m] of a contact whose line turns, along which the energy's valley is curved; else 0."""
+    return 0.0 if contacts.fixed[j] else contacts.distance[j]
 
 
 @inlined
@@ -330,8 +330,9 @@ def descend(q, place, contacts, load, work, most):
     hard = stiffest_contact(contacts)
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
-    carried_load = 0.0
+    tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
     axial = False
+    carried_load = 0.0
     for i in active:
         carried_load += F[i] * F[i]
         axial = axial or i == 2
@@ -356,7 +357,7 @@ def descend(q, place, contacts, load, work, most):
         if iteration >= 0:
             norm = 0.0
             taken = 0.0  # by what holds the directions that are not active
-            reach = 0.0
+            reach = tight
             for i in range(5):
                 taken += (g[i] + F[i]) ** 2
                 reach = max(reach, abs(q[i]))
@@ -442,15 +443,14 @@ def descend(q, place, contacts, load, work, most):
         now = 1 - now
         if iteration < 0:
             if size == 0.0:
-                # only a clearance so large that the ring, held axially, is wedged presses balls,
-                # or rows that press each other
-                preloaded = contacts.rows.shape[0] > 1
-                for i in range(5):
-                    size += (G[now, i] + F[i]) ** 2
-                size = pressed_load(q, place, contacts) if preloaded else math.sqrt(size)
-                if size == 0.0 or (axial and not preloaded):
+                # without a load an interference presses balls, rows that press each other, or a
+                # clearance so large that the ring, held axially, is wedged: else it slips out
+                preloaded = True
+                size = pressed_load(q, place, contacts)
+                slips = axial and contacts.rows.shape[0] == 1 and contacts.clearance[hard] > 0.0
+                if size == 0.0 or slips:
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
-                lost = ROUNDING * (curved_length(contacts, hard) + contacts.clearance[hard])
+                lost = ROUNDING * (curved_length(contacts, hard) + abs(contacts.clearance[hard]))
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
                 nothing = max(RESIDUAL_AIM * size, least_load)
             # of one ball under all of the load
@@ -488,7 +488,7 @@ def minimise_energy(q, place, contacts, load, work):
     soft_factor = work.soft
     for i in active:
         # of a wedged ring without a load nothing says how soft to begin
-        away = contacts.clearance[one] / contacts.line_r[one] + soft
+        away = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + soft
         start[i] = away * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
     for _ in range(40):
@@ -548,7 +548,7 @@ def first_guess(contacts, load, state):
     """Put into state (5,): the clearance and one ball's compression, along the load."""
     size = load_size(load)
     one = stiffest_contact(contacts)
-    reach = contacts.clearance[one] / contacts.line_r[one] + compression_under(
+    reach = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + compression_under(
         size, contacts.factor[one], contacts.exponent[one]
     )
     for i in load.active:
@@ -661,7 +661,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                     count += 1
                     most = max(most, loads[k, j])
                     beyond = beyond or delta > contacts.room[j]
-                    if settled and (bend == 0.0 or contacts.distance[j] >= STRAIGHT):
+                    if settled and bend == 0.0:
                         beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
             if beyond and (settled or status[e, k] == FREE_DIRECTION):
                 status[e, k] = BEYOND

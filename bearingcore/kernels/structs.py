@@ -38,24 +38,27 @@ class Contacts(NamedTuple):
     ----------
     angle [rad]
         from the first ball to the contact's, at cage angle 0.
-    pace
+    relative_speed
         cage speed of the row over that of the bearing: at cage angle φ a ball is at
-        angle + pace φ. The same for all of a row.
+        angle + relative_speed φ. The same for all of a row.
     arm
         axial place of the row's inner groove centres over r_d.
     reach
         radius on which the inner groove's centres of the row are, over r_d.
     line_r, line_z
         unloaded line of contact, radial and axial: cos α0, sin α0.
+    fixed
+        True where no displacement turns the line of contact, as between straight races.
     distance [m]
-        unloaded distance A0 of the groove curvature centres.
+        unloaded distance A0 of the groove curvature centres, about which a line turns that is not
+        fixed; 0 of one that is.
     clearance [m]
         radial clearance r_L.
     offset [m]
         axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
     room [m]
-        greatest compression, and where races are straight (`contact.STRAIGHT`) the greatest
-        displacement along them, that the geometry of the contact allows.
+        greatest compression, and where the line is fixed the greatest displacement along the
+        races, that the geometry of the contact allows.
     factor [N/m^exponent], exponent
         of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
     rows : (k, 2)
@@ -65,11 +68,12 @@ class Contacts(NamedTuple):
     """
 
     angle: Array
-    pace: Array
+    relative_speed: Array
     arm: Array
     reach: Array
     line_r: Array
     line_z: Array
+    fixed: NDArray[np.bool_]
     distance: Array
     clearance: Array
     offset: Array
@@ -78,6 +82,14 @@ class Contacts(NamedTuple):
     exponent: Array
     rows: Integers
     most_tilt: float
+
+    def angles_at(self, cage_angles: Array) -> Array:
+        """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
+        return cage_angles[:, None] * self.relative_speed + self.angle
+
+    def compression(self, load: float, contact: int = 0) -> float:
+        """Compression [m] of a contact that carries a load [N]."""
+        return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))
 
 
 class Path(NamedTuple):
@@ -246,7 +258,7 @@ class Rotor(NamedTuple):
     active : (n,)
         numbers of the directions.
     cage_speed [rad/s]
-        of the bearing; that of a row is `Contacts.pace` times it.
+        of the bearing; that of a row is `Contacts.relative_speed` times it.
     contact_damping [N·s/m]
         c of Eq. 18.
     variables
@@ -255,7 +267,7 @@ class Rotor(NamedTuple):
         whether the damper may draw a ball back, as published.
     turning_force [N]
         that turns with the shaft, along x at cage angle 0.
-    shaft_pace
+    shaft_ratio
         how fast the shaft turns, over the cage.
     """
 
@@ -270,7 +282,7 @@ class Rotor(NamedTuple):
     variables: int
     tension: bool
     turning_force: float
-    shaft_pace: float
+    shaft_ratio: float
 
 
 class System(NamedTuple):

@@ -24,7 +24,7 @@ from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.rows import MOST_ROWS
 from bearingcore.common import checks
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, measured_floor
 
 RACES = ("outer", "inner")
@@ -78,12 +78,12 @@ class Defect:
             object.__setattr__(self, name, value)
 
         # 360° typed as a decimal must not fail on the last digit of 2π
-        extent = checks.number(
+        extent = checks.real_number(
             "extent", self.extent, at_least=0.0, at_most=TWO_PI * (1.0 + 1e-9), unit="rad"
         )
         keep("extent", min(extent, TWO_PI))
-        keep("depth", checks.number("depth", self.depth, at_least=0.0, unit="m"))
-        keep("center", checks.number("center", self.center, unit="rad"))
+        keep("depth", checks.real_number("depth", self.depth, at_least=0.0, unit="m"))
+        keep("center", checks.real_number("center", self.center, unit="rad"))
         checks.choice("race", self.race, RACES)
         checks.choice("edge", self.edge, EDGES)
         if not isinstance(self.floor, RoughFloor | MeasuredFloor | None):
@@ -151,28 +151,28 @@ class Defect:
     def edge_row(self, bearing: Bearing) -> NDArray[np.float64]:
         """Path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
         self.check_depth(bearing)
-        r_b = bearing.ball_radius
-        inner = self.race == "inner"
-        R = self.raceway_radius(bearing)
-        h = self.depth
-        if self.edge == "exact":
-            # law of cosines: the ball touches floor and corner at once; one much larger than the
-            # inner race (2 or 3 balls) never reaches the floor
-            rho = R + r_b - h if inner else R - r_b + h
-            cosine = (R * R + rho * rho - r_b * r_b) / (2.0 * R * rho)
-            s_floor = math.acos(min(max(cosine, -1.0), 1.0))
-        else:
-            factor = 0.25 if self.edge == "published" else 1.0
-            s_floor = math.sqrt(h * (2.0 * r_b - h) / factor) / R
-        if self.extent >= TWO_PI:
-            s_floor = 0.0  # no edge is left: the floor is everywhere
+        R, r_b, h = self.raceway_radius(bearing), bearing.ball_radius, self.depth
+        # where there is no edge left the floor is everywhere
+        s_floor = self.edge_width(bearing, h) if self.extent < TWO_PI else 0.0
         code = EDGES.index(self.edge)
-        if inner and self.edge == "exact":
+        if self.race == "inner" and self.edge == "exact":
             code = kernels.INNER_EXACT
         turn = self.turn_ratio(bearing)
         edge = (self.center, turn, 0.5 * self.extent, h, s_floor, code, R, r_b)
         row = kernels.EVERY_ROW if self.row is None else self.row
         return np.array([*edge, 0.0, 0.0, row])
+
+    def edge_width(self, bearing: Bearing, drop: float) -> float:
+        """Angle [rad] from an edge at which a ball that rolls over it has sunk by a drop [m]."""
+        R, r_b = self.raceway_radius(bearing), bearing.ball_radius
+        if self.edge == "exact":
+            # law of cosines: the ball touches floor and corner at once; one much larger than the
+            # inner race (2 or 3 balls) never reaches the floor
+            rho = R + r_b - drop if self.race == "inner" else R - r_b + drop
+            cosine = (R * R + rho * rho - r_b * r_b) / (2.0 * R * rho)
+            return math.acos(min(max(cosine, -1.0), 1.0))
+        factor = 0.25 if self.edge == "published" else 1.0
+        return math.sqrt(drop * (2.0 * r_b - drop) / factor) / R
 
     def surface(self, angle: ArrayLike, bearing: Bearing) -> NDArray[np.float64]:
         """Actual depth [m] of the race at angles [rad], cage angle 0: what was cut."""
@@ -237,7 +237,7 @@ def _bytes_of_tables(
 
 
 # of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
-@kept(256, 64_000_000, _bytes_of_tables)
+@lru_cache_by_bytes(256, 64_000_000, _bytes_of_tables)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
 

@@ -11,8 +11,6 @@ depth over the defect's depth                   |        | depths             |
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -20,17 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.kept import kept
-from bearingcore.files.child import read_file
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 
 SAMPLES_A_LENGTH = 10
 """Samples of a rough floor in a correlation length."""
 
 MOST_ROWS = 100_000
-
-_ANGLES = {"rad": 1.0, "radians": 1.0}
-_LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": 0.0254}
-"""Units [rad, m] that a heading may give; others are degrees and micrometres."""
 
 MOST_SAMPLES = 2_000_000
 """Samples of a rough floor; more would not fit a table of its path."""
@@ -57,8 +50,8 @@ class RoughFloor:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        height = checks.number("rms_height", self.rms_height, at_least=0.0, unit="m")
-        length = checks.number("correlation_length", self.correlation_length, at_least=1e-6)
+        height = checks.real_number("rms_height", self.rms_height, at_least=0.0, unit="m")
+        length = checks.real_number("correlation_length", self.correlation_length, at_least=1e-6)
         seed = checks.whole_number("seed", self.seed, at_least=0, at_most=2**31 - 1)
         object.__setattr__(self, "rms_height", height)
         object.__setattr__(self, "correlation_length", length)
@@ -90,7 +83,7 @@ class RoughFloor:
         return np.maximum(depth + np.interp(angle * radius, place, heights), 0.0)
 
 
-@kept(16, 64_000_000, lambda heights, *_: heights.nbytes)
+@lru_cache_by_bytes(16, 64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package
@@ -188,38 +181,3 @@ def measured_floor(angle: ArrayLike, depth: ArrayLike) -> tuple[MeasuredFloor, f
     places = np.clip((angles - center) / (0.5 * extent), -1.0, 1.0)
     floor = MeasuredFloor(tuple(places.tolist()), tuple((depths / deepest).tolist()))
     return floor, extent, deepest, center
-
-
-def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
-    """`measured_floor` from text: two columns, angle [degrees] and depth [µm].
-
-    As lenient as the reading of measured signals: columns between commas, semicolons, tabs or
-    blanks, numbers with points or commas, lines that begin with # passed over. Headings may give
-    other units: "angle [rad]", "depth_mm".
-
-    Raises
-    ------
-    ValueError
-        that says which line cannot be read, or what `measured_floor` refuses.
-    """
-    lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
-    if not text.strip() or "\x00" in text:
-        raise checks.refuse("floor", "no text" if text.strip() else "empty", lines)
-    about, columns = read_file(
-        "the floor", text.encode("utf-8", "replace"), text_only=True, most_numbers=2 * MOST_ROWS
-    )
-    if columns.shape[1] != 2:
-        raise checks.refuse(
-            "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
-        )
-    angle, depth = about["names"] if about["headed"] else ("", "")
-    return measured_floor(
-        columns[:, 0] * _unit_in(angle, _ANGLES, math.radians(1.0)),
-        columns[:, 1] * _unit_in(depth, _LENGTHS, 1e-6),
-    )
-
-
-def _unit_in(heading: str, units: Mapping[str, float], usual: float) -> float:
-    """The unit [rad or m] at the end of a heading."""
-    last = re.search(r"([^\s_,;:/\[\](){}]+)[\s\])}]*$", heading.strip().lower())
-    return units.get(last[1].replace("μ", "µ"), usual) if last else usual

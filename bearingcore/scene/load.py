@@ -23,7 +23,7 @@ class Load:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = checks.number(field.name, getattr(self, field.name))
+            value = checks.real_number(field.name, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
 
     @property

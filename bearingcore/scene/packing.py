@@ -1,11 +1,14 @@
 """A scene as the structs that kernels take: the one place that fills them.
 
-Tilts are carried times r_d and moments over r_d, r_d being the bearing's `groove_center_radius`.
+`pack` and `pack_motion` make all of them at once; solvers take what these return and need not come
+back. Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -15,7 +18,7 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.scene.defect import path_tables
-from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 
 Array = NDArray[np.float64]
 
@@ -25,6 +28,9 @@ out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 STANDARD_GRAVITY = 9.80665
 """[m/s²], along −y."""
+
+HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
+"""The way of a ball's centre where there is no defect."""
 
 
 class BodyNumbers(NamedTuple):
@@ -41,13 +47,95 @@ class BodyNumbers(NamedTuple):
     damping: Array
 
 
+@dataclass(frozen=True, eq=False)
+class PackedScene:
+    """A scene whose inner ring is free along `dofs`, as numbers.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was packed, and the free directions.
+    contacts, path, load
+        all contacts, the way of the balls over all defects, load and free directions.
+    inner_path
+        the way over the defects of the inner race alone.
+    units : (5,)
+        divisors of scaled displacements, see `length_units`.
+    rows
+        the bearing with the numbers of each row, see `Bearing.of_row`.
+    balls
+        both contacts of each ball, its mass and weight, and its way into each race; where asked.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    contacts: kernels.Contacts
+    path: kernels.Path
+    inner_path: kernels.Path
+    load: kernels.StaticLoad
+    units: Array
+    rows: tuple[Bearing, ...]
+    balls: kernels.StaticBalls | None
+
+
+@dataclass(frozen=True, eq=False)
+class PackedMotion(PackedScene):
+    """A scene that moves along `dofs`: `PackedScene`, and both bodies."""
+
+    bodies: BodyNumbers
+    rotor: kernels.Rotor
+
+
+def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = False) -> PackedScene:
+    """A scene whose ring is free along `dofs`, as numbers; None takes its active directions.
+
+    balls: whether their masses are asked for. Their contacts have the damping 1 N·s/m, see `races`.
+    """
+    free = scene.active_dofs if dofs is None else dofs
+    units = length_units(scene)
+    load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
+    both = races(scene, 1.0, weight=True) if balls else None
+    defects, bearing = scene.defects, scene.bearing
+    rows, every = own_rows(bearing), contacts(bearing)
+    whole = path_tables(defects, bearing)
+    ways = []
+    for race in ("inner", "outer"):
+        own = tuple(defect for defect in defects if defect.race == race)
+        alone = len(own) == len(defects)
+        ways.append(whole if alone else path_tables(own, bearing) if own else HEALTHY_PATH)
+    of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
+    return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
+
+
+def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
+    """A scene that moves along `dofs`, as numbers; its contacts have no damping yet.
+
+    Balls have the damping of `pack`, if they have mass. `dynamics.damping.damped` adds what the
+    scene has.
+
+    Raises
+    ------
+    ValueError
+        for a support that lacks a number.
+    """
+    bodies, undamped = body_numbers(scene, dofs), rotor(scene, dofs, 0.0)
+    packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
+    return PackedMotion(**vars(packed), bodies=bodies, rotor=undamped)
+
+
+@lru_cache(maxsize=256)
+def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
+    """The bearing with the numbers of each row."""
+    return tuple(bearing.of_row(k) for k in range(len(bearing.all_rows)))
+
+
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
     rows = bearing.all_rows
     owns = [bearing.of_row(k) for k in range(len(rows))]
     counts = [own.n_balls for own in owns]
-    numbers = [bearing.kind.contact_numbers(own) for own in owns]
+    made = [bearing.kind.contact(own) for own in owns]
     lever = bearing.groove_center_radius
 
     def each(*values: float) -> Array:
@@ -61,22 +149,25 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
                 for row, own in zip(rows, owns, strict=True)
             ]
         ),
-        pace=each(*(bearing.pace(k) for k in range(len(rows)))),
+        relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(
             *(
-                (row.place + row.facing * one.groove_center_shift) / lever
-                for row, one in zip(rows, numbers, strict=True)
+                (row.place + row.facing * one.beyond) / lever
+                for row, one in zip(rows, made, strict=True)
             )
         ),
-        reach=each(*(one.groove_center_radius / lever for one in numbers)),
-        line_r=each(*(one.cosine for one in numbers)),
-        line_z=each(*(row.facing * one.sine for row, one in zip(rows, numbers, strict=True))),
-        distance=each(*(one.distance for one in numbers)),
+        reach=each(*(one.lever / lever for one in made)),
+        line_r=each(*(math.cos(one.angle) for one in made)),
+        line_z=each(
+            *(row.facing * math.sin(one.angle) for row, one in zip(rows, made, strict=True))
+        ),
+        fixed=each(*(one.center_distance is None for one in made)).astype(bool),
+        distance=each(*(one.center_distance or 0.0 for one in made)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
-        room=each(*(one.room for one in numbers)),
-        factor=each(*(one.factor for one in numbers)),
-        exponent=each(*(one.exponent for one in numbers)),
+        room=each(*(one.room for one in made)),
+        factor=each(*(one.factor for one in made)),
+        exponent=each(*(one.exponent for one in made)),
         rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )
@@ -84,8 +175,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
 
 def ball_angles(bearing: Bearing, cage_angles: Array) -> Array:
     """Angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
-    one = contacts(bearing)
-    return cage_angles[:, None] * one.pace + one.angle
+    return contacts(bearing).angles_at(cage_angles)
 
 
 def path(scene: Scene, race: str | None = None) -> kernels.Path:
@@ -101,9 +191,8 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     would move as the published law has them: damping over stiffness alike on both sides. Alike
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
-    bearing = scene.bearing
-    owns = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
-    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.contact_exponent)
+    owns = own_rows(scene.bearing)
+    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.kind.exponent)
               for own in owns]  # fmt: skip
 
     def each(values: Iterable[float]) -> Array:
@@ -117,7 +206,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
 
     return kernels.Races(
         factor=both(own.race_factors for own in owns),
-        distance=both(own.race_distances for own in owns),
+        distance=both(own.kind.race_distances(own) for own in owns),
         damping=both(
             (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
         ),
@@ -130,8 +219,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
 
 def typical_compression(bearing: Bearing, load: float) -> float:
     """Compression [m] of one contact of a bearing that carries a load [N]."""
-    one = contacts(bearing)
-    return float((load / one.factor[0]) ** (1.0 / one.exponent[0]))
+    return contacts(bearing).compression(load)
 
 
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
@@ -143,11 +231,6 @@ def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
     """Divisors of scaled displacements: 1 [m], or r_d for tilts [m/rad]."""
     lever = scene.bearing.groove_center_radius
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
-
-
-def static_load(scene: Scene, dofs: Sequence[str]) -> kernels.StaticLoad:
-    """The load of a scene whose ring is free along `dofs`."""
-    return kernels.StaticLoad(scene.load.vector / length_units(scene), direction_numbers(dofs))
 
 
 def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
@@ -195,7 +278,7 @@ def rotor(
         variables=variables,
         tension=published,
         turning_force=float(scene.turning_force),
-        shaft_pace=1.0 / scene.bearing.cage_ratio,
+        shaft_ratio=1.0 / scene.bearing.cage_ratio,
     )
 
 

@@ -29,7 +29,7 @@ def pit(scene: Scene, length: float, race: str = "outer", depth: float | None = 
     ValueError
         for a length that is not above 0, or a depth that the ball does not roll over.
     """
-    length = checks.number("length", length, above=0.0, unit="m")
+    length = checks.real_number("length", length, above=0.0, unit="m")
     bearing = scene.bearing
     if depth is None:
         depth = min(0.25 * length, 0.5 * bearing.ball_radius)

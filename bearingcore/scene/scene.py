@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
-from bearingcore.bearings.bearing import Bearing, recognized
+from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.kind import DIRECTIONS
+from bearingcore.bearings.kinds import recognized
 from bearingcore.bearings.line_contact import mended_factor
+from bearingcore.bearings.named import bearing_of
 from bearingcore.common import checks, scene_file
 from bearingcore.scene.defect import Defect, path_tables
 from bearingcore.scene.load import Load
@@ -18,6 +21,15 @@ from bearingcore.scene.support import Support
 DOF_NAMES = DIRECTIONS
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+
+TILTS = ("rx", "ry")
+TILT_HELD = "tilt held"
+"""Choice of directions of a shaft on two bearings: those that the scene needs but for the tilts."""
+
+FREE_TILT_WORDS = (
+    "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
+)
+HELD_TILT_WORDS = "Tilt is held, as by a second bearing on the shaft."
 
 LOAD_ALONG = {"x": "fx", "y": "fy", "z": "fz", "rx": "mx", "ry": "my"}
 """The field of `Load` along each direction."""
@@ -39,8 +51,10 @@ class Scene:
 
     Parameters
     ----------
-    bearing, load, support
-        see `Bearing`, `Load`, `Support`.
+    bearing
+        a `Bearing`, or a designation such as "6205": see `bearingcore.bearings.named.bearing_of`.
+    load, support
+        see `Load`, `Support`.
     defect
         a `Defect`, or a tuple of them.
     shaft_speed
@@ -51,7 +65,9 @@ class Scene:
     contact_law
         "published" or "no tension".
     dofs
-        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs.
+        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs, tilts among
+        them where the load causes any. "tilt held": these without the tilts, as on a shaft on two
+        bearings.
     balls
         "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
         the centrifugal load of each ball at the scene's speed.
@@ -80,26 +96,30 @@ class Scene:
         def keep(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
-        keep("shaft_speed", checks.number("shaft_speed", self.shaft_speed, at_least=0.0))
-        keep("unbalance", checks.number("unbalance", self.unbalance, at_least=0.0, unit="kg·m"))
+        keep("shaft_speed", checks.real_number("shaft_speed", self.shaft_speed, at_least=0.0))
+        keep(
+            "unbalance", checks.real_number("unbalance", self.unbalance, at_least=0.0, unit="kg·m")
+        )
         if self.contact_damping is not None:
             keep(
                 "contact_damping",
-                checks.number("contact_damping", self.contact_damping, at_least=0.0),
+                checks.real_number("contact_damping", self.contact_damping, at_least=0.0),
             )
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
-        if self.dofs is not None:
+        held = isinstance(self.dofs, str) and self.dofs == TILT_HELD
+        if self.dofs is not None and not held:
             keep("dofs", check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
             for defect in several:
-                if not isinstance(defect, Defect):
-                    raise checks.refuse("defect", defect, "a Defect or a tuple of them")
+                checks.instance("defect", defect, Defect, "a Defect or a tuple of them")
             keep("defect", several)
-        for name, kind in (("bearing", Bearing), ("load", Load), ("support", Support)):
-            if not isinstance(getattr(self, name), kind):
-                raise checks.refuse(name, getattr(self, name), f"a {kind.__name__}")
+        keep("bearing", bearing_of(self.bearing))
+        checks.instance("load", self.load, Load)
+        checks.instance("support", self.support, Support)
+        if held:
+            keep("dofs", self._held_dofs)
         self._check_directions()
         for defect in self.defects:
             defect.check_row(self.bearing)
@@ -107,6 +127,21 @@ class Scene:
             defect.check_floor(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
+
+    def __repr__(self) -> str:
+        """Bearing, defects, loads and speed, in a line."""
+        loads = {name: getattr(self.load, name) for name in LOAD_ALONG.values()}
+        parts = [
+            repr(self.bearing).removeprefix("<Bearing: ").removesuffix(">"),
+            ", ".join(f"{name} = {value:.4g}" for name, value in loads.items() if value),
+            f"{30.0 / math.pi * self.shaft_speed:.5g} rpm",
+            *(
+                f"{one.race} race damaged over {math.degrees(one.extent):.4g}°, "
+                f"{1e6 * one.depth:.4g} µm deep"
+                for one in self.defects
+            ),
+        ]
+        return f"<Scene: {'; '.join(filter(None, parts))}>"
 
     def _check_directions(self) -> None:
         """Refuse loads and directions that the kind of bearing cannot have."""
@@ -138,6 +173,16 @@ class Scene:
         return DOF_NAMES[:2] if flat and radial else self.bearing.kind.needed_directions
 
     @property
+    def _held_dofs(self) -> tuple[str, ...]:
+        return tuple(name for name in self.needed_dofs if name not in TILTS)
+
+    def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
+        """Sentence on tilts, free or held; empty where the load causes none."""
+        if set(TILTS) & set(self.free_dofs(dofs)):
+            return FREE_TILT_WORDS
+        return HELD_TILT_WORDS if set(TILTS) & set(self.needed_dofs) else ""
+
+    @property
     def active_dofs(self) -> tuple[str, ...]:
         """The directions that are computed: `dofs` if given, else `needed_dofs`."""
         return self.dofs if self.dofs is not None else self.needed_dofs
@@ -145,10 +190,14 @@ class Scene:
     def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
         """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
 
+        "tilt held" are those that the scene needs but for the tilts.
+
         ValueError for names that are none, or that the kind of bearing cannot move along.
         """
         if dofs is None:
             return self.active_dofs
+        if isinstance(dofs, str) and dofs == TILT_HELD:
+            return self._held_dofs
         names = check_dofs(dofs)
         self.bearing.kind.check_directions(names)
         return names
@@ -196,7 +245,10 @@ class Scene:
             table["defect"] = scene_file.from_data(Defect, "defect 1", only)
         table.setdefault("load", {})
         if isinstance(table.get("bearing"), dict):
-            bearing = dict(table["bearing"])
+            bearing = {
+                "groove_center_distance": None,
+                **table["bearing"],
+            }  # of rollers there is none
             if "load_deflection_factor" in bearing:
                 bearing["load_deflection_factor"] = mended_factor(
                     bearing["load_deflection_factor"], bearing.get("roller_length")
@@ -244,6 +296,8 @@ class Scene:
             else:
                 known = ", ".join(sorted({*_OWN_FIELDS, *_PART_OF_FIELD}))
                 raise checks.refuse("name of a field", name, known)
+        if "bearing" in own:
+            own["bearing"] = bearing_of(own["bearing"])
         for part, values in inside.items():
             old = own.get(part, getattr(self, part))
             if part == "defect" and not isinstance(old, Defect):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+
+BODIES = ("inner", "outer")
 
 
 @dataclass(frozen=True)
@@ -43,42 +45,51 @@ class Support:
             if value is None and field.default is None:
                 continue
             if field.name.startswith("damping"):
-                value = checks.number(field.name, value, at_least=0.0)
+                value = checks.real_number(field.name, value, at_least=0.0)
             else:
-                value = checks.number(field.name, value, above=0.0)
+                value = checks.real_number(field.name, value, above=0.0)
             object.__setattr__(self, field.name, value)
 
-    def _along(self, what: str, dofs: Iterable[str]) -> NDArray[np.float64]:
-        values = []
-        for dof in dofs:
-            value = getattr(self, f"{what}_{dof}")
-            if value is None:
+    def _numbers(self, names: Mapping[str, str]) -> NDArray[np.float64]:
+        """Numbers by direction; where one is not known all that are not are named."""
+        for dof, name in names.items():
+            if getattr(self, name) is None:
                 raise checks.refuse(
-                    f"{what}_{dof}", None, f"a number, as {dof} is among the free directions"
+                    name, None, f"a number, as {dof} is among the free directions{self._way(names)}"
                 )
-            values.append(value)
-        return np.array(values)
+        return np.array([getattr(self, name) for name in names.values()])
+
+    def _way(self, dofs: Iterable[str]) -> str:
+        """All numbers that motion along `dofs` lacks, and how to do without them."""
+        needed = {
+            dof: [f"stiffness_{dof}", f"damping_{dof}", *(f"{b}_{_inertia(dof)}" for b in BODIES)]
+            for dof in dofs
+        }
+        missing = {
+            dof: [n for n in names if getattr(self, n) is None] for dof, names in needed.items()
+        }
+        every = dict.fromkeys(name for names in missing.values() for name in names)
+        known = tuple(dof for dof, names in missing.items() if not names)
+        held = f", or scene.replace(dofs={known}) to hold the others" if known else ""
+        return f". Give {', '.join(every)} of the support{held}"
 
     def stiffness(self, dofs: Iterable[str]) -> NDArray[np.float64]:
         """Stiffness to ground along `dofs` [N/m, N·m/rad]. ValueError where it is not known."""
-        return self._along("stiffness", dofs)
+        return self._numbers({dof: f"stiffness_{dof}" for dof in dofs})
 
     def damping(self, dofs: Iterable[str]) -> NDArray[np.float64]:
         """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
-        return self._along("damping", dofs)
+        return self._numbers({dof: f"damping_{dof}" for dof in dofs})
 
     def inertias(self, dofs: Iterable[str]) -> NDArray[np.float64]:
         """`inertia` of both bodies, the inner one first: (2 len(dofs),)."""
         names = tuple(dofs)
-        return np.concatenate([self.inertia(body, names) for body in ("inner", "outer")])
+        return np.concatenate([self.inertia(body, names) for body in BODIES])
 
     def inertia(self, body: str, dofs: Iterable[str]) -> NDArray[np.float64]:
         """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
-        values = []
-        for dof in dofs:
-            name = f"{body}_inertia" if dof in ("rx", "ry") else f"{body}_mass"
-            value = getattr(self, name)
-            if value is None:
-                raise checks.refuse(name, None, f"a number, as {dof} is among the free directions")
-            values.append(value)
-        return np.array(values)
+        return self._numbers({dof: f"{body}_{_inertia(dof)}" for dof in dofs})
+
+
+def _inertia(dof: str) -> str:
+    return "inertia" if dof in ("rx", "ry") else "mass"

@@ -122,7 +122,9 @@ def squared_envelopes(
         squared = (analytic.real**2 + analytic.imag**2).astype(np.float64)
         good = np.ones(len(squared), dtype=bool)
         if dropped is not None and dropped.any():
-            good = ~_stretched(dropped, sample_rate, len(squared), rate, 4.0 / (band[1] - band[0]))
+            good = ~_dropped_on_grid(
+                dropped, sample_rate, len(squared), rate, 4.0 / (band[1] - band[0])
+            )
         end = math.ceil(TAPER * len(squared)) + 2
         good[:end] = good[-end:] = False
         mean = float(squared[good].mean()) if good.any() else 0.0
@@ -157,7 +159,7 @@ def thinned(
     return mean + thin[: int(count / rate * new_rate)], new_rate
 
 
-def _stretched(
+def _dropped_on_grid(
     dropped: NDArray[np.bool_], sample_rate: float, count: int, rate: float, margin: float
 ) -> NDArray[np.bool_]:
     """Where samples dropped out, on a grid of `count` at `rate` [Hz], with a margin [s] around."""

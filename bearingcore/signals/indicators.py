@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.recording import Recording
 
 SEVERITY_BAND = (10.0, 1000.0)
@@ -54,6 +54,7 @@ Beckhoff's manual of TF3600 too.
 """
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Indicators:
     """Condition indicators of a recording, a number a direction; the mean is left out of all.
@@ -110,9 +111,10 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     ValueError
         for a shaft speed that is not positive.
     """
+    checks.instance("recording", recording, Recording)
     speed = recording.shaft_speed if shaft_speed is None else shaft_speed
     if speed is not None:
-        speed = checks.number("shaft_speed", speed, above=0.0, unit="rad/s")
+        speed = checks.real_number("shaft_speed", speed, above=0.0, unit="rad/s")
     signal = recording.acceleration - recording.acceleration.mean(axis=0)
     squared = signal**2
     variance = squared.mean(axis=0)
@@ -161,9 +163,11 @@ def velocity_rms(
     """
     from scipy.fft import dct  # imported late: see `spectrum`
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    low = checks.number("lower end of the band", band[0], above=0.0, unit="Hz")
-    high = checks.number("upper end of the band", band[1], above=low, at_most=0.5 * rate, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
+    high = checks.real_number(
+        "upper end of the band", band[1], above=low, at_most=0.5 * rate, unit="Hz"
+    )
     samples = np.asarray(acceleration, dtype=float)
     n = len(samples)
     velocity = np.zeros((n, samples[:1].size))
@@ -208,7 +212,7 @@ def severity_zone(velocity: float, machine: str) -> str:
     """
     if machine not in ZONES:
         raise checks.refuse("machine", machine, ", ".join(ZONES))
-    value = checks.number("velocity", velocity, at_least=0.0, unit="m/s")
+    value = checks.real_number("velocity", velocity, at_least=0.0, unit="m/s")
     return "ABCD"[sum(value > boundary for boundary in ZONES[machine])]
 
 

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.filter_bank import PARTS, Band, split, squared_envelopes
 
-MOST_SAMPLES = 2**18
+MOST_JUDGED = 2**18
 """Of a signal that are looked at: the first ones."""
 
 PIECES = 8
@@ -33,6 +33,7 @@ CHANCE = 3.0
 """Standard deviations of the kurtosis of noise by which a band must surpass it for the choice."""
 
 
+@shown_as_table
 class Kurtogram(NamedTuple):
     """Spectral kurtosis of a signal in bands of many widths.
 
@@ -98,9 +99,9 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     """
     from scipy.signal import periodogram  # imported late: see `spectrum`
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    least = checks.number("narrowest", narrowest, at_least=0.0, unit="Hz")
-    samples = np.asarray(signal, dtype=float)[:MOST_SAMPLES]
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
+    samples = np.asarray(signal, dtype=float)[:MOST_JUDGED]
     if samples.ndim != 1 or len(samples) < 32 * PIECES or not np.isfinite(samples).all():
         raise checks.refuse(
             "signal", f"of shape {samples.shape}", f"a row of {32 * PIECES} finite numbers at least"

@@ -52,10 +52,12 @@ class Recording:
         def keep(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
-        keep("sample_rate", checks.number("sample_rate", self.sample_rate, above=0.0, unit="Hz"))
+        keep(
+            "sample_rate", checks.real_number("sample_rate", self.sample_rate, above=0.0, unit="Hz")
+        )
         keep("directions", check_directions(self.directions))
         if self.shaft_speed is not None:
-            speed = checks.number("shaft_speed", self.shaft_speed, above=0.0, unit="rad/s")
+            speed = checks.real_number("shaft_speed", self.shaft_speed, above=0.0, unit="rad/s")
             keep("shaft_speed", speed)
         keep("notes", tuple(self.notes))
         signal = np.array(self.acceleration, dtype=float)

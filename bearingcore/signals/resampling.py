@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-REACH = 32
+SAMPLES_AROUND = 32
 """Samples of the signal on either side that a new one is made of: flat within 0.01 dB up to 0.45 of
 the sample rate, and 80 dB down from 0.55 on."""
 
@@ -21,6 +21,6 @@ def oversampled(signal: NDArray[np.float64], factor: int) -> NDArray[np.float64]
 
     if factor == 1:
         return signal
-    taps = firwin(2 * REACH * factor + 1, 1.0 / factor, window=("kaiser", 8.0))
+    taps = firwin(2 * SAMPLES_AROUND * factor + 1, 1.0 / factor, window=("kaiser", 8.0))
     made = resample_poly(signal, factor, 1, axis=0, window=taps, padtype="line")  # type: ignore[call-overload]
     return cast("NDArray[np.float64]", made)

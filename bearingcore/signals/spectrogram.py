@@ -57,8 +57,8 @@ def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spe
     from scipy.signal import ShortTimeFFT  # imported late: see `spectrum`
     from scipy.signal.windows import hann
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    step = checks.number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    step = checks.real_number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
     samples = np.asarray(signal, dtype=float)
     length = round(rate / step)
     if samples.ndim != 1 or len(samples) < FEWEST_SEGMENTS * length:
@@ -103,7 +103,7 @@ def order_map(
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
     from scipy.interpolate import CubicSpline
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     speeds = np.asarray(speed, dtype=float)
     if not (speeds.size and np.isfinite(speeds).all() and speeds.min() > 0.0):
         raise checks.refuse("speed", "not above 0 everywhere", "speeds above 0 Hz")

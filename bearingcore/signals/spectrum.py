@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 MOST_SAMPLES = 100_000_000
 """Samples of all signals that are taken at most by default: some seconds of one core,
 and some gigabytes."""
 
 
+@shown_as_table
 class Spectrum(NamedTuple):
     """One-sided power spectral density.
 
@@ -42,9 +43,12 @@ class Spectrum(NamedTuple):
         return np.array(sums) * (self.frequency[1] - self.frequency[0])
 
     def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
-        """A row a frequency: the density, of several signals named by their `directions`."""
+        """A row a frequency: the density, of several signals named by `directions` or counted."""
         columns = self.density.reshape(len(self.frequency), -1).T
-        names = [f"density_{d}" for d in directions] if directions else ["density"]
+        named = directions or [str(k + 1) for k in range(len(columns))]
+        names = [f"density_{one}" for one in named]
+        if not directions and len(columns) == 1:
+            names = ["density"]
         if len(names) != len(columns):
             raise checks.refuse("directions", tuple(directions), f"{len(columns)} names")
         return table_of(
@@ -81,8 +85,8 @@ def spectrum(
     """
     from scipy.signal import welch  # imported late: it would double the time to import this package
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-    step = checks.number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    step = checks.real_number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
     samples = _samples(signal, segment, "one segment", most_samples)
     # one signal after another in memory: a third faster than along the first axis
@@ -127,13 +131,13 @@ def envelope_spectrum(
     from scipy.fft import next_fast_len  # imported late, as above
     from scipy.signal import butter, hilbert, sosfiltfilt
 
-    rate = checks.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     try:
         low, high = band
     except (TypeError, ValueError):
         raise checks.refuse("band", band, "two frequencies [Hz]") from None
-    low = checks.number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
-    high = checks.number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
+    low = checks.real_number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
+    high = checks.real_number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
     samples = _samples(signal, 64, "a filter's length", most_samples)
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)

@@ -14,14 +14,16 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.statics.equilibrium import (
     MOST_CONTACTS,
     TERM_INDICES,
     Equilibrium,
+    default_cage_angles,
     equilibrium,
+    equilibrium_of,
 )
 from bearingcore.statics.shortage import explanation
 from bearingcore.statics.status import StaticStatus
@@ -37,6 +39,7 @@ CARRYING = 0.05
 UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class BallPositions:
     """Static equilibrium of a scene whose balls find their own places, at n cage angles.
@@ -133,8 +136,7 @@ def ball_positions(
 
     Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
     Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
-    a ball, which has no potential, is left out: it matters where balls turn fast about an axis far
-    from the shaft's, at large contact angles.
+    a ball, which has no potential, is left out: `limits` says from what speed it matters.
 
     Parameters
     ----------
@@ -158,13 +160,18 @@ def ball_positions(
         for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
         or stiff that a computer has no numbers for them.
     """
+    checks.instance("scene", scene, Scene)
     scene.bearing.kind.check_mass()
-    massless = equilibrium(
-        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
-    )
-    active = massless.dofs
+    active = scene.free_dofs(dofs)
     with _within_range(scene):
-        races = packing.races(scene, 0.0, weight=weight)
+        packed = packing.pack(scene, active, balls=True)
+    if cage_angles is None:
+        cage_angles = default_cage_angles(scene)
+    massless = equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+    assert packed.balls is not None
+    races = packed.balls.races
+    if not weight:
+        races = races._replace(weight=np.zeros_like(races.weight))
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:
@@ -180,16 +187,16 @@ def ball_positions(
             massless.cage_angles,
             massless.leads,
             start,
-            static_balls(scene, races),
-            packing.static_load(scene, active),
+            packed.balls._replace(races=races),
+            packed.load,
         )
-    status[_beyond_geometry(scene, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
+    status[_beyond_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
     for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == none] = none
-    left = _unbalanced(scene, races, massless.cage_angles, load, angle)
+    left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
     status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
     residual = np.maximum(residual, left)
-    units = packing.length_units(scene)
+    units = packed.units
     gone = status >= StaticStatus.NOT_CARRIED
     displacement = q / units
     stiffness *= units[:, None] * units
@@ -197,7 +204,7 @@ def ball_positions(
         values[gone] = math.nan
     load[:, gone] = angle[:, gone] = math.nan
     loose = np.isin(status, (StaticStatus.NOTHING_TOUCHES, StaticStatus.FREE_DIRECTION))
-    displacement[np.ix_(loose, packing.direction_numbers(active))] = math.nan
+    displacement[np.ix_(loose, packed.load.active)] = math.nan
     return BallPositions(
         scene,
         active,
@@ -265,6 +272,7 @@ def static_state(
     the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
     are those of `equilibrium`.
     """
+    checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
         return equilibrium(
             scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
@@ -371,13 +379,13 @@ def centrifugal_effect(
 
 
 def _unbalanced(
-    scene: Scene, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
+    contacts: kernels.Contacts, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
 ) -> Array:
     """(n,) greatest force left on a ball over the greatest load at that cage angle.
 
     Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
     """
-    phi = packing.ball_angles(scene.bearing, cage_angles)
+    phi = contacts.angles_at(cage_angles)
     known = np.nan_to_num(angle)
     radial, axial = load * np.cos(known), load * np.sin(known)
     outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)
@@ -388,26 +396,15 @@ def _unbalanced(
 
 
 def _beyond_geometry(
-    scene: Scene, q: Array, load: Array, status: NDArray[np.int8]
+    balls: kernels.StaticBalls, q: Array, load: Array, status: NDArray[np.int8]
 ) -> NDArray[np.bool_]:
     """(n,) True where the formulas have a balance that the contacts' geometry does not allow.
 
     See `kernels.Contacts.room`: each contact of a ball has all of it.
     """
-    one = packing.contacts(scene.bearing)
-    races = packing.races(scene, 0.0, weight=False)
-    most = races.factor * one.room**one.exponent
+    one = balls.contacts
+    most = balls.races.factor * one.room**one.exponent
     outside = (load > most[:, None]).any(axis=(0, 2))
     tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
     converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
     return np.asarray(converged & (outside | tilted) | free & outside)
-
-
-def static_balls(scene: Scene, races: kernels.Races) -> kernels.StaticBalls:
-    """Arguments of `kernels.ball_positions` for a scene."""
-    return kernels.StaticBalls(
-        packing.contacts(scene.bearing),
-        races,
-        packing.path(scene, "inner"),
-        packing.path(scene, "outer"),
-    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,9 +15,10 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
-from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.scene.packing import PackedScene
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, Scene
 from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.shortage import explanation, moved
 from bearingcore.statics.status import StaticStatus
@@ -51,6 +53,7 @@ MOST_CONTACTS = 20_000_000
 some seconds of one core and a gigabyte of answers."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Equilibrium:
     """Static equilibrium of a scene at n cage angles. NaN where there is no answer.
@@ -110,6 +113,12 @@ class Equilibrium:
         return self.status == StaticStatus.CONVERGED
 
     @property
+    def sentence(self) -> str:
+        """Free directions, and whether the shaft may tilt."""
+        free = f"Free are {', '.join(DOF_SYMBOLS[dof] for dof in self.dofs)}."
+        return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
+
+    @property
     def shaft_angles(self) -> NDArray[np.float64]:
         """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
@@ -137,8 +146,9 @@ class Equilibrium:
         along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
         # Equation (8): the part along the unloaded line of contact only while positive
         along += contacts.distance
-        unloaded = np.arctan2(contacts.line_z, contacts.line_r)
-        angle = unloaded + np.arctan2(across, np.maximum(along, 0.0))
+        turned = np.arctan2(across, np.maximum(along, 0.0))
+        angle = np.arctan2(contacts.line_z, contacts.line_r)
+        angle = angle + np.where(contacts.fixed, 0.0, turned)
         return np.where(self.ball_load > 0.0, angle, math.nan)
 
     def term(self, name: str) -> NDArray[np.float64]:
@@ -164,6 +174,33 @@ class Equilibrium:
                 for j, load in enumerate(self.ball_load.T)
             ),
             ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
+        )
+
+    def stiffness_table(self, i: int | None = None) -> ResultTable:
+        """K_b as 5 × 5 numbers to copy: a row a load, a column a displacement, in SI units.
+
+        Of cage angle i; None: the mean in time over all angles that have an equilibrium.
+        """
+        if i is None:
+            known = np.isfinite(self.stiffness).all(axis=(1, 2))
+            share = np.where(known, self.shares, 0.0)
+            stiffness = np.tensordot(share, np.nan_to_num(self.stiffness), 1) / (
+                share.sum() or np.nan
+            )
+        else:
+            at_most = len(self.cage_angles) - 1
+            stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
+        loads = zip(DOF_NAMES, LOAD_ALONG.values(), strict=True)
+        return table_of(
+            (
+                "load",
+                "",
+                [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads],
+            ),
+            *(
+                (f"per_{'rad' if dof.startswith('r') else 'm'}_{dof}", "", column)
+                for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
+            ),
         )
 
     def reason(self, i: int) -> str:
@@ -215,8 +252,8 @@ def equilibrium(
         [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
         order are cheapest; the answer does not depend on the order.
     dofs
-        free directions, names out of x, y, z, rx, ry; None takes the scene's. Loads along
-        directions that are held are carried by what holds them.
+        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's.
+        Loads along directions that are held are carried by what holds them.
     shaft_angles : (n,)
         [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
         None: ω_s/ω_c times as far as the cage, which is one run of many: see
@@ -236,28 +273,44 @@ def equilibrium(
     ValueError
         for angles that are not finite or not as many, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
+    packed = packing.pack(scene, scene.free_dofs(dofs))
     if cage_angles is None:
-        angles = default_cage_angles(scene)
-    else:
-        angles = checks.finite("cage_angles", cage_angles, "rad")
+        cage_angles = default_cage_angles(scene)
+    return equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+
+
+def without_defects(packed: PackedScene) -> PackedScene:
+    """The same scene without its defects, packed."""
+    return dataclasses.replace(packed, scene=packed.scene.healthy(), path=packing.HEALTHY_PATH)
+
+
+def equilibrium_of(
+    packed: PackedScene,
+    cage_angles: ArrayLike,
+    shaft_angles: ArrayLike | None = None,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """`equilibrium` of a scene that is packed."""
+    scene = packed.scene
+    angles = checks.finite("cage_angles", cage_angles, "rad")
     leads = np.zeros_like(angles)
     if shaft_angles is not None:
         leads = checks.finite("shaft_angles", shaft_angles, "rad")
         if leads.shape != angles.shape:
             raise checks.refuse("shaft_angles", leads.size, f"{angles.size}, one a cage angle")
         leads = leads - angles / scene.bearing.cage_ratio
-    free = scene.free_dofs(dofs)
-    if cost := too_many_contacts(scene, angles.size, most_contacts):
-        return _not_begun(scene, free, angles, leads, cost)
-    units = packing.length_units(scene)
-    load = packing.static_load(scene, free)
+    balls = packed.contacts.angle.size
+    if cost := too_many_contacts(balls * angles.size, most_contacts):
+        return _not_begun(packed, angles, leads, cost)
+    units = packed.units
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
-        angles, leads, packing.contacts(scene.bearing), packing.path(scene), load
+        angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units
     failed = np.flatnonzero(status)
     if failed.size:
-        _explain(scene, angles, load, status, stiffness, displacement, failed)
+        _explain(packed, angles, status, stiffness, displacement, failed)
         gone = status >= StaticStatus.NOT_CARRIED
         loads[gone] = math.nan
         loaded[gone] = 0
@@ -270,7 +323,7 @@ def equilibrium(
     stiffness *= units[:, None] * units
     return Equilibrium(
         scene=scene,
-        dofs=free,
+        dofs=packed.dofs,
         cage_angles=angles,
         displacement=displacement,
         ball_load=loads,
@@ -285,10 +338,9 @@ def equilibrium(
     )
 
 
-def too_many_contacts(scene: Scene, points: int, most: int) -> str:
-    """Cost of solving so many points of a scene in words, where it is too much; else empty."""
+def too_many_contacts(contacts: int, most: int) -> str:
+    """Cost of solving so many contacts in words, where it is too much; else empty."""
     most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
-    contacts = points * packing.contacts(scene.bearing).angle.size
     if contacts <= most:
         return ""
     return (
@@ -297,8 +349,7 @@ def too_many_contacts(scene: Scene, points: int, most: int) -> str:
 
 
 def _not_begun(
-    scene: Scene,
-    dofs: tuple[str, ...],
+    packed: PackedScene,
     angles: NDArray[np.float64],
     leads: NDArray[np.float64],
     cost: str,
@@ -310,10 +361,10 @@ def _not_begun(
         return np.broadcast_to(np.array(value, dtype=kind), (n, *shape))
 
     none = all_of(0, kind=np.int64)
-    balls = packing.contacts(scene.bearing).angle.size
+    balls = packed.contacts.angle.size
     return Equilibrium(
-        scene=scene,
-        dofs=dofs,
+        scene=packed.scene,
+        dofs=packed.dofs,
         cage_angles=angles,
         displacement=all_of(math.nan, 5),
         ball_load=all_of(math.nan, balls),
@@ -330,16 +381,15 @@ def _not_begun(
 
 
 def _explain(
-    scene: Scene,
+    packed: PackedScene,
     angles: NDArray[np.float64],
-    load: kernels.StaticLoad,
     status: NDArray[np.int8],
     stiffness: NDArray[np.float64],
     displacement: NDArray[np.float64],
     failed: NDArray[np.int64],
 ) -> None:
     """Find the true reason of each failure: the free directions, or a load nothing can carry."""
-    active = load.active
+    force, active = packed.load
     for k in failed:
         if status[k] == StaticStatus.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
@@ -350,6 +400,6 @@ def _explain(
             soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
             displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
         elif status[k] in UNEXPLAINED and is_unbounded(
-            scene, angles[k], active, load.force[active]
+            packed.contacts, angles[k], active, force[active]
         ):
             status[k] = StaticStatus.NOT_CARRIED

@@ -47,7 +47,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
@@ -97,6 +97,7 @@ class RaceFilm:
     sentence: str
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Film:
     """Lubricant film of a scene's heaviest loaded ball or roller.
@@ -124,7 +125,7 @@ class Film:
     @property
     def sentence(self) -> str:
         """The thinner film in words, and what was left out."""
-        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else LEFT_OUT
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else FILM_LEFT_OUT
         return f"{self.thinner.sentence} {left_out}"
 
     @property
@@ -157,12 +158,12 @@ class Film:
         )
 
 
-LEFT_OUT = (
+FILM_LEFT_OUT = (
     "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
     "starvation are left out, and all of them make the film thinner."
 )
 
-ROLLER_LEFT_OUT = LEFT_OUT.replace(
+ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
     "the edges of a defect", "the edges of a defect and of the roller"
 )
 
@@ -251,12 +252,13 @@ def film(
     ValueError
         naming the field, its value and what is allowed.
     """
-    eta = checks.number("viscosity", viscosity, above=0.0, unit="Pa·s")
-    xi = checks.number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
-    ball = checks.number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
+    checks.instance("scene", scene, Scene)
+    eta = checks.real_number("viscosity", viscosity, above=0.0, unit="Pa·s")
+    xi = checks.real_number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
+    ball = checks.real_number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
     sigma = {
         race: math.hypot(
-            checks.number(
+            checks.real_number(
                 f"roughness_{race}",
                 value,
                 at_least=0.0,

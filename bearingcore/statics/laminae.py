@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.roller import length_of
-from bearingcore.scene.packing import contacts, static_load
+from bearingcore.scene.packing import pack
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.passes import drops_at
 
@@ -103,8 +103,8 @@ def compressions(state: Equilibrium) -> Array:
     lines of contact stay as they are. NaN where it did not settle or loads are not known.
     """
     scene = state.scene
-    every, law = contacts(scene.bearing), law_of(scene.bearing)
-    numbers = static_load(scene, state.dofs)
+    packed, law = pack(scene, state.dofs), law_of(scene.bearing)
+    every, numbers = packed.contacts, packed.load
     force = numbers.force[numbers.active]
     known = np.isfinite(state.ball_load).all(axis=1)
     found = np.full(known.shape + every.angle.shape, np.nan)

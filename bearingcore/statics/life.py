@@ -57,6 +57,7 @@ from typing import NamedTuple
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.drawing import WIDEST_CONFORMITY
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.bearings.ratings import (
     capacity_factor,
     dynamic_rating,
@@ -65,7 +66,7 @@ from bearingcore.bearings.ratings import (
 )
 from bearingcore.common import checks
 from bearingcore.common.numbers import number, percent, thousands
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads, together
 
@@ -74,6 +75,14 @@ POSITIONS = ("load line", "all")
 the standard's users do, or everywhere, as it is."""
 
 TURNING = ("inner", "outer")
+
+GIVEN, OF_A_CATALOGUE = "given", "of a catalogue, by the bearing's number"
+"""Origins of a rating."""
+
+NO_RATING = (
+    "a number [N], as the catalogue has it: this bearing has none, as its number is not known or "
+    "its dimensions were changed. dynamic_load_rating(bearing) is that of ISO 281"
+)
 
 HEAVIEST_SHARE = 0.5
 """Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
@@ -107,6 +116,7 @@ LINE_CONTACT = ContactLife(
 )
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Life:
     """Reference rating life of a scene's bearing (ISO 16281). NaN where it is not known.
@@ -138,6 +148,8 @@ class Life:
         code of `kernels` of the first cage angle whose loads are not known, else CONVERGED.
     sentence
         the result in words, with what it leaves out.
+    rating_source
+        GIVEN or OF_A_CATALOGUE.
     """
 
     scene: Scene
@@ -156,6 +168,7 @@ class Life:
     status: int
     sentence: str
     rows: tuple[float, ...] = ()
+    rating_source: str = GIVEN
 
     @property
     def known(self) -> bool:
@@ -183,7 +196,7 @@ class Life:
                 "L_10r without the defects, in 10⁶ turns",
             ),
             ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
-            ("dynamic_load_rating", "N", self.dynamic_load_rating, "C_r"),
+            ("dynamic_load_rating", "N", self.dynamic_load_rating, f"C_r, {self.rating_source}"),
             ("equivalent_load", "N", self.equivalent_load, "P, for which ISO 281 gives L_10r"),
             ("heaviest_load", "N", self.heaviest_load, "greatest load of a ball"),
             ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
@@ -200,7 +213,7 @@ class Life:
 
 def life(
     scene: Scene,
-    dynamic_load_rating: float,
+    dynamic_load_rating: float | None = None,
     *,
     positions: str | None = None,
     turning_race: str = "inner",
@@ -213,7 +226,8 @@ def life(
         bearing, defects, load, speed. A ball bearing needs its groove radii.
     dynamic_load_rating
         C_r [N] of the whole bearing, with all its rows, from the catalogue;
-        `dynamic_load_rating(bearing)` gives that of ISO 281.
+        `dynamic_load_rating(bearing)` gives that of ISO 281. None: the bearing's own, which
+        bearings have that are known by their designation.
     positions
         "load line": loads with a ball on the line of the radial load (cage angle 0 without a radial
         load), as the standard's examples and commercial codes take them; for a healthy bearing
@@ -233,7 +247,8 @@ def life(
     Raises
     ------
     ValueError
-        for a rating that is not positive, a bearing without groove radii, for "load line" with
+        for a rating that is not positive, or neither given nor known of the bearing; a bearing
+        without groove radii, for "load line" with
         rows that are not alike, for that or a turning outer race with a damaged bearing, and for a
         damaged inner race of rows that are not alike.
 
@@ -244,7 +259,13 @@ def life(
     >>> round(found.million_revolutions), round(found.hours)
     (10797, 119961)
     """
-    C = checks.number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
+    checks.instance("scene", scene, Scene)
+    rating_source = GIVEN if dynamic_load_rating is not None else OF_A_CATALOGUE
+    if dynamic_load_rating is None:
+        dynamic_load_rating = scene.bearing.dynamic_load_rating
+        if dynamic_load_rating is None:
+            raise checks.refuse("dynamic_load_rating", None, NO_RATING, "N")
+    C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
     if positions is None:
@@ -292,11 +313,13 @@ def life(
         equivalent_load=P,
         healthy_million_revolutions=L_healthy,
         status=loads.status,
-        sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C),
+        sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C)
+        + (f" Rating {long_number(C)} N, {rating_source}." if rating_source != GIVEN else ""),
         rows=tuple(
             million_revolutions(contact, rated[2 * k : 2 * k + 2], carried[2 * k : 2 * k + 2])
             for k in rows
         ),
+        rating_source=rating_source,
     )
 
 
@@ -385,7 +408,7 @@ def ratings_of_races(
     return Q_ci, Q_ce
 
 
-def dynamic_load_rating(bearing: Bearing) -> float:
+def dynamic_load_rating(bearing: BearingLike) -> float:
     """Basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
 
     Of balls C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm,
@@ -400,7 +423,9 @@ def dynamic_load_rating(bearing: Bearing) -> float:
     ValueError for self-aligning bearings, whose factors the standard tabulates apart, and for
     hybrid ones, which ISO 20056 rates: their rating comes from the catalogue.
     """
-    if words := bearing.rating_unknown:
+    bearing = bearing_of(bearing)
+    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
+    if words := bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else ""):
         raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
         return float(
@@ -503,6 +528,7 @@ def _sentence(
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
             f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
         )
+    words = f"{words} {scene.tilt_words()}".rstrip()
     if scene.defects:
         words += f" That is {percent(L / L_healthy)} of the healthy bearing's life. {LEFT_OUT}"
     return words

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.kernels import RESIDUAL_LIMIT
-from bearingcore.scene.packing import ball_angles, contacts
-from bearingcore.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -31,26 +29,26 @@ much two rays must differ to be two."""
 
 
 def descent_direction(
-    scene: Scene, cage_angle: float, active: NDArray[np.int64], load: Array
+    contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
 ) -> tuple[Array, float]:
     """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
 
     A ball stays free for ever just when it moves straight back along its unloaded line of contact,
-    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers between straight
-    races may move along these as well, so that e_j·w ≤ 0 is all of it. The nearest of them to the
-    load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share of the load
-    is 0 where contacts can carry all of it.
+    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers, whose line of
+    contact is fixed, may move across it as well, so that e_j·w ≤ 0 is all of it. The nearest of
+    them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
+    of the load is 0 where contacts can carry all of it.
     """
     nothing = np.zeros(len(active)), 0.0
     if not load.any():
         return nothing
-    every = contacts(scene.bearing)
-    phi = ball_angles(scene.bearing, np.array([cage_angle]))[0]
+    phi = contacts.angles_at(np.array([cage_angle]))[0]
     c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
-    radial = np.stack([c, s, zero, -every.arm * s, every.arm * c], axis=1)[:, active]
-    axial = np.stack([zero, zero, one, every.reach * s, -every.reach * c], axis=1)[:, active]
-    ca, sa = every.line_r[:, None], every.line_z[:, None]
-    across = (axial * ca - radial * sa)[every.distance < kernels.STRAIGHT]
+    arm, reach = contacts.arm, contacts.reach
+    radial = np.stack([c, s, zero, -arm * s, arm * c], axis=1)[:, active]
+    axial = np.stack([zero, zero, one, reach * s, -reach * c], axis=1)[:, active]
+    ca, sa = contacts.line_r[:, None], contacts.line_z[:, None]
+    across = (axial * ca - radial * sa)[~contacts.fixed]
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)
     held = np.count_nonzero(sizes > 1e-10)
@@ -65,12 +63,14 @@ def descent_direction(
     return left @ still, float(np.linalg.norm(left))
 
 
-def is_unbounded(scene: Scene, cage_angle: float, active: NDArray[np.int64], load: Array) -> bool:
+def is_unbounded(
+    contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
+) -> bool:
     """True where some motion does work on the load and never presses a ball.
 
     The energy then falls without end. `load` belongs to the active directions.
     """
-    return descent_direction(scene, cage_angle, active, load)[1] > RESIDUAL_LIMIT
+    return descent_direction(contacts, cage_angle, active, load)[1] > RESIDUAL_LIMIT
 
 
 def beyond_cone(rays: Array, point: Array) -> Array:

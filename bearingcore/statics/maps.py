@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.defect import TWO_PI, Defect, floor_bytes, path_tables
 from bearingcore.scene.scene import Scene
@@ -38,6 +38,7 @@ GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Maps:
     """Static answers over m extents of a scene's first defect and n cage angles.
@@ -161,6 +162,7 @@ def stiffness_maps(
     ValueError
         for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
     """
+    checks.instance("scene", scene, Scene)
     if extents is None:
         sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
     else:
@@ -174,7 +176,10 @@ def stiffness_maps(
     free = scene.free_dofs(dofs)
     bearing = scene.bearing
     shape = sizes.size, angles.size
-    if cost := too_many_contacts(scene, sizes.size * angles.size, most_contacts):
+    packed = packing.pack(scene, free)
+    contacts, load = packed.contacts, packed.load
+    points = sizes.size * angles.size
+    if cost := too_many_contacts(points * contacts.angle.size, most_contacts):
         nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
         return Maps(
             scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
@@ -185,26 +190,24 @@ def stiffness_maps(
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
     answers = kernels.new_answers(*shape)
-    packed = paths.packed._replace(leads=np.zeros(shape))
+    ways = paths.packed._replace(leads=np.zeros(shape))
     status = answers.status
     refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
     status[refused] = StaticStatus.REFUSED
-    contacts = packing.contacts(bearing)
-    load = packing.static_load(scene, free)
     memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
-        return kernels.static_maps(angles, contacts, packed, load, (begin, end), memory, answers)
+        return kernels.static_maps(angles, contacts, ways, load, (begin, end), memory, answers)
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
-    gone = _run_away(scene, angles, load, status[start:begun])
+    gone = _unbounded_angles(contacts, angles, load, status[start:begun])
     status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
-    units = packing.length_units(scene)
+    units = packed.units
     stiffness = answers.stiffness
     stiffness *= np.outer(units, units)[np.triu_indices(5)][:, None, None]
     return Maps(
@@ -223,8 +226,8 @@ def stiffness_maps(
     )
 
 
-def _run_away(
-    scene: Scene,
+def _unbounded_angles(
+    contacts: kernels.Contacts,
     angles: Array,
     load: kernels.StaticLoad,
     status: NDArray[np.int8],
@@ -232,7 +235,7 @@ def _run_away(
     """Indices of the cage angles without an answer at which nothing can carry the load."""
     failed = np.flatnonzero(np.isin(status, UNEXPLAINED).any(axis=0))
     active, force = load.active, load.force[load.active]
-    gone = [k for k in failed if is_unbounded(scene, float(angles[k]), active, force)]
+    gone = [k for k in failed if is_unbounded(contacts, float(angles[k]), active, force)]
     return np.array(gone, dtype=np.int64)
 
 
@@ -250,7 +253,7 @@ def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
 
 
 # of rough floors the tables of a map may take a gigabyte
-@kept(4, 256_000_000, _bytes_of_paths)
+@lru_cache_by_bytes(4, 256_000_000, _bytes_of_paths)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> _Paths:

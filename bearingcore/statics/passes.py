@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.scene.defect import RACES, Defect, drop_into
-from bearingcore.scene.packing import ball_angles, contacts
+from bearingcore.scene.packing import contacts, path
 from bearingcore.scene.scene import Scene
 
 TWO_PI = 2.0 * math.pi
@@ -69,17 +70,10 @@ def drops_at(
 
     leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
     """
-    angles = ball_angles(scene.bearing, cage_angles)
     turned = cage_angles
     if leads is not None:
         turned = cage_angles + scene.bearing.cage_ratio * leads
-    return np.concatenate(
-        [
-            ball_drop(scene, angles[:, own], turned[:, None], race, row)
-            for row, own in enumerate(scene.bearing.balls_of_rows)
-        ],
-        axis=1,
-    )
+    return kernels.drops_of(contacts(scene.bearing), path(scene, race), cage_angles, turned)
 
 
 def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:

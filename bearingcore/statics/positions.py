@@ -32,13 +32,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
-from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.packing import PackedScene, pack
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import ANGLES_A_PERIOD, MOST_CONTACTS, Equilibrium, equilibrium
-from bearingcore.statics.passes import drops_at
+from bearingcore.statics.equilibrium import (
+    ANGLES_A_PERIOD,
+    MOST_CONTACTS,
+    Equilibrium,
+    equilibrium_of,
+    without_defects,
+)
 
 Array = NDArray[np.float64]
 
@@ -84,7 +90,7 @@ class Positions:
         from each column to the one before and to the one after.
     period [rad]
         of the rows.
-    pace
+    shaft_ratio
         turning of the shaft with the cage along a row.
     """
 
@@ -96,7 +102,7 @@ class Positions:
     weights: Array
     steps: Array
     period: float
-    pace: float
+    shaft_ratio: float
 
 
 class Extremes(NamedTuple):
@@ -116,37 +122,55 @@ def turns(scene: Scene) -> bool:
 def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
-    solve: Callable[..., Equilibrium] = equilibrium,
+    solve: Callable[..., Equilibrium] | None = None,
     *,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium at all pairs of `positions`, with their weights.
 
-    `solve` is `equilibrium`, or `static_state` for balls with mass.
+    `solve` is `static_state` for balls with mass; None solves `equilibrium`.
     """
-    found = positions(scene, n)
+    packed = pack(scene)
+    if solve is None:
+        return equilibrium_over_all(packed, n, most_contacts)
+    found = positions_of(packed, n)
     state = solve(
         scene, found.cage_angles, shaft_angles=found.shaft_angles, most_contacts=most_contacts
     )
     return dataclasses.replace(state, weights=found.weights)
 
 
-def _bytes_of(found: Positions, scene: Scene, _: int) -> int:
-    return 24 * found.weights.size + floor_bytes(scene.defects)
+def equilibrium_over_all(
+    packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
+) -> Equilibrium:
+    """`over_all_positions` of a scene that is packed."""
+    found = positions_of(packed, n)
+    state = equilibrium_of(packed, found.cage_angles, found.shaft_angles, most_contacts)
+    return dataclasses.replace(state, weights=found.weights)
 
 
-@kept(64, 16_000_000, _bytes_of)
 def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
-    """The positions of a scene.
+    """The positions of a scene, see `positions_of`."""
+    return positions_of(pack(scene), n)
+
+
+def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
+    return 24 * found.weights.size + floor_bytes(packed.scene.defects)
+
+
+@lru_cache_by_bytes(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+def positions_of(packed: PackedScene, n: int) -> Positions:
+    """The positions of a scene that is packed.
 
     n : cage angles to the bearing's period, ends included, where no defect turns with the shaft.
     Else (n − 1)/ALL_AROUND to each ball spacing, all around, with one where the ball is on the line
     of the load, and further ones where it meets an edge of the outer race.
     """
+    scene = packed.scene
     bearing = scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
     if not turns(scene):
-        columns, weights = _cage_angles(bearing, n)
+        columns, weights = _cage_angles(packed, n)
         steps = np.full((2, columns.size), columns[1] - columns[0])
         row = np.zeros(1), np.zeros(1, np.int64)
         return Positions(
@@ -158,20 +182,20 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     on_line = math.atan2(load.fy, load.fx) - bearing.all_rows[0].turn
     even: Array = np.sort((on_line + TWO_PI / around * np.arange(around)) % TWO_PI)
     if bearing.has_one_cage_speed:
-        rows = _nodes(scene, "inner")
-        corners = _nodes(scene, "outer")
+        rows = _nodes(packed, "inner")
+        corners = _nodes(packed, "outer")
         whole = period * np.arange(round(TWO_PI / period))
         every = np.concatenate([even, (whole[:, None] - corners).ravel() % TWO_PI])
         columns = np.unique(np.round(every, 12))
         steps = _steps(columns, TWO_PI)
     else:
         steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
-        columns = np.add.outer(_row_places(bearing), even).ravel()
+        columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share, of_columns = _steps(rows, period).mean(axis=0), steps.mean(axis=0)
-    turning = scene.replace(defect=tuple(one for one in scene.defects if one.race == "inner"))
-    drops = np.round(drops_at(turning, np.zeros(rows.size), leads=rows), 14)
+    still, turned = np.zeros(rows.size), ratio * rows
+    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, still, turned), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
@@ -196,22 +220,24 @@ def _steps(angles: Array, period: float) -> Array:
     return np.stack([np.roll(after, 1), after])
 
 
-def _cage_angles(bearing: Bearing, n: int) -> tuple[Array, Array]:
+def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
     """Cage angles [rad] over the bearing's period, ends included, and their shares of the time."""
-    weights = np.ones(n)
+    weights, bearing = np.ones(n), packed.scene.bearing
     weights[[0, -1]] = 0.5
     if bearing.has_one_cage_speed:
         return np.linspace(0.0, bearing.period, n), weights / weights.sum()
-    places = _row_places(bearing)
+    places = _row_places(packed)
     angles = (np.linspace(0.0, bearing.ball_spacing, n) + places[:, None]).ravel()
     return angles, np.tile(weights / (weights.sum() * places.size), places.size)
 
 
-def _row_places(bearing: Bearing) -> Array:
+def _row_places(packed: PackedScene) -> Array:
     """Cage angles (ROW_PLACES,) [rad], whole ball spacings, after which rows are evenly turned."""
-    others = [k for k in range(len(bearing.all_rows)) if bearing.pace(k) != bearing.pace(0)]
-    spacing = bearing.of_row(0).ball_spacing / bearing.pace(0)
-    turned = np.array([bearing.pace(k) / bearing.of_row(k).ball_spacing for k in others]) * spacing
+    speeds = packed.contacts.relative_speed[packed.contacts.rows[:, 0]]
+    spacings = np.array([own.ball_spacing for own in packed.rows])
+    spacing = spacings[0] / speeds[0]
+    others = speeds != speeds[0]
+    turned = speeds[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
     odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
     wanted = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
@@ -219,16 +245,17 @@ def _row_places(bearing: Bearing) -> Array:
     return np.asarray(away.argmin(axis=1) * spacing)
 
 
-def _nodes(scene: Scene, race: str) -> Array:
+def _nodes(packed: PackedScene, race: str) -> Array:
     """Race against cage [rad] over the period, rising: where balls meet an edge, and between."""
+    scene = packed.scene
     bearing, period = scene.bearing, scene.bearing.period
     found = [np.zeros(1 if race == "inner" else 0)]
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
         if defect.race != race or defect.row not in (None, k):
             continue
-        own = bearing.of_row(k)
+        own = packed.rows[k]
         balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
-        places = _places_on_edges(defect, own, _greatest_compression(scene, k))
+        places = _places_on_edges(defect, own, _greatest_compression(packed, k))
         found.append((balls[:, None] - places).ravel())
         if defect.floor is not None:
             spacings = round(period / own.ball_spacing)
@@ -241,17 +268,19 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
     """Angles [rad] of a ball at both edges, where it meets the floor, and on the way there."""
     half = 0.5 * defect.extent
     drops = {min(share * compression, defect.depth) for share in SINKING} | {defect.depth}
-    inwards = [dataclasses.replace(defect, depth=drop).edge_row(bearing)[4] for drop in drops]
+    whole = defect.extent >= TWO_PI
+    inwards = [0.0 if whole else defect.edge_width(bearing, drop) for drop in drops]
     away = half - np.minimum(inwards, half)
     return np.asarray(defect.center + np.concatenate([-away, away]))
 
 
-def _greatest_compression(scene: Scene, row: int) -> float:
+def _greatest_compression(packed: PackedScene, row: int) -> float:
     """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
-    bearing = scene.bearing
-    state = equilibrium(scene.healthy(), np.linspace(0.0, bearing.period, 13))
-    loads = np.nan_to_num(state.ball_load[:, bearing.balls_of_rows[row]])
-    return typical_compression(bearing.of_row(row), float(loads.max(initial=0.0)))
+    healthy, contacts = without_defects(packed), packed.contacts
+    state = equilibrium_of(healthy, np.linspace(0.0, packed.scene.bearing.period, 13))
+    first, count = contacts.rows[row]
+    loads = np.nan_to_num(state.ball_load[:, first : first + count])
+    return contacts.compression(float(loads.max(initial=0.0)), first)
 
 
 def _lowest(values: Array) -> NDArray[np.int64]:
@@ -307,7 +336,7 @@ def extremes(
         where, back = np.unique(np.stack([cs[:, 0], us[:, 0]]), axis=1, return_index=True,
                                 return_inverse=True)[1:]  # fmt: skip
         cage = pairs[0][where].ravel()
-        shaft = found.pace * cage + pairs[1][where].ravel()
+        shaft = found.shaft_ratio * cage + pairs[1][where].ravel()
         new = evaluate(cage, shaft).reshape(q, where.size, -1)
         own = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
         own = np.where(np.isnan(own), math.inf, own)
@@ -322,4 +351,6 @@ def extremes(
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)
-    return Extremes(least[:q], -least[q:], c.reshape(2, q), (found.pace * c + u).reshape(2, q))
+    return Extremes(
+        least[:q], -least[q:], c.reshape(2, q), (found.shaft_ratio * c + u).reshape(2, q)
+    )

@@ -6,8 +6,8 @@ load of the ball                            | Q      | load              | N
 semi-axes, across and along the rolling     | a, b   | semi_axis_across, semi_axis_along | m
 greatest pressure, in the middle            | p      | greatest_pressure | Pa
 
-The contact itself is that of `bearingcore.hertz`. On the edge of a defect the ball presses harder
-than this says: a corner has no ellipse.
+The contact itself is that of `bearingcore.bearings.hertz`. On the edge of a defect the ball presses
+harder than this says: a corner has no ellipse.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import numpy as np
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.positions import over_all_positions
@@ -93,6 +93,7 @@ class RacePressure:
     greatest_pressure: float
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class ContactPressures:
     """Contact ellipses and pressures of a scene's heaviest loaded ball.
@@ -160,6 +161,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     ValueError
         for a bearing without groove radii, or the equilibrium of another scene.
     """
+    checks.instance("scene", scene, Scene)
     if state is None:
         state = over_all_positions(scene)
     elif state.scene != scene:

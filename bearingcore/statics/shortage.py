@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import kernels
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
@@ -40,7 +39,7 @@ def explanation(
     if status == StaticStatus.NOT_CARRIED:
         lacks = _lacks(scene, cage_angle, dofs)
         return f"; missing is {lacks}" if lacks else ""
-    lone = len(scene.bearing.all_rows) == 1 and _is_straight(scene).all()
+    lone = len(scene.bearing.all_rows) == 1 and packing.contacts(scene.bearing).fixed.all()
     if status == StaticStatus.FREE_DIRECTION and lone and {"rx", "ry"} & set(dofs):
         return (
             ", as the lines of contact of one row of tapered rollers meet in a point of the shaft; "
@@ -58,7 +57,7 @@ def moved(
     defects are taken off.
     """
     one = packing.contacts(scene.bearing)
-    angle = packing.ball_angles(scene.bearing, cage_angles)
+    angle = one.angles_at(cage_angles)
     c, s = np.cos(angle), np.sin(angle)
     x, y, z, rx, ry = state.T[..., None]
     r = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
@@ -67,22 +66,17 @@ def moved(
     return along, a * one.line_r - r * one.line_z
 
 
-def _is_straight(scene: Scene) -> NDArray[np.bool_]:
-    """(N_b,) True for contacts between straight races."""
-    return packing.contacts(scene.bearing).distance >= kernels.STRAIGHT
-
-
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
     """Tilts that are held, thrust, or both, with which the contacts would carry the load."""
-    active = packing.direction_numbers(dofs)
-    force = packing.static_load(scene, dofs).force
-    facing = float(np.sign(packing.contacts(scene.bearing).line_z.sum()))
+    packed = packing.pack(scene, dofs)
+    force, active = packed.load
+    facing = float(np.sign(packed.contacts.line_z.sum()))
     pressed = force.copy()
     pressed[_Z] = facing * 1e3 * np.abs(force).max()
     level = np.setdiff1d(active, _TILTS)
 
     def carries(free: NDArray[np.int64], load: Array) -> bool:
-        return not is_unbounded(scene, cage_angle, free, load[free])
+        return not is_unbounded(packed.contacts, cage_angle, free, load[free])
 
     if level.size < active.size and carries(level, force):
         return _TILTS_HELD
@@ -119,14 +113,13 @@ def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
         return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
     along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
-    straight = _is_straight(scene)
     apart = np.hypot(np.maximum(one.distance + along, 0.0), across)
-    pressed = np.where(straight, along, apart - one.distance)
+    pressed = np.where(one.fixed, along, apart - one.distance)
     deepest = int(np.argmax(pressed - one.room))
     if pressed[deepest] > one.room[deepest]:
         by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, one.room))
         return f"a {element} would be compressed by {by}, and {most} is more than any can be"
-    left = np.where(straight & (pressed > 0.0), np.abs(across), 0.0)
+    left = np.where(one.fixed & (pressed > 0.0), np.abs(across), 0.0)
     if (left > one.room).any():
         return (
             f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "

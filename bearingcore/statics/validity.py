@@ -16,11 +16,13 @@ What the model leaves out and what is looked at here:
   Corners of a defect press harder than this says;
 - the end of the groove: contact angle and half the contact ellipse against the shoulder;
 - the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
-  by solving with it (`ball_positions`), and its size against the contact load. Gyroscopic moments,
-  which go with it, and the shock of a ball that meets the far edge of a defect are left out too;
+  by solving with it (`ball_positions`), and its size against the contact load. The shock of a ball
+  that meets the far edge of a defect is left out too;
+- gyroscopic moments of the balls, against their loads (`gyroscopic`);
 - the size of the contact: Hertz takes it for small against the ball;
 - thrust: a row that carries it one way alone and is pressed the other way, or with less than its
   radial load induces (`thrust`);
+- tilts that the scene holds: the moment that the shaft's other bearing is taken to carry (`held`);
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect;
@@ -40,6 +42,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
@@ -49,6 +52,8 @@ from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
+from bearingcore.statics.gyroscopic import gyroscopic_limit
+from bearingcore.statics.held import held_tilts
 from bearingcore.statics.limit import Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.positions import over_all_positions, positions, turns
@@ -86,7 +91,7 @@ def usual_shoulder_height(contact_angle: float) -> float:
     return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
 
 
-def looked_at(scene: Scene) -> Equilibrium:
+def state_of_limits(scene: Scene) -> Equilibrium:
     """The static equilibrium at all positions of `limits`: fine, and always the same.
 
     A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
@@ -111,7 +116,7 @@ def limits(
     scene
         what to look at.
     state
-        its static equilibrium at cage angles of your own; None takes that of `looked_at`, so that
+        its static equilibrium at cage angles of your own; None takes `state_of_limits`, so that
         one scene has one verdict. Loads and angles are the greatest over its angles.
     dynamic_load
         greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
@@ -137,10 +142,11 @@ def limits(
         for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
         another scene.
     """
+    checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
-        checks.number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+        checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     if state is None:
-        state = looked_at(scene)
+        state = state_of_limits(scene)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     if film is not None and film.scene != scene:
@@ -148,7 +154,7 @@ def limits(
     heaviest = heaviest_balls(state)
     in_motion = None
     if dynamic_load is not None:
-        in_motion = checks.number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
+        in_motion = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
     kind = scene.bearing.kind
     found: list[Limit | None] = [
         _pressure(scene.bearing, "inner", heaviest),
@@ -156,6 +162,7 @@ def limits(
         _pressure_in_motion(scene, in_motion),
         _shoulder(scene, state, shoulder_height),
         *_centrifugal(scene, state),
+        gyroscopic_limit(scene),
     ]
     if not kind.line_contact:
         found += [
@@ -164,9 +171,10 @@ def limits(
             _stiffness(scene),
         ]
     found += thrust_limits(scene, state)
+    found.append(held_tilts(state))
     found.append(_film(scene, film))
     if step_rate is not None:
-        rate = checks.number("step_rate", step_rate, above=0.0, unit="Hz")
+        rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
     found.append(_estimate(scene))
     return tuple(limit for limit in found if limit is not None)
@@ -195,8 +203,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
     return np.isfinite(state.ball_load.sum(axis=1))
 
 
-LEFT_OUT = "the static model leaves it out"
-LEFT_OUT_WITH_MASS = (
+NOT_IN_STATICS = "the static model leaves it out"
+NOT_IN_STATICS_WITH_MASS = (
     "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
     "it out"
 )
@@ -373,7 +381,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
         f"{percent(effect.stiffness)}, and separates the contact angles of the two races by up to "
         f"{number(math.degrees(effect.contact_angle), 2)}°"
     )
-    left_out = LEFT_OUT_WITH_MASS if scene.balls == WITH_MASS else LEFT_OUT
+    left_out = NOT_IN_STATICS_WITH_MASS if scene.balls == WITH_MASS else NOT_IN_STATICS
     within = f"; up to {percent(limit)} it may be left out."
     return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
 
@@ -417,11 +425,12 @@ def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
     compression = typical_compression(bearing, load)
-    share = compression / bearing.groove_center_distance
+    apart = center_distance(bearing.groove_center_distance)
+    share = compression / apart
     most = percent(GREATEST_COMPRESSION)
     fact = (
         f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
-        f"{with_prefix(bearing.groove_center_distance, 'm')} between the groove centres"
+        f"{with_prefix(apart, 'm')} between the groove centres"
     )
     beyond = (
         f": above {most} grooves so close around the ball touch it far up their sides, and "

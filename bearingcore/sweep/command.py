@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +13,6 @@ import numpy as np
 from bearingcore.common.scene_file import LARGEST_TEXT
 from bearingcore.sweep.file import grid_from_toml
 from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import OUTPUTS
 from bearingcore.sweep.run import needs_extra, run
 from bearingcore.sweep.status import STATUSES
 
@@ -108,7 +108,7 @@ def _text(path: Path) -> str:
 
 def _in_words(grid: Grid) -> str:
     axes = " × ".join(f"{len(axis.values):,} {axis.name}" for axis in grid.axes)
-    numbers = sum(len(grid.labels) if OUTPUTS[name].per_mode else 1 for name in grid.outputs)
+    numbers = sum(math.prod(grid.shape_of(name, ())) for name in grid.outputs)
     size = grid.size * (8 * numbers + 1)
     return (
         f"{grid.size:,} scenes ({axes}), {numbers} numbers of each: "

@@ -76,7 +76,7 @@ def _values(name: str, given: Any) -> list[Any]:
         )
     num = checks.whole_number(f"num of {name}", span["num"], at_least=1, at_most=MOST_VALUES)
     start, stop = (
-        checks.number(f"{end} of {name}", _number(f"{end} of {name}", span[end]))
+        checks.real_number(f"{end} of {name}", _number(f"{end} of {name}", span[end]))
         for end in ("start", "stop")
     )
     if not math.isfinite(stop - start):

@@ -32,6 +32,8 @@ from bearingcore.sweep.outputs import (
     MOTION,
     ORBIT,
     OUTPUTS,
+    RECORD,
+    SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
     Numbers,
@@ -68,7 +70,7 @@ UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS
 
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
 
-Region = tuple[slice, ...]
+Slices = tuple[slice, ...]
 
 
 class StillDirectionError(FieldError):
@@ -114,8 +116,7 @@ class Grid:
         ValueError
             naming the field or output, what stands there and what is allowed.
         """
-        if not isinstance(scene, Scene):
-            raise checks.refuse("scene", scene, "a Scene")
+        checks.instance("scene", scene, Scene)
         if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
             raise checks.refuse("over", _short(over), f"1 to {MOST_AXES} fields with their values")
         axes = tuple(_axis(name, values) for name, values in over.items())
@@ -161,11 +162,15 @@ class Grid:
 
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
+        if OUTPUTS[output].per_sample:
+            return (*self.dims, SAMPLE)
         return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
 
     def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
         """Shape of an output over the grid, or over a region of this shape."""
         part = tuple(self.shape if shape is None else shape)
+        if OUTPUTS[output].per_sample:
+            return (*part, len(self.settings.record_time))
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def values_at(self, index: Sequence[int]) -> dict[str, Any]:
@@ -189,7 +194,7 @@ class Grid:
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
             seconds = sum(table[need] for need in self.needs)
-            if len(self.dofs) > 2 and set(self.needs) & {MOTION, ORBIT, MASS}:
+            if len(self.dofs) > 2 and set(self.needs) & {MOTION, ORBIT, MASS, RECORD}:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
         left = max(scenes, 1)
@@ -210,14 +215,14 @@ class Grid:
         """Number of regions of this shape along each axis; those at the ends may be smaller."""
         return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
 
-    def region(self, shape: Sequence[int], index: Sequence[int]) -> Region:
+    def region(self, shape: Sequence[int], index: Sequence[int]) -> Slices:
         """The slices of one region."""
         return tuple(
             slice(i * part, min((i + 1) * part, n))
             for i, part, n in zip(index, shape, self.shape, strict=True)
         )
 
-    def part(self, region: Region) -> Grid:
+    def part(self, region: Slices) -> Grid:
         """The grid of one region, which knows as much of the whole as it takes to compute it."""
         axes = tuple(
             Axis(axis.name, axis.values[piece])
@@ -312,7 +317,7 @@ class Grid:
     def _try(self, index: Sequence[int]) -> None:
         """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
         scene = self.scene_at(index)
-        if set(self.needs) & {MODES, MOTION, ORBIT, MASS}:
+        if set(self.needs) & {MODES, MOTION, ORBIT, MASS, RECORD}:
             dofs = scene.active_dofs
             scene.support.stiffness(dofs)
             if self.needs != (MODES,):
@@ -321,7 +326,7 @@ class Grid:
                 scene.support.inertia(body, dofs)
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
-        if set(self.needs) & {MOTION, ORBIT, MASS} and scene.shaft_speed == 0.0:
+        if set(self.needs) & {MOTION, ORBIT, MASS, RECORD} and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
     # ---------------------------------------------------------------------------- in words
@@ -379,7 +384,7 @@ def _axis(name: object, given: Any) -> Axis:
     else:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
             raise checks.refuse(f"values of {name}", _short(given), allowed)
-        array = np.array([checks.number(f"value of {name}", value) for value in values])
+        array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
             array = np.array(
                 [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]

@@ -1,6 +1,7 @@
 """Outputs of a sweep: names, units, and the computation of each.
 
-Every output is one number a scene, but for the band edges, which have one for each mode.
+Every output is one number a scene, but for the band edges, which have one for each mode, and for
+records, which have one for each sample.
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
-from bearingcore.dynamics.speed_run import SETTLING
+from bearingcore.dynamics.record import simulated_record
+from bearingcore.dynamics.speed_run import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.signals.recording import DIRECTIONS
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,
@@ -50,8 +53,10 @@ from bearingcore.sweep.status import (
 Array = NDArray[np.float64]
 
 STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
+RECORD = "record"
 
 SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 5e-4, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
+SECONDS[RECORD] = 0.1
 """Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
 a task. Five directions cost about ten times as much, but for statics, modes and life; with a
 defect of the inner race statics and modes take thirty times as long, life fifteen times."""
@@ -64,6 +69,9 @@ _STATIC_CODES = np.array([OF_STATICS[code].code for code in sorted(OF_STATICS)],
 
 MODE = "mode"
 """Name of the dimension of the band edges."""
+
+SAMPLE = "sample"
+"""Name of the dimension of records; its coordinate is the time [s]."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +89,8 @@ class Output:
         which computation: "statics", "life", "modes", "motion" or "orbit".
     dof
         the direction that must be free for it; empty where none.
-    per_mode
-        True where there is one number for each mode.
+    per_mode, per_sample
+        True where there is one number for each mode, or each sample of a record.
     """
 
     unit: str
@@ -92,6 +100,7 @@ class Output:
     needs: str
     dof: str = ""
     per_mode: bool = False
+    per_sample: bool = False
 
 
 def mode_symbol(label: str) -> str:
@@ -172,6 +181,17 @@ def _table() -> dict[str, Output]:
                 MOTION,
                 dof,
             )
+    for dof in DIRECTIONS:
+        table[f"record_{dof}"] = Output(
+            "m/s²",
+            f"record of a sensor along {dof}: the settled motion of the housing behind a path, with"
+            " a cage that wanders, tones of the shaft and noise, all drawn by the scene itself",
+            "Records",
+            f"record along {dof}",
+            RECORD,
+            dof,
+            per_sample=True,
+        )
     table["mass_share"] = Output(
         "1",
         "share of the housing's power along x and y in the settings' band that the balls' mass "
@@ -205,6 +225,8 @@ _EXAMPLES = (
 def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
     """Names of outputs, `*` and `?` standing for any letters, in the order of OUTPUTS.
 
+    Records, which are long, are only those of a pattern that begins with "record".
+
     Raises
     ------
     ValueError
@@ -213,7 +235,11 @@ def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
     patterns = [names] if isinstance(names, str) else list(names)
     found: set[str] = set()
     for pattern in patterns:
-        fitting = fnmatch.filter(OUTPUTS, pattern) if isinstance(pattern, str) else []
+        fitting = [
+            name
+            for name in (fnmatch.filter(OUTPUTS, pattern) if isinstance(pattern, str) else [])
+            if not OUTPUTS[name].per_sample or pattern.startswith(RECORD)
+        ]
         if not fitting:
             raise checks.refuse("name in outputs", pattern, _EXAMPLES)
         found.update(fitting)
@@ -237,9 +263,9 @@ class Settings:
         how many in a period, ends included. With an inner-race defect a quarter as many to a ball
         spacing all around, at each place where a ball meets an edge.
     duration
-        [s] of simulated motions; their first half is left out as transient.
+        [s] of simulated motions, whose first half is left out as transient, and of records.
     sample_rate
-        [Hz] of simulated motions.
+        [Hz] of simulated motions and records.
     dynamic_load_rating
         C_r [N] that lives are computed with; None: that of each bearing by ISO 281.
     band_low, band_high
@@ -260,16 +286,23 @@ class Settings:
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
         keep("cage_angles", angles)
         for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
-            value = checks.number(name, getattr(self, name), above=0.0, at_most=most, unit=unit)
+            value = checks.real_number(
+                name, getattr(self, name), above=0.0, at_most=most, unit=unit
+            )
             keep(name, value)
-        keep("band_low", checks.number("band_low", self.band_low, above=0.0, unit="Hz"))
-        band_high = checks.number("band_high", self.band_high, above=self.band_low, unit="Hz")
+        keep("band_low", checks.real_number("band_low", self.band_low, above=0.0, unit="Hz"))
+        band_high = checks.real_number("band_high", self.band_high, above=self.band_low, unit="Hz")
         keep("band_high", band_high)
         if self.dynamic_load_rating is not None:
-            rating = checks.number(
+            rating = checks.real_number(
                 "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
             )
             keep("dynamic_load_rating", rating)
+
+    @property
+    def record_time(self) -> Array:
+        """(n,) [s] times of the samples of a record."""
+        return np.arange(round(self.duration * self.sample_rate)) / self.sample_rate
 
 
 Numbers = dict[str, Array]
@@ -305,6 +338,8 @@ def of_scene(
             numbers |= _bands_over_all_positions(found, labels, settings.cage_angles)
         if MOTION in needs:
             ended.append(_motion(scene, settings, numbers))
+        if RECORD in needs:
+            numbers |= _record(scene, settings)
         if MASS in needs:
             if settings.band_high > PASSED * settings.sample_rate:
                 raise checks.refuse(
@@ -462,10 +497,17 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     return OF_STATICS[StaticStatus(found.status)]
 
 
+def _record(scene: Scene, settings: Settings) -> Numbers:
+    """Records (n,) along each direction."""
+    made = simulated_record(scene, None, settings.duration, settings.sample_rate)
+    pairs = zip(made.directions, made.acceleration.T, strict=True)
+    return {f"record_{name}": signal for name, signal in pairs}
+
+
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
     motion = simulate(scene, settings.duration, settings.sample_rate)
-    late = motion.outer_acceleration[round(SETTLING * len(motion.time)) :]
+    late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
         numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()

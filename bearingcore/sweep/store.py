@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
 from bearingcore.sweep.grid import Grid, program_version
-from bearingcore.sweep.outputs import MODE, OUTPUTS, Numbers
+from bearingcore.sweep.outputs import MODE, OUTPUTS, SAMPLE, Numbers
 from bearingcore.sweep.status import STATUSES
 
 PROGRAM = "bearing-explorer"
@@ -59,14 +59,17 @@ def variable_attributes(name: str) -> dict[str, Any]:
 
 def coordinate_attributes(grid: Grid) -> dict[str, dict[str, Any]]:
     """Units of the axes."""
-    return {axis.name: {"units": axis.unit} if axis.unit else {} for axis in grid.axes}
+    units = {axis.name: axis.unit for axis in grid.axes} | {SAMPLE: "s"}
+    return {name: {"units": unit} if unit else {} for name, unit in units.items()}
 
 
 def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
-    """Values of the axes and, where bands are asked for, labels of the modes."""
+    """Values of the axes and, where they are asked for, labels of modes and times of samples."""
     values = {axis.name: axis.values for axis in grid.axes}
     if any(OUTPUTS[name].per_mode for name in grid.outputs):
         values[MODE] = np.array(grid.labels)
+    if any(OUTPUTS[name].per_sample for name in grid.outputs):
+        values[SAMPLE] = grid.settings.record_time
     return values
 
 

@@ -15,15 +15,21 @@ NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
 def test_there_are_notebooks() -> None:
-    assert [path.stem for path in NOTEBOOKS] == ["first-steps", "rotor-in-ross", "size-of-a-defect"]
+    assert [path.stem for path in NOTEBOOKS] == [
+        "first-steps",
+        "learning",
+        "rotor-in-ross",
+        "size-of-a-defect",
+    ]
 
 
 @pytest.mark.proof
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
-    if path.stem == "rotor-in-ross":
-        pytest.importorskip("ross")
+    needed = {"rotor-in-ross": "ross", "learning": "sklearn"}.get(path.stem)
+    if needed is not None:
+        pytest.importorskip(needed)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert not any(cell.outputs or cell.execution_count for cell in code), "kept with outputs"
     NotebookClient(notebook, timeout=600, kernel_name="python3").execute()

@@ -27,7 +27,7 @@ from playwright.sync_api import Locator, Page, sync_playwright
 
 from tests.benchmarks.machine import pace
 from tests.benchmarks.processor import worked_by_kind
-from tests.browser.helpers import chromium, explorer_server, serving, unfold
+from tests.browser.helpers import choose_tab, chromium, explorer_server, serving, unfold
 
 STATIC, MOVING = 50.0, 100.0
 """Targets of a step's median [ms]: static views and traces, and what shows motion."""
@@ -57,7 +57,7 @@ CASES = (
     Case("modes", "extent_deg"),
     Case("vibration", "extent_deg", MOVING),
     Case("vibration", "fy_n", MOVING),
-    Case("orbits", "extent_deg", MOVING),
+    Case("over-speed", "extent_deg", MOVING),
     Case("accuracy", "extent_deg"),
     Case("bearing", "ball_diameter_mm"),
     Case("model", "inner_mass", MOVING),
@@ -160,7 +160,7 @@ def drag(page: Page, slider: Locator, seconds: float, server: int) -> Drag:
 
 def measure(page: Page, case: Case, server: int) -> str:
     """The line of one case."""
-    page.locator(f".tab-{case.tab}").click()
+    choose_tab(page, case.tab)
     page.wait_for_function(f"window.__tab == '{case.tab}'", timeout=120_000)
     page.wait_for_timeout(1000)
     unfold(page)  # every slider is to be seen

@@ -34,9 +34,9 @@ import pandas as pd
 from bearingcore import Scene, contact_damping, measure_extent, presets, simulate
 from bearingcore.diagnosis.size.answer import AT_MOST
 from bearingcore.diagnosis.size.sizing import size_defect
+from bearingcore.dynamics.record import PathEffects, drawn_resonances, simulated_record
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.machine import pace
-from tests.helpers.path_effects import PathEffects, drawn_resonances, recorded_through
 
 RIG = presets["fan-rig"]
 SPACING = RIG.bearing.ball_spacing
@@ -218,7 +218,7 @@ def passages(family: int, number: int) -> list[Answer]:
     truth = scene.defects[0].extent
     begin = time.perf_counter()
     found = measure_extent(
-        recorded_through(scene, PathEffects(resonances=drawn_resonances(rng)), seed=number),
+        simulated_record(scene, PathEffects(resonances=drawn_resonances(rng)), seed=number),
         scene.bearing,
         scene.shaft_speed,
         race=scene.defects[0].race,

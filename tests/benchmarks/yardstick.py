@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import DOF_NAMES, Scene
+from bearingcore import DOF_NAMES, Scene, equilibrium
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import static_start
 from bearingcore.scene.packing import body_numbers
 
@@ -116,7 +117,7 @@ class CStatics:
 
 def start_state(scene: Scene) -> Array:
     """Rest at the static state of cage angle 0, as `simulate` starts, in the order of the C."""
-    state = static_start(scene, scene.active_dofs)
+    state = static_start(packed_motion(scene), equilibrium(scene, [0.0]))
     assert state is not None
     return np.concatenate(state.reshape(4, -1)[[0, 2, 1, 3]])
 

@@ -240,19 +240,25 @@ def holding(
 
 
 def unfold(page: Page) -> None:
-    """Unfold the controls behind "More", where they are folded."""
+    """Unfold the controls behind "All settings", where they are folded."""
     more = page.locator("aside .more[aria-expanded=false]")
     if more.is_visible():
         more.click()
 
 
 def choose_tab(page: Page, name: str) -> None:
-    """Ask for a tab in whichever way the screen offers: a list where it is narrow."""
-    tab = page.locator(f".tab-{name}")
-    if tab.is_visible():
-        tab.click()
+    """Ask for a tab or a part of one, as the screen offers it: in a list where it is narrow."""
+    page.locator(".tabs select").wait_for(state="attached")
+    narrow, part = page.get_by_role("combobox", name="Views"), page.locator(f".part-{name}")
+    if narrow.is_visible():
+        narrow.select_option(name)
+    elif part.count():
+        if not part.is_visible():  # parts are behind the tabs while theirs is open
+            title = part.evaluate("part => part.parentElement.getAttribute('aria-label')")
+            page.get_by_role("tab", name=title, exact=True).click()
+        part.click()
     else:
-        page.get_by_role("combobox", name="Views").select_option(name)
+        page.locator(f".tab-{name}").click()
 
 
 def slug(text: str) -> str:

@@ -22,7 +22,8 @@ from tests.browser.explorer_page import (
 )
 from tests.browser.helpers import Server
 
-NAMES = [section.name for section in SECTIONS]
+NAMES = list({one.tab or one.title: one.name for one in reversed(SECTIONS)}.values())[::-1]
+"""Of the tabs, each by that of its first part."""
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
 PHONE: ViewportSize = {"width": 390, "height": 844}
@@ -125,9 +126,9 @@ def silent_figures(page: Page) -> list[str]:
 def fits(page: Page) -> None:
     """Figures take their time to follow a change of the screen, and then all fits."""
     end = time.monotonic() + 120.0
-    while sideways(page) and time.monotonic() < end:
+    while odd := sideways(page):
+        assert time.monotonic() < end, odd
         page.wait_for_timeout(50)
-    assert sideways(page) == []
 
 
 def sideways(page: Page) -> list[str]:
@@ -321,7 +322,9 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     details = page.locator("footer .status").get_by_role("button", name="Details")
     listed = status(page).locator(".list")
     expect(listed).to_be_hidden()
-    expect(page.locator("footer .status strong[role=status]")).to_have_text("Converged")
+    expect(page.locator("footer .status strong[role=status]")).to_have_text(
+        "Computed without problems"
+    )
     details.press("Enter")
     expect(listed).to_contain_text("residual at most")
     page.keyboard.press("Escape")

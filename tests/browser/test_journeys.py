@@ -25,7 +25,7 @@ from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
 
 FAN = presets["fan-rig"]
-_LINKS = ROOT / "tests" / "bearing_explorer" / "state" / "frozen_links.toml"
+_LINKS = ROOT / "tests" / "bearing_explorer" / "explorer" / "state" / "frozen_links.toml"
 _NOTHING = re.compile("could not be computed|Traceback|undefined|\\bNaN\\b")
 
 
@@ -83,27 +83,25 @@ def _outer_race(scene: Scene) -> str:
     return f"{scene.bearing.bpfo(scene.shaft_speed):.2f} Hz"
 
 
-#: of each tab: cards, figures at least, a number of the core or words that it says, and what moves
-#: it
+#: of each tab and part: cards, figures at least, a number of the core or words that it says, and
+#: what moves it
 TABS = {
     "Overview": (4, 3, _frequency, "Extent"),
     "Load": (3, 3, _most_loaded, "Extent"),
-    "Life": (1, 0, None, None),
-    "Stiffness": (1, 1, _stiffest, "Extent"),
-    "Maps": (1, 1, _now_stiff, "Extent"),
-    "Explore": (1, 4, None, "Depth"),
+    "Stiffness: Curves": (1, 1, _stiffest, "Extent"),
+    "Stiffness: Maps": (1, 1, _now_stiff, "Extent"),
     "Frequencies": (1, 1, _frequency, "Extent"),
-    "Vibration": (3, 2, _outer_race, "Extent"),
-    "Ball mass": (3, 2, None, "Extent"),
-    "Orbits": (2, 1, None, "Extent"),
-    "Speed run": (1, 1, None, None),
-    "Bearing": (1, 0, _outer_race, None),
-    "Model": (2, 0, None, None),
+    "Vibration": (5, 4, _outer_race, "Extent"),
+    "Machine: Bearing": (1, 0, _outer_race, None),
+    "Machine: Rotor and support": (2, 0, None, None),
+    "Machine: Life": (1, 0, None, None),
     "Diagnosis": (2, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 10, None, None),
-    "Paper": (1, 3, None, None),
+    "More: Explore": (1, 4, None, "Depth"),
+    "More: Over speed": (3, 2, None, "Extent"),
+    "More: Paper": (1, 3, None, None),
 }
-LONG = ("Explore", "Orbits", "Speed run", "Diagnosis", "Accuracy", "Paper")
+LONG = ("More: Explore", "More: Over speed", "Diagnosis", "Accuracy", "More: Paper")
 IN_DARK = list(TABS)[6:]
 """Tabs that are looked at in dark colours; `test_theme.py` has every colour in both."""
 
@@ -122,8 +120,18 @@ def walk(browser: BrowserContext, explorer: Server) -> Iterator[tuple[Visitor, W
 
 
 def test_the_tabs_are_those_that_there_have_been(walk: tuple[Visitor, Watch]) -> None:
-    names = walk[0].page.get_by_role("tab").all_inner_texts()
-    assert [name.strip() for name in names] == list(TABS)
+    places = (
+        walk[0]
+        .page.locator("nav .parts")
+        .evaluate_all(
+            """all => all.flatMap((box) => {
+             const tab = box.getAttribute("aria-label")
+             const parts = [...box.children].map((part) => `${tab}: ${part.textContent}`)
+             return parts.length ? parts : [tab]
+           })"""
+        )
+    )
+    assert places == list(TABS)
 
 
 @pytest.mark.parametrize(
@@ -195,7 +203,7 @@ def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "load")
     visitor.sees_change(lambda: visitor.find_bearing("NU 208, cylindrical rollers"))
     visitor.reads(re.compile(re.escape(_most_loaded(presets["nu208"]))))
-    for tab in ("Life", "Stiffness", "Ball mass", "Bearing", "Model"):
+    for tab in ("Stiffness: Curves", "Vibration", *(tab for tab in TABS if "Machine" in tab)):
         visitor.go_to(tab)
         assert "blank" not in visitor.figures(), tab
         assert not _NOTHING.search(" ".join(visitor.sentences())), tab
@@ -226,9 +234,9 @@ def test_dimensions_wait_for_each_other_and_a_crossed_limit_is_said(visitor: Vis
 @pytest.mark.proof
 def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
     visitor.open()
-    for tab in ("Maps", "Vibration", "Maps", "Vibration"):
+    for tab in ("Load", "Vibration", "Load", "Vibration"):
         visitor.page.get_by_role("tab", name=tab, exact=True).click()
-    for tab in ("Vibration", "Maps"):
+    for tab in ("Vibration", "Load"):
         visitor.go_to(tab)
         cards, figures, *_ = TABS[tab]
         visitor.wait(lambda figures=figures: len(visitor.figures()) >= figures)  # type: ignore[misc]
@@ -295,7 +303,7 @@ def test_the_bearing_turns_and_stops(desk: Visitor) -> None:
 
 
 def test_life_is_computed_from_what_is_known_of_oil_and_rating(desk: Visitor) -> None:
-    desk.begin("Life")
+    desk.begin("Machine: Life")
     desk.reads(re.compile("GPa"))
     desk.main.get_by_label("Dynamic load rating of the catalogue").fill("14")
     desk.page.keyboard.press("Enter")
@@ -349,12 +357,14 @@ def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(desk: Vis
 
 
 def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
-    desk.begin("Ball mass")
+    desk.begin("Vibration")
+    desk.press("Show: A ball with mass passes the defect")
     desk.reads(re.compile("strikes the outer race after"))
     sentence = " ".join(desk.sentences())
     strikes = re.findall(r"the (inner|outer) race after ([\d.]+) ms with ([\d.]+) N", sentence)
     assert {race for race, *_ in strikes} >= {"outer"}
-    _, text = desk.download(lambda: desk.export("CSV"))
+    card = desk.headings().index("A ball with mass passes the defect")
+    _, text = desk.download(lambda: desk.export("CSV", card))
     table = np.genfromtxt(io.StringIO(text.decode()), delimiter=",", names=True)
     for race, after, load in strikes:
         apart = table["time_s"] - 1e-3 * float(after)
@@ -367,19 +377,19 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 
 @pytest.mark.proof
 def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
-    desk.begin("Orbits")
+    desk.begin("More: Over speed")
     desk.reads(re.compile("Stable orbit"))
     desk.type("Shaft speed", "30")
     desk.reads(re.compile("Unstable"))
     desk.press("Undo")
-    desk.choose("Points", "13 × 13")
+    desk.choose("Fineness", "13 × 13")
     desk.press("Compute the map")
     desk.reads(re.compile("13 × 13 points after"))
     desk.steady()
     assert len(desk.figures()) >= 2
-    desk.choose("Points", "97 × 97")
+    desk.choose("Fineness", "97 × 97")
     desk.press("Compute the map")
-    cancel = desk.main.get_by_role("button", name="Cancel")
+    cancel = desk.main.get_by_role("button", name="Cancel").last
     expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
     desk.reads(re.compile("Cancelled"))
@@ -388,7 +398,7 @@ def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
 
 @pytest.mark.proof
 def test_a_run_up_is_drawn(desk: Visitor) -> None:
-    desk.begin("Speed run")
+    desk.begin("More: Over speed")
     desk.choose("Speeds", "25")
     desk.press("Run up")
     desk.reads(re.compile("25 speeds after"))
@@ -422,7 +432,7 @@ def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visi
 
 
 def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
-    desk.begin("Model")
+    desk.begin("Machine: Rotor and support")
     desk.type("Mass of the rotor", "4")
     desk.reads(re.compile("rotor of 4 kg"))
     desk.choose("Contact law", "Without tension")
@@ -597,7 +607,7 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: 
     answer = visitor.main.get_by_text(re.compile(r"\b39\sN"))
     expect(answer).to_be_attached()  # computed, and behind the veil
     expect(answer).to_be_hidden()
-    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    visitor.is_at("Load")
     lesson.get_by_role("button", name="500 N").click()
     expect(visitor.box("Force, up")).to_have_value("−500")
     lesson.get_by_role("textbox").fill("7")
@@ -687,7 +697,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     visitor.page.keyboard.press("Escape")
     visitor.type("Extent", "30")
     names = "12.9°, 50 µm, long"
-    for tab in ("Load", "Stiffness", "Frequencies", "Orbits", "Vibration"):
+    for tab in ("Load", "Stiffness", "Frequencies", "More: Over speed", "Vibration"):
         visitor.go_to(tab)
         visitor.wait(lambda: names in _keys(visitor))
     other = visitor.page.context.new_page()
@@ -716,7 +726,7 @@ def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor) -> Non
     visitor.reads(re.compile("^Errors in the paper"))
     assert visitor.number("Extent") == 70.0
     visitor.press(re.compile("^Open it on the tab Stiffness"))
-    expect(visitor.page.get_by_role("tab", name="Stiffness", selected=True)).to_be_visible()
+    visitor.is_at("Stiffness: Curves")
     visitor.wait(lambda: _keys(visitor) == ["5°, 50 µm, 40°, 50 µm"])
 
 
@@ -731,6 +741,23 @@ def _keys(visitor: Visitor) -> list[str]:
     return found
 
 
+def test_back_and_a_tab_lead_to_the_part_that_was_open(desk: Visitor) -> None:
+    desk.begin("Machine: Life")
+    desk.go_to("More: Paper")
+    desk.page.go_back()
+    desk.is_at("Machine: Life")
+    desk.steady()
+    desk.page.go_forward()
+    desk.is_at("More: Paper")
+    desk.page.get_by_role("tab", name="Machine", exact=True).click()
+    desk.is_at("Machine: Life")
+    part = desk.views.get_by_role("button", name="Bearing", exact=True)
+    part.press("Enter")
+    desk.is_at("Machine: Bearing")
+    desk.steady()
+    expect(part).to_be_focused()
+
+
 @pytest.mark.proof
 def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
     visitor.open()
@@ -738,13 +765,13 @@ def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
     visitor.type("Extent", "20")
     visitor.go_to("Stiffness")
     visitor.page.go_back()
-    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    visitor.is_at("Load")
     visitor.steady()
     assert visitor.number("Extent") == 20.0, "the scene is for Undo"
     visitor.page.go_back()
-    expect(visitor.page.get_by_role("tab", name="Overview", selected=True)).to_be_visible()
+    visitor.is_at("Overview")
     visitor.page.go_forward()
-    expect(visitor.page.get_by_role("tab", name="Load", selected=True)).to_be_visible()
+    visitor.is_at("Load")
     visitor.steady()
     lesson = visitor.page.get_by_role("region", name="Lesson")
     visitor.press("Lessons")
@@ -776,6 +803,25 @@ def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
             visitor.number("Extent") == pytest.approx(extent, rel=1e-6) for extent in extents
         )
         assert not _NOTHING.search(" ".join(visitor.sentences()))
+
+
+def test_old_links_open_the_tab_or_part_that_has_their_views_now(
+    visitor: Visitor, explorer: Server
+) -> None:
+    for former, place in {
+        "orbits": "More: Over speed",
+        "speed-run": "More: Over speed",
+        "ball-mass": "Vibration",
+        "sizing": "Diagnosis",
+        "maps": "Stiffness: Maps",
+        "life": "Machine: Life",
+        "model": "Machine: Rotor and support",
+    }.items():
+        visitor.page.goto(f"{explorer.url}{FAN_RIG}{former}")
+        visitor.is_at(place)
+        visitor.wait(lambda: any(visitor.sentences()))
+    visitor.page.reload()
+    visitor.is_at("Machine: Rotor and support")
 
 
 def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:
@@ -896,7 +942,7 @@ def test_first_visits_are_shown_in(visitor: Visitor) -> None:
     help_of_page.get_by_text("Glossary").click()
     assert help_of_page.get_by_role("row").count() > 40
     help_of_page.get_by_role("button", name=re.compile("^My machine")).click()
-    expect(visitor.page.get_by_role("tab", name="Bearing", selected=True)).to_be_visible()
+    visitor.is_at("Machine: Bearing")
     what.click()
     help_of_page.get_by_role("button", name=re.compile("^Introduction")).click()
     spacing = 360.0 / FAN.bearing.n_balls

@@ -44,6 +44,7 @@ class Visitor:
         self.page = page
         self._url = server.url
         self.main = page.get_by_role("main")
+        self.views = page.get_by_role("navigation", name="Views")
         self.scene = page.get_by_role("complementary", name="Scene")
 
     # --- getting about ----------------------------------------------------------------------------
@@ -64,11 +65,22 @@ class Visitor:
         expect(self.box("Extent")).to_have_value("12.9")
         self.go_to(tab)
 
-    def go_to(self, tab: str) -> None:
-        """Choose a tab and wait until its views are there."""
+    def go_to(self, place: str) -> None:
+        """Choose a tab, or "Tab: Part", and wait until its views are there."""
+        tab, _, part = place.partition(": ")
         self.page.get_by_role("tab", name=tab, exact=True).click()
-        expect(self.page.get_by_role("tab", name=tab, exact=True, selected=True)).to_be_visible()
+        if part:
+            self.press(part, self.views.get_by_role("group", name=tab, exact=True))
+        self.is_at(place)
         self.steady()
+
+    def is_at(self, place: str) -> None:
+        """Wait until a tab is open, or "Tab: Part"."""
+        tab, _, part = place.partition(": ")
+        expect(self.page.get_by_role("tab", name=tab, exact=True, selected=True)).to_be_visible()
+        if part:
+            parts = self.views.get_by_role("group", name=tab, exact=True)
+            expect(parts.get_by_role("button", pressed=True)).to_have_text(part)
 
     def press(self, name: str | re.Pattern[str], where: Locator | None = None) -> None:
         """Click the button of that name."""
@@ -140,6 +152,10 @@ class Visitor:
         expect(
             (where or self.main).get_by_text(words).locator("visible=true").first
         ).to_be_visible()
+
+    def headings(self) -> list[str]:
+        """Titles of the cards that are on screen."""
+        return self.main.get_by_role("heading", level=2).all_inner_texts()
 
     def sentences(self) -> list[str]:
         """What the views say about themselves."""

@@ -6,6 +6,7 @@ import io
 import random
 import time
 import wave
+import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import resources
@@ -171,13 +172,36 @@ def hdf5_files() -> list[bytes]:
     return made
 
 
+def octave_texts() -> list[str]:
+    values = "\n".join(f" {value:.5f}" for value in _signal(400))
+    head = "# Created by Octave 8.4.0\n# name: fs\n# type: scalar\n8000\n\n\n"
+    matrix = f"# name: acc\n# type: matrix\n# rows: 400\n# columns: 1\n{values}\n\n\n"
+    words = "# name: unit\n# type: string\n# elements: 1\n# length: 1\ng\n\n\n"
+    struct = "# name: s\n# type: scalar struct\n# ndims: 2\n 1 1\n# length: 2\n"
+    steps = "# name: t\n# type: double_range\n# base, limit, increment\n0 0.1 0.00025\n\n\n"
+    return [head + matrix, head + struct + matrix + words + steps]
+
+
+def packed_files() -> list[bytes]:
+    """Arrays of NumPy, and zips."""
+    arrays, one, packed = io.BytesIO(), io.BytesIO(), io.BytesIO()
+    np.savez(arrays, acc=_signal(400), fs=8000.0, unit="g")
+    np.save(one, _signal(400))
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("a.csv", csv_texts()[1])
+    return [arrays.getvalue(), one.getvalue(), packed.getvalue()]
+
+
 def broken_files() -> dict[str, Callable[[random.Random], bytes]]:
     """A file of each format, of random numbers, by the ending of its name."""
     texts, waves, matrices, trees = csv_texts(), wav_files(), matlab_files(), hdf5_files()
+    octaves, packed = octave_texts(), packed_files()
     return {
         "csv": lambda r: text_like(r, texts).encode("utf-8", "surrogatepass"),
         "wav": lambda r: bytes_like(r, waves),
         "mat": lambda r: bytes_like(r, matrices),
+        "octave": lambda r: text_like(r, octaves).encode("utf-8", "surrogatepass"),
+        "packed": lambda r: bytes_like(r, packed),
         "h5": lambda r: bytes_like(r, trees),
     }
 
@@ -225,6 +249,6 @@ def targets() -> list[Target]:
         Target("floor", lambda r: text_like(r, floors), read_floor),
         Target("bearings", lambda r: text_like(r, bearings), read_catalogue),
         Target("bearings file", lambda r: bytes_like(r, bearing_bytes), read_catalogue),
-        *(Target(name, files[name], _table) for name in ("csv", "wav", "mat")),
+        *(Target(name, files[name], _table) for name in ("csv", "wav", "mat", "octave", "packed")),
         Target("address", lambda r: text_like(r, addresses), _open_address),
     ]

@@ -73,6 +73,12 @@ def remembered(method: Callable[..., Any]) -> Callable[..., Any]:
     return recall
 
 
+def centers_apart(bearing: Bearing) -> float:
+    """A0 [m]; of straight races so far that a line of contact hardly turns, if it can at all."""
+    far = NEARLY_STRAIGHT if bearing.contact_angle else bearing.ball_diameter
+    return bearing.groove_center_distance or far
+
+
 def rows_of(bearing: Bearing) -> list[dict[str, float]]:
     """What the contacts of each row are made of, written out from its dimensions."""
     b, found = bearing, []
@@ -81,12 +87,10 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
         angle = b.contact_angle if row.contact_angle is None else row.contact_angle
         each = {
             "n": n, "angle": angle, "K": b.load_deflection_factor, "pace": 1.0,
-            "reach": b.groove_center_radius, "A0": b.groove_center_distance,
+            "reach": b.groove_center_radius, "A0": centers_apart(b),
             "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
             "slack": b.radial_clearance + row.clearance, "D": b.ball_diameter,
         }  # fmt: skip
-        if b.kind.name == "tapered":
-            each["A0"] = NEARLY_STRAIGHT
         found.append(each)
         if not row.own:
             continue
@@ -260,6 +264,8 @@ class Balls:
         load = np.where(load > faint, load, 0.0)
         push = self.contact_stiffness(load)
         turn = np.where(p > passed, load / np.maximum(np.hypot(dr, dz), Long(1e-300)), 0.0)
+        if self.scene.bearing.kind.line_contact:  # straight races do not let it turn
+            turn = np.zeros_like(turn)
         return (along.T * push) @ along + (across.T * turn) @ across
 
     def unbalanced(self, q: Array, active: list[int]) -> float:
@@ -349,7 +355,7 @@ class TwoContacts:
         bearing = self.scene.bearing
         self.phi = self.cage_angle + 2.0 * math.pi / bearing.n_balls * np.arange(bearing.n_balls)
         u = np.array([math.cos(bearing.contact_angle), math.sin(bearing.contact_angle)])
-        A_i, A_e = bearing.race_distances
+        A_i, A_e = bearing.kind.race_distances(bearing)
         drop = {"inner": np.zeros(bearing.n_balls), "outer": np.zeros(bearing.n_balls)}
         for defect in self.scene.defects:
             drop[defect.race] += defect.path(self.phi, bearing, self.cage_angle)

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, kernels
+from bearingcore.scene.packing import contacts
 from bearingcore.statics.load_capacity import descent_direction
-from tests.helpers.contact_law import Array, Balls, Long
+from tests.helpers.contact_law import Array, Balls, Long, centers_apart
 
 RESIDUAL = 1e-9
 """What every answer has to meet, relative to the load."""
@@ -41,7 +42,8 @@ def rounding_of_residual(balls: Balls, q: Array) -> float:
 def reach_of(balls: Balls, q: Array) -> float:
     """The greatest of the lengths [m] whose last digits a compression inherits."""
     bearing = balls.scene.bearing
-    size = float(np.abs(q).max()) + bearing.groove_center_distance + bearing.radial_clearance
+    length = bearing.groove_center_distance or bearing.ball_diameter
+    size = float(np.abs(q).max()) + length + abs(bearing.radial_clearance)
     deepest = max((defect.depth for defect in balls.scene.defects), default=0.0)
     on_edge = (balls.drop > 0.0) & (balls.drop < deepest) & (balls.ball_load(q) > 0.0)
     if np.any(on_edge):
@@ -82,7 +84,7 @@ def way_to_move(
     """
     load, depth = balls.ball_load(q), balls.compression(q)
     passing = balls.vector(q)[2]
-    nearly = -3.0 * reach / balls.scene.bearing.groove_center_distance
+    nearly = -3.0 * reach / centers_apart(balls.scene.bearing)
     about = (load > 0.0) & (passing > nearly) & (passing <= ABOUT_TO_PASS)
     touching = (depth > -3.0 * reach) & (load <= FAINT * np.max(load))
     along = np.vstack([balls.along_across[0][about], balls.directions(q)[0][touching]])
@@ -245,7 +247,7 @@ def _judge_free(answer: Equilibrium, i: int, balls: Balls, active: list[int]) ->
     least = np.abs(surely).max(axis=0, initial=0.0) > 1e-6
     if not named.any() or np.any(named & ~most) or np.any(least & ~named):
         return f"free are {np.flatnonzero(most)}, named are {np.flatnonzero(named)}"
-    size = min(float(balls.compression(q).max()), balls.scene.bearing.groove_center_distance)
+    size = min(float(balls.compression(q).max()), centers_apart(balls.scene.bearing))
     for dof in np.flatnonzero(named):
         if not any(
             _costs_nothing(balls, q, active, flat, int(dof), part * size) for part in REACHES
@@ -286,7 +288,10 @@ def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[i
     if np.any(np.isfinite(answer.displacement[i])) or np.any(np.isfinite(answer.stiffness[i])):
         return "a state that is not has a number"
     w, share = descent_direction(
-        balls.scene, balls.cage_angle, np.array(active), balls.load[active].astype(float)
+        contacts(balls.scene.bearing),
+        balls.cage_angle,
+        np.array(active),
+        balls.load[active].astype(float),
     )
     if share < 0.5 * RESIDUAL:
         return f"called not carried, though contacts can carry all but {share:.1e} of the load"
@@ -300,9 +305,10 @@ def _judge_not_carried(answer: Equilibrium, i: int, balls: Balls, active: list[i
     fall = share * float(np.linalg.norm(balls.load[active].astype(float)))
     if abs(float(balls.load @ way) - fall) > 1e-3 * fall + 1e-14 * float(np.abs(balls.load).max()):
         return "the load does not work along the way out as it should"
-    clearance = balls.scene.bearing.radial_clearance
+    bearing = balls.scene.bearing
+    length = bearing.groove_center_distance or bearing.ball_diameter
     # far enough out that every ball which moves back has lost touch
-    far = 1e3 * float(balls.scene.bearing.groove_center_distance + balls.drop.max() + clearance)
+    far = 1e3 * float(length + balls.drop.max() + abs(bearing.radial_clearance))
     levels = [float(balls.energy(far * k * way)) for k in (1, 2, 4, 8)]
     if not all(b - a < -0.4 * fall * far for a, b in itertools.pairwise(levels)):
         return f"energy does not fall without end: {levels}"

@@ -29,5 +29,5 @@ def read_here(
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let tables and floors be read by `read_here` during a test."""
-    for module in ("bearingcore.files.table", "bearingcore.scene.floor"):
+    for module in ("bearingcore.files.table", "bearingcore.files.floor"):
         monkeypatch.setattr(f"{module}.read_file", read_here)

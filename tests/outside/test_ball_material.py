@@ -14,6 +14,7 @@ from bearingcore.bearings.designation import read_designation
 from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.errors import FieldError
 from bearingcore.statics.life import dynamic_load_rating
+from tests.outside.witness import witness
 
 STEEL, NITRIDE = (210e9, 0.3), (310e9, 0.26)
 """E [Pa] and ν. Source: SKF general catalogue, 210 and 310 GPa; the ratios are the usual ones."""
@@ -41,6 +42,12 @@ def steel() -> Bearing:
     return Bearing.from_drawing(9, BALL, PITCH, R_I, R_O, contact_angle=0.0)
 
 
+@witness(
+    "material: *",
+    by="Johnson, Contact Mechanics, by SciPy's integrals",
+    compared="K and pressure of steel and silicon nitride",
+    within=1e-6,
+)
 @pytest.mark.parametrize("balls", ["steel", "silicon nitride"])
 def test_contacts_are_those_of_two_materials(steel: Bearing, balls: str) -> None:
     """Source: Johnson's equations 4.25 to 4.28 by SciPy's elliptic integrals."""

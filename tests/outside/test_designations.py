@@ -10,6 +10,7 @@ from bearingcore.bearings import ratings
 from bearingcore.bearings.designation import read_designation
 from bearingcore.bearings.designation_tables import boundaries
 from bearingcore.errors import FieldError
+from tests.outside.witness import witness
 
 SKF = {
     "7200 BECBP": (10, 30, 9, 7.02),
@@ -51,6 +52,13 @@ SKF_RACEWAY_MM = {"NU204": 26.5, "NU2204": 26.5, "NU304": 27.5, "NU2304": 27.5, 
 """Inner raceway of E insides [mm]. Source: the same, column FE."""
 
 
+@witness(
+    "function: read_designation",
+    "function: dynamic_load_rating",
+    by="SKF's catalogue in bd_warehouse (PyPI)",
+    compared="dimensions exact, ratings",
+    within=0.13,
+)
 @pytest.mark.parametrize("name", SKF)
 def test_dimensions_and_ratings_of_skf(name: str) -> None:
     """A reinforced inside has SKF's own rating, others that of another maker within 13 %."""
@@ -109,6 +117,12 @@ def test_a_pair_is_a_pair_with_its_clearance(
     assert play == pytest.approx(max(middle, 0.0), abs=1e-12)
 
 
+@witness(
+    "function: dynamic_load_rating",
+    by="ISO 281 and SKF's 1.62 C, 1.715 C",
+    compared="ratings of pairs",
+    within=4e-3,
+)
 def test_pairs_are_rated_by_iso_281() -> None:
     """Source: ISO 281, i^0.7 of balls, which SKF prints as 1.62 C; i^(7/9) of rollers as 1.715."""
     for name, factor in (("7208 BECBP", 1.62), ("30206", 1.715)):

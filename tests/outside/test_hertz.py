@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 from bearingcore import Bearing, catalogue, equilibrium, presets
+from tests.outside.witness import witness
 
 
 def point_contact(D: float, groove: float, across: float, side: float) -> tuple[float, float]:
@@ -40,6 +41,12 @@ def both(bearing: Bearing) -> list[tuple[float, float]]:
     return found
 
 
+@witness(
+    "ball bearing: pressure",
+    by="Hertz by SciPy's elliptic integrals (Harris, chapter 6)",
+    compared="K and pressure of 209, 218, 6205",
+    within=1e-10,
+)
 @pytest.mark.parametrize("name", ["209, Harris", "218, Harris", "6205"])
 def test_factors_and_pressures_by_elliptic_integrals(name: str) -> None:
     bearing = presets[name].bearing if name == "6205" else catalogue()[name].bearing
@@ -55,6 +62,13 @@ def test_factors_and_pressures_by_elliptic_integrals(name: str) -> None:
     assert bearing.load_deflection_factor == pytest.approx(series, rel=1e-10)
 
 
+@witness(
+    "ball bearing: statics",
+    "function: catalogue",
+    by="Jones's equation by SciPy (Harris 218, 17.8 kN)",
+    compared="contact angle and axial displacement",
+    within=1e-09,
+)
 def test_thrust_of_the_218_by_jones() -> None:
     """Harris 218, 17.8 kN: F = Z K A^1.5 sin α (cos α0/cos α − 1)^1.5, δz = A sin(α − α0)/cos α.
 

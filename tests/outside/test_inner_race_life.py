@@ -7,6 +7,7 @@ import pytest
 
 from bearingcore import life, presets
 from tests.outside.test_hertz import both
+from tests.outside.witness import witness
 
 SCENE = presets["6205"].replace(
     race="inner", extent=math.radians(8.0), depth=100e-6, edge="exact", fy=-1000.0
@@ -52,6 +53,14 @@ def tiring(damaged: bool, places: int = 64) -> tuple[float, float]:
     )
 
 
+@witness(
+    "race: inner",
+    "function: life",
+    "output: life_share_of_healthy",
+    by="brute force over every place of both races",
+    compared="Q_ei 294.76 N, Q_ee 308.19 N, share 0.92893",
+    within=2e-3,
+)
 def test_loads_and_share_by_brute_force() -> None:
     """Q_ei 294.76, Q_ee 308.19 N, 0.92893 of the healthy bearing's life."""
     found = life(SCENE, 14e3)

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from bearingcore import Bearing, Scene, equilibrium, presets
+from tests.outside.witness import witness
 
 BALLS, MANY = 1.5, 61
 """Exponent of point contact, and so many elements that sums are integrals but for 0.1 %."""
@@ -31,6 +32,13 @@ def scene_of(bearing: Bearing, dofs: tuple[str, ...], **load: float) -> Scene:
     return scene.replace(**{"fx": 0.0, "fy": 0.0, "fz": 0.0} | load)
 
 
+@witness(
+    "ball bearing: statics",
+    "roller bearing: statics",
+    by="Sjövall's integrals by SciPy's quadrature",
+    compared="displacement, greatest load of five load zones",
+    within=0.0015,
+)
 @pytest.mark.parametrize("zone", [0.1, 0.2, 0.3, 0.4, 0.49])
 @pytest.mark.parametrize("element", ["ball", "roller"])
 def test_radial_load_with_clearance(zone: float, element: str) -> None:
@@ -50,6 +58,12 @@ def test_radial_load_with_clearance(zone: float, element: str) -> None:
     assert state.ball_load.max() == pytest.approx(K * (way - clearance) ** exponent, rel=1.5e-3)
 
 
+@witness(
+    "tapered bearing: statics",
+    by="Sjövall's integrals by SciPy's quadrature",
+    compared="displacements, greatest load of eleven load zones",
+    within=0.003,
+)
 @pytest.mark.parametrize("zone", [0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.25, 1.67, 2.5, 5.0])
 def test_combined_load_at_a_fixed_angle(zone: float) -> None:
     """ε = (1 + δ_a tan α/δ_r)/2; F_r = Z Q cos α J_r, F_a = Z Q sin α J_a: tapered rollers."""

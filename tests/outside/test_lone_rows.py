@@ -38,6 +38,7 @@ from bearingcore.sweep import STATUSES, sweep
 from tests.helpers.contact_law import Balls
 from tests.helpers.judge import beyond_geometry
 from tests.helpers.random_rows import KINDS, random_scene
+from tests.outside.witness import witness
 
 CONE = presets["30206-back-to-back"].bearing.replace(rows=())
 Z, ALPHA = 17, USUAL_ANGLE
@@ -189,6 +190,14 @@ def sjovall(n: float) -> float:
     return axial / radial
 
 
+@witness(
+    "function: limits",
+    "tapered bearing: limits",
+    "ball bearing: limits",
+    by="Sjövall's integrals, F_r/(2 Y) of catalogues",
+    compared="induced thrust",
+    within=5e-3,
+)
 def test_the_axial_load_below_the_induced_one_is_said_with_the_number() -> None:
     """Sjövall: F_a = F_r tan α Ja/Jr at half a load zone; catalogues: F_r/(2 Y), Y = 0.4 cot α."""
     assert sjovall(10.0 / 9.0) == pytest.approx(0.3091 / 0.2453, rel=3e-3)  # Harris, Table 7.4

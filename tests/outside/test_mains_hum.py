@@ -11,6 +11,7 @@ from bearingcore import Bearing, Recording, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from tests.outside.motor_signals import INNER_ORDER, OUTER_ORDER, RATIO, TURN, Motor
+from tests.outside.witness import witness
 
 BALL = 7.94e-3
 MOTOR_BEARING = Bearing.from_drawing(
@@ -44,6 +45,12 @@ def check_pair(rpm: float, mains: float, seed: int) -> None:
         assert rpm_of(found) == pytest.approx(rpm, rel=1e-3)
 
 
+@witness(
+    "function: diagnose",
+    by="closed form signals of motors",
+    compared="part and speed",
+    within="the part right, speed to 1 %",
+)
 @pytest.mark.parametrize(("rpm", "mains"), [(2955.0, 50.0), (1478.0, 50.0), (3546.0, 60.0)])
 def test_hum_changes_neither_part_nor_speed(rpm, mains):
     check_pair(rpm, mains, 0)

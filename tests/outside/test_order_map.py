@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore.signals.spectrogram import Spectrogram, order_map
+from tests.outside.witness import witness
 
 RATE = 25_600.0
 TIME = np.arange(round(8.0 * RATE)) / RATE
@@ -18,6 +19,12 @@ def power(found: Spectrogram) -> np.ndarray:
     return np.asarray(found.density.sum(axis=1) * (found.frequency[1] - found.frequency[0]))
 
 
+@witness(
+    "signal: order_map",
+    by="closed form: mean of cos²",
+    compared="power of tones up to 0.4 of the sample rate",
+    within=0.01,
+)
 @pytest.mark.parametrize("frequency", [50.0, 1000.0, 5000.0, 10_000.0, 0.4 * RATE])
 @pytest.mark.parametrize("speeds", [(25.0, 25.0), (20.0, 30.0)])
 def test_a_tone_keeps_its_power(frequency: float, speeds: tuple[float, float]) -> None:
@@ -26,6 +33,12 @@ def test_a_tone_keeps_its_power(frequency: float, speeds: tuple[float, float]) -
     assert power(found) == pytest.approx(0.5, rel=0.01)
 
 
+@witness(
+    "signal: order_map",
+    by="closed form: a chirp",
+    compared="place of its order",
+    within=1e-3,
+)
 @pytest.mark.parametrize("order", [1.0, 3.57, 40.0, 250.0])
 def test_an_order_stays_where_it_is_in_a_run_up(order: float) -> None:
     """A chirp that turns 20 to 30 times a second has its line at its order, to 1e-3 of it."""

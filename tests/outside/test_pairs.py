@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from bearingcore import Bearing, Scene, equilibrium, presets
+from tests.outside.witness import witness
 
 Array = NDArray[np.float64]
 
@@ -62,6 +63,12 @@ def scene(way: str, **load: float) -> Scene:
     return base.replace(bearing=bearing(way), **load)
 
 
+@witness(
+    "rows bearing: stiffness",
+    by="energy in three dimensions, second differences",
+    compared="k_rxrx face to face and back to back",
+    within=1e-4,
+)
 @pytest.mark.parametrize(("way", "known"), [("face-to-face", 7_082.0), ("back-to-back", 129_927.0)])
 def test_tilt_stiffness_of_a_preloaded_pair(way: str, known: float) -> None:
     """Source: second differences of the energy above; the numbers stand in a review of 2026."""
@@ -74,6 +81,12 @@ def test_tilt_stiffness_of_a_preloaded_pair(way: str, known: float) -> None:
     assert own == pytest.approx(known, rel=1e-4)
 
 
+@witness(
+    "rows bearing: statics",
+    by="energy in three dimensions, SciPy's minimum",
+    compared="displacements in five directions",
+    within=1e-4,
+)
 @pytest.mark.parametrize("way", ["face-to-face", "back-to-back"])
 def test_displacement_of_a_loaded_pair(way: str) -> None:
     """Source: SciPy's minimum of the energy above, lengths in µm and tilts in 1e-4 rad."""

@@ -6,6 +6,7 @@ import pytest
 
 from bearingcore import Bearing, dynamic_load_rating
 from bearingcore.bearings.ratings import static_factor
+from tests.outside.witness import witness
 
 BALLS = (
     *(29.1, 35.8, 40.3, 43.8, 46.7, 49.1, 51.1, 52.8, 54.3, 55.5, 56.6, 57.5, 58.2, 58.8, 59.3),
@@ -29,6 +30,12 @@ STATIC = (
 """f_0 of ISO 76, Table 1, at 0.01, 0.02, ... 0.40 (`sfereRadiali` has 15.7 for 15.9 at 0.06)."""
 
 
+@witness(
+    "function: dynamic_load_rating",
+    by="f_c of ISO 281, 21 values",
+    compared="ratings of six balls",
+    within=2.5e-3,
+)
 def test_dynamic_ratings_of_balls() -> None:
     """C_r = 1.3 f_c Z^(2/3) D^1.8 of 6 balls of 10 mm."""
     for k, factor in enumerate(BALLS, 1):
@@ -37,6 +44,12 @@ def test_dynamic_ratings_of_balls() -> None:
         assert dynamic_load_rating(bearing) == pytest.approx(printed, rel=2.5e-3), k
 
 
+@witness(
+    "function: dynamic_load_rating",
+    by="f_c of ISO 281, nine values",
+    compared="ratings of six rollers",
+    within=2e-3,
+)
 def test_dynamic_ratings_of_rollers() -> None:
     """C_r = 1.1 f_c (l cos α)^(7/9) Z^(3/4) D^(29/27) of 6 rollers of 10 × 15 mm."""
     for k, factor in enumerate(ROLLERS, 1):

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from bearingcore import Bearing, Scene, dynamic_load_rating, life, presets
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.laminae import compressions, drops, law_of
+from tests.outside.witness import witness
 
 N_S = 30
 """Laminae, as few as the standard allows."""
@@ -95,6 +96,13 @@ def scene_of(sizes: tuple[int, float, float, float], load: float, clearance: flo
     return dataclasses.replace(scene, bearing=bearing).replace(fx=0.0, fy=-load)
 
 
+@witness(
+    "roller bearing: life",
+    "function: life",
+    by="ISO 16281 written out in the test, minzhun/ISO16281",
+    compared="L_10r of an NU 208 at three loads",
+    within=0.01,
+)
 @pytest.mark.parametrize(("sizes", "C", "load", "clearance", "printed"), PUBLIC)
 def test_life_of_a_public_program_and_of_the_standard(
     sizes: tuple[int, float, float, float], C: float, load: float, clearance: float, printed: float
@@ -123,6 +131,13 @@ def test_long_rollers() -> None:
     )
 
 
+@witness(
+    "tapered bearing: life",
+    "function: life",
+    by="ISO 16281 written out in the test",
+    compared="L_10r under thrust",
+    within=0.01,
+)
 @pytest.mark.parametrize("load", [1000.0, 5000.0, 15_000.0])
 def test_tapered_rollers_under_an_axial_load(load: float) -> None:
     """All rollers carry Q = F_a/(Z sin α), with the profile of Eq. (44): 0.00045 D ln(...)."""

@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import brentq, root
 
 from bearingcore import Bearing, Scene, equilibrium, frequency_bands, presets
+from tests.outside.witness import witness
 
 C_L = 35_948.0
 """[N/mm^2] of l^(8/9): ISO 16281, both contacts of a steel roller in series (Eq. 35), as the public
@@ -48,6 +49,12 @@ def test_six_rollers_against_statics_of_their_own(load: float, clearance: float)
     assert found == pytest.approx(expected, rel=1e-9)
 
 
+@witness(
+    "roller bearing: statics",
+    by="minzhun/ISO16281",
+    compared="displacements 3.502 and 22.6478 µm",
+    within=1e-4,
+)
 def test_displacements_of_iso_16281() -> None:
     """3.502 µm: minzhun/ISO16281 without a profile; 22.6478 µm: the same for the preset's load."""
     assert -equilibrium(below(SIX, 1000.0), [BELOW]).displacement[0, 1] == pytest.approx(
@@ -73,6 +80,12 @@ def test_both_contacts_in_series_are_c_l_and_one_is_near_palmgren() -> None:
             assert 0.5 * both == pytest.approx(3.84e-5 * Q**0.9 / length**0.8, rel=0.04)
 
 
+@witness(
+    "roller bearing: stiffness",
+    by="closed form of ROSS (Friswell and others)",
+    compared="k_yy of 8 rollers under 500 N",
+    within=0.01,
+)
 def test_stiffness_of_ross() -> None:
     """ROSS's roller case (8 rollers, 30 mm, 500 N) at α = 0: 1e9 Z^0.9 l^0.8 F^0.1 (Friswell)."""
     scene = below(Bearing.cylindrical(8, 15e-3, 30e-3, 80e-3), 500.0)
@@ -108,6 +121,13 @@ def rows_push(q: np.ndarray, rows: Sequence[tuple[float, int, float]]) -> np.nda
     return total
 
 
+@witness(
+    "tapered bearing: statics",
+    "tapered bearing: stiffness",
+    by="SciPy's root on straight races of c_L l^(8/9)",
+    compared="loads, displacements, k_xx of a pair",
+    within=1e-4,
+)
 def test_a_pair_of_tapered_rollers_against_statics_of_its_own() -> None:
     """SciPy's root on straight races of c_L l^(8/9), k_xx by differences: 1.7e9 N/m."""
     scene = presets["30206-back-to-back"].healthy()

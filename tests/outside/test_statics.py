@@ -17,6 +17,7 @@ from bearingcore import equilibrium, frequency_bands, modes, presets
 from bearingcore.dynamics.modes import contact_damping
 from bearingcore.sweep.grid import Grid
 from tests.outside.plane import Plane, damped
+from tests.outside.witness import witness
 
 SUPPORT = {"k": 212.2e6, "c": 1648.2, "m": 2.0}  # of the paper's fan rig
 
@@ -127,6 +128,19 @@ def own_state(name: str, cage: float) -> tuple[np.ndarray, np.ndarray, np.ndarra
     return q, bearing.stiffness(q, phi, drop), load, e * (load > 0.0)
 
 
+@witness(
+    "function: equilibrium",
+    "ball bearing: statics",
+    "ball bearing: stiffness",
+    "edge: published",
+    "race: outer",
+    "load: f*",
+    "load: m*",
+    "direction: *",
+    by="energy of all contacts (Eqs. 7-15) minimised by SciPy's BFGS, complex steps",
+    compared="loads, displacements, 15 stiffness terms of five scenes at four angles",
+    within=1e-06,
+)
 @pytest.mark.parametrize("name", CASES)
 def test_loads_displacements_and_15_terms(name: str) -> None:
     """Five scenes against the minimum of an energy written here: 1e-7, or 1e-6 of the stiffness."""
@@ -140,6 +154,13 @@ def test_loads_displacements_and_15_terms(name: str) -> None:
         assert np.abs((state.stiffness[i] - K) / np.where(scale > 0.0, scale, 1.0)).max() < 1e-6
 
 
+@witness(
+    "function: modes",
+    "ball bearing: natural frequencies",
+    by="eigenvalues by SciPy of K, M, C put together in the test",
+    compared="frequencies and damping ratios of three scenes",
+    within=1e-05,
+)
 @pytest.mark.parametrize("name", ["fan rig", "a large defect", "three directions"])
 def test_frequencies_and_damping_of_k_m_and_c(name: str) -> None:
     """Eigenvalues by SciPy of matrices put together here; c and the support as given."""
@@ -164,6 +185,15 @@ def test_frequencies_and_damping_of_k_m_and_c(name: str) -> None:
         np.testing.assert_allclose(found.damping_ratio[i, ours], own[1], rtol=1e-5)
 
 
+@witness(
+    "function: frequency_bands",
+    "function: contact_damping",
+    "race: outer",
+    "output: band_*",
+    by="20,001 cage angles by `plane.py`",
+    compared="ends of all bands, contact damping",
+    within=9e-05,
+)
 def test_bands_of_an_outer_race_are_those_of_very_many_angles() -> None:
     """20,001 cage angles of a ball spacing by `plane.py`, with damping of its own; 9e-5 or less.
 

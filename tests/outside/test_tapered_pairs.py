@@ -9,6 +9,7 @@ import pytest
 
 from bearingcore import Bearing, equilibrium, presets
 from bearingcore.bearings.designation import read_designation
+from tests.outside.witness import witness
 
 CENTRES_MM = {
     "30206": (27.6, 6.9),
@@ -47,6 +48,12 @@ def test_other_makers_print_nearly_the_same() -> None:
         assert own == pytest.approx(a, rel=0.07, abs=0.6), number
 
 
+@witness(
+    "tapered bearing: stiffness",
+    by="cones at a fixed angle in three dimensions",
+    compared="k_rxrx of pairs of five numbers",
+    within=0.07,
+)
 @pytest.mark.parametrize("number", CENTRES_MM)
 @pytest.mark.parametrize("way", ["DB", "DF"])
 def test_a_pair_resists_tilt_by_its_pressure_centres(number: str, way: str) -> None:

@@ -21,6 +21,7 @@ from bearingcore import (
 from bearingcore.statics.ranges import BALL_LOAD, static_ranges
 from bearingcore.sweep.grid import Grid
 from tests.outside.plane import Plane, hertz, undamped
+from tests.outside.witness import witness
 
 FAN = presets["fan-rig"].replace(race="inner")
 DEEP_GROOVE = presets["6205"].replace(
@@ -29,6 +30,13 @@ DEEP_GROOVE = presets["6205"].replace(
 TURNS, ANGLES = 80, 20_000
 
 
+@witness(
+    "race: inner",
+    "function: frequency_bands",
+    by="an independent program over 60 turns (review of 26 November 2026)",
+    compared="band of x₁",
+    within=0.002,
+)
 @pytest.mark.parametrize("center", [270.0, 0.0, 90.0, 280.0])
 def test_the_fan_rigs_band_is_that_of_many_turns(center: float) -> None:
     """An independent program over 60 turns: x₁ 298.3 to 480.3 Hz, whatever the centre."""
@@ -37,6 +45,17 @@ def test_the_fan_rigs_band_is_that_of_many_turns(center: float) -> None:
     assert high == pytest.approx(480.3, rel=2e-3)
 
 
+@witness(
+    "race: inner",
+    "edge: exact",
+    "output: band_*",
+    "output: k_xx_least",
+    "output: ball_load_greatest",
+    "output: loaded_balls_least",
+    by="an independent program over 60 turns",
+    compared="band, least stiffness, greatest load, least number of loaded balls",
+    within=0.005,
+)
 def test_a_deep_groove_bearing_over_many_turns() -> None:
     """The same: x₁ 376 to 774 Hz, k_xx 12.1 MN/m at the least, 803 N on a ball, 2 balls loaded."""
     assert frequency_bands(DEEP_GROOVE)["x1"] == pytest.approx((376.0, 774.0), rel=2e-3)
@@ -52,6 +71,14 @@ def test_a_deep_groove_bearing_over_many_turns() -> None:
     assert "load 803 N" in pressure.sentence
 
 
+@witness(
+    "race: inner",
+    "edge: published",
+    "function: frequency_bands",
+    by="80 turns at 20,000 angles by `plane.py`",
+    compared="bands, least, greatest and mean stiffness, greatest load",
+    within=0.01,
+)
 @pytest.mark.parametrize("center", [0.3, 4.0])
 def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center: float) -> None:
     """80 turns of the fan rig at 20,000 angles; its numbers are those of the paper's Table."""

@@ -9,6 +9,7 @@ import pytest
 
 from bearingcore import Recording
 from bearingcore.signals.indicators import indicators, severity_zone, velocity_rms
+from tests.outside.witness import witness
 
 RATE = 25_600.0
 
@@ -22,6 +23,15 @@ def tone(
     return level * math.sqrt(2.0) * turn * np.cos(turn * time + phase)
 
 
+@witness(
+    "indicator: velocity_rms",
+    "signal: velocity_rms",
+    "signal: severity_zone",
+    "signal: indicators",
+    by="root mean square by definition",
+    compared="velocity of a burst, its zone",
+    within=2e-3,
+)
 @pytest.mark.parametrize("begin", [0.0, 3.0, 4.0, 8.0])
 def test_a_burst_counts_alike_wherever_it_is(begin: float) -> None:
     """Root mean square by definition: sqrt(0.8·1² + 0.2·7²) = 3.256 mm/s, zone B of group 2."""
@@ -64,6 +74,12 @@ def test_noise_has_the_integral_of_its_density() -> None:
     assert float(velocity_rms(noise, RATE)) == pytest.approx(expected, rel=0.05)
 
 
+@witness(
+    "indicator: band",
+    by="ISO 10816-3",
+    compared="band of slow machines",
+    within=0.03,
+)
 @pytest.mark.parametrize(("turns", "low"), [(480.0, 2.0), (600.0, 2.0), (601.0, 10.0)])
 def test_slow_machines_are_judged_from_2_hz(turns: float, low: float) -> None:
     """ISO 10816-3: 10 to 1000 Hz; at and below 600 turns a minute from 2 Hz."""

@@ -176,6 +176,7 @@ def prepare(scene: dict[str, Any]) -> dict[str, Any]:
                     "drop": d,
                     "A0": A0,
                     "K": own["load_deflection_factor"],
+                    "fixed": "roller_length" in b,
                 }
             )
     names = ("fx", "fy", "fz", "mx", "my")
@@ -201,6 +202,8 @@ def push_and_stiffness(ready: dict[str, Any], q: Any) -> tuple[Any, Any, list[An
         if guarded:
             r, z = r - p * ca, z - p * sa
         A = mp.hypot(r, z)
+        if contact["fixed"]:  # a roller between straight races: no displacement turns its line
+            A, r, z = p, p * ca, p * sa
         delta = A - A0
         Q = contact["K"] * max(delta, mpf(0)) ** n
         each.append((Q, mp.atan2(z, r), delta, guarded))
@@ -213,6 +216,8 @@ def push_and_stiffness(ready: dict[str, Any], q: Any) -> tuple[Any, Any, list[An
             v = mp.zeros(5, 1)
         else:
             w, v = G_r * e_r + G_z * e_z, G_z * e_r - G_r * e_z
+        if contact["fixed"]:
+            v = mp.zeros(5, 1)
         total += Q * w
         K += n * Q / delta * (w * w.T) + Q / A * (v * v.T)
     return total, K, each

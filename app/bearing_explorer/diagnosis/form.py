@@ -25,6 +25,7 @@ from bearingcore import CatalogueBearing, Recording, Table, catalogue
 from bearingcore.common.numbers import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.files.facts import Finding
+from bearingcore.files.sampling import longest_run
 from bearingcore.files.units import (
     STANDARD_GRAVITY,
     UNITS,
@@ -32,6 +33,7 @@ from bearingcore.files.units import (
     kind_of,
     level_doubt,
 )
+from bearingcore.signals.recording import FEWEST_SAMPLES
 
 SIGNAL_FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
@@ -222,10 +224,9 @@ def usable(table: Table) -> bool:
     """True where any of the columns could be a signal."""
     for index, column in enumerate(table.contents.columns):
         signal = table.columns[:, index]
-        filled = np.flatnonzero(~np.isnan(signal))
-        if column.role != "time" and filled.size:
-            signal = signal[: filled[-1] + 1]  # a shorter column ends earlier
-            if np.isfinite(signal).all() and np.ptp(signal) > 0.0:
+        if column.role != "time":
+            first, last = longest_run(np.isfinite(signal))
+            if last - first >= FEWEST_SAMPLES and np.ptp(signal[first:last]) > 0.0:
                 return True
     return False
 

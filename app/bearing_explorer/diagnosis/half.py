@@ -36,6 +36,8 @@ class DiagnosisOfSignal:
         self._scene, self._bearings = scene, bearings
         self._page: Page | None = None
 
+    kind_of_inputs = Inputs
+
     def join(self, page: Page) -> None:
         self._page = page
         self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)

@@ -173,8 +173,9 @@ def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
 
 def written(speed: Finding[float]) -> str:
     """A speed in rpm where the file gives it so, else in Hz."""
-    hertz = speed.value / (2.0 * math.pi)
-    return f"{60.0 * hertz:.6g} rpm" if speed.unit == "rpm" else f"{hertz:.6g} Hz"
+    if speed.file_unit == "rpm":
+        return f"{speed.in_file_unit:.6g} rpm"
+    return f"{speed.value / (2.0 * math.pi):.6g} Hz"
 
 
 def read_machine(

@@ -1,6 +1,6 @@
 """The measured signal of a session: an uploaded file, or a simulated measurement.
 
-Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and is
+Holds no Panel and draws nothing. A file comes in pieces, is read in a thread of its own, and
 opens a form with questions; its faults are sentences, and the signal before it stays.
 """
 
@@ -202,8 +202,8 @@ class Measurement:
         self.more: Callable[[], None] = lambda: None
         #: the files that were read
         self.series = Series()
-        #: takes a message as the controls send it
-        self.change_scene: Callable[[dict[str, Any]], None] = lambda _: None
+        #: takes a message as the controls send it; None where there are no controls
+        self.change_scene: Callable[[dict[str, Any]], None] | None = None
         self._scene_now, self._bearings = scene, bearings
         self._assign = assign
         self._draw = draw
@@ -574,7 +574,7 @@ class Measurement:
     def take_load(self) -> None:
         """Put the load of the file, downwards, into the scene."""
         load = None if self._table is None else load_of(self._table)
-        if load is not None:
+        if load is not None and self.change_scene is not None:
             self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
 
     def _summary(self, *more: str) -> str:

@@ -1,6 +1,6 @@
 """A measured signal and the same of a scene: spectra and envelopes, computed when first used.
 
-As with `compute.results`, everything that is drawn of a measurement passes through here.
+As with `results.results`, everything that is drawn of a measurement passes through here.
 """
 
 from __future__ import annotations

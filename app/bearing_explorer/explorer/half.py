@@ -66,6 +66,8 @@ class Explorer:
         assert self._page is not None, "a half is joined to its session first"
         return self._page
 
+    kind_of_inputs = Inputs
+
     def join(self, page: Page) -> None:
         self._page = page
         self._parts = SceneParts(

@@ -35,7 +35,7 @@ log = logging.getLogger(__name__)
 
 FILE = "bearing-report.html"
 _LIMIT_COLUMNS = ("name", "value", "limit", "state", "sentence")
-_STATES = {"crossed": "exceeded", "kept": "passed", "unknown": "not checked"}
+_STATES = {"crossed": "exceeded", "kept": "passed", "unknown": "cannot be checked"}
 _DEFECT_GROUP = "Defect"
 
 

@@ -23,6 +23,7 @@ from bearingcore.bearings.designation import (
     read_designation,
     series_words,
 )
+from bearingcore.bearings.nearest import nearest_known
 from bearingcore.common.numbers import number
 from bearingcore.scene.presets import preset_labels
 from bearingcore.units import read_number
@@ -115,7 +116,9 @@ def _no_match(text: str) -> str:
         except ValueError as error:
             words = words_of(error)
             return f"{words[0].upper()}{words[1:]}."
-    return f"No match. Known by number are the series {series_words()}."
+    near = nearest_known(text.upper())
+    near = f"{near[:1].upper()}{near[1:]}. " if near else ""
+    return f"No match. {near}Known by number are the series {series_words()}."
 
 
 def _designation(text: str) -> Designation | None:

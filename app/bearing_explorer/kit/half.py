@@ -57,6 +57,10 @@ class Half(Protocol):
     def join(self, page: Page) -> None:
         """Become a half of this session, once, before anything else."""
 
+    @property
+    def kind_of_inputs(self) -> type:
+        """The type of its inputs, which another half's are not."""
+
     def inputs(self) -> Inputs:
         """Inputs of the next picture."""
 

@@ -39,7 +39,7 @@ def words_of(error: ValueError) -> str:
     def amount(value: float, unit: str) -> str:
         return _amount(value, unit or si, field)
 
-    value = amount(error.value, si) if isinstance(error.value, int | float) else error.shown
+    value = amount(error.value, si) if isinstance(error.value, int | float) else error.value_text
     where = "".join(f"{part}: " for part in error.where)
     return f"{where}{name_of(error.field)} is {value}; allowed: " + error.allowed_words(
         name_of, amount

@@ -223,6 +223,8 @@ class Session:
         if self._on_screen != self._shown:
             await self._open_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
+        if not self._is_for_screen(inputs):  # asked for before the tab of the other half was opened
+            inputs = self._halves[self._on_screen].inputs()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & inputs.slow]
         quick = [view for view in views if view not in slow]
@@ -252,14 +254,19 @@ class Session:
             self.draw()
         return inputs
 
+    def _is_for_screen(self, inputs: Inputs) -> bool:
+        """Whether these are inputs of the half whose tab is on screen."""
+        return isinstance(inputs, self._halves[self._on_screen].kind_of_inputs)
+
     def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
         """A picture of the newest inputs: others may have waited for a thread too."""
-        inputs = self._loop.newest(inputs)
+        newest = self._loop.newest(inputs)
+        inputs = newest if self._is_for_screen(newest) else inputs
         return inputs, picture_of(inputs.content(), views, self._limits_due(inputs))
 
     def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
         """Views that are finer at rest, with the limits; None where all is drawn finely already."""
-        if inputs.rested:
+        if inputs.rested or not self._is_for_screen(inputs):
             return None
         fine, drawn = inputs.at_rest().content(give_up), inputs.content()
         on_screen = self._views[self._on_screen]

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
 from bearingcore.diagnosis.extent.release import plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
@@ -79,6 +80,7 @@ _SENTENCES = {
 }
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class MeasuredExtent:
     """The extent of a spall, measured from entry to exit.
@@ -193,7 +195,7 @@ class MeasuredExtent:
 
 def measure_extent(
     recording: Recording,
-    bearing: Bearing,
+    bearing: BearingLike,
     shaft_speed: float | tuple[float, float] | None,
     *,
     race: str | None = None,
@@ -236,12 +238,14 @@ def measure_extent(
     ValueError
         for a race, load, clearance or speed that cannot be, and for rows that are not alike.
     """
+    checks.instance("recording", recording, Recording)
+    bearing = bearing_of(bearing)
     if race is not None:
         checks.choice("race", race, RACES)
     if load is not None:
-        load = checks.number("load", load, above=0.0, unit="N")
+        load = checks.real_number("load", load, above=0.0, unit="N")
     if clearance is not None:
-        clearance = checks.number("clearance", clearance, at_least=0.0, unit="m")
+        clearance = checks.real_number("clearance", clearance, at_least=0.0, unit="m")
     if race is None or not isinstance(shaft_speed, int | float):
         found = diagnosis or diagnose(recording, bearing, shaft_speed)
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
@@ -251,7 +255,7 @@ def measure_extent(
         nominal = found.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
-        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
+        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
         nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
         slip = SLIP
     # a pass of envelopes is averaged from its own frequency on

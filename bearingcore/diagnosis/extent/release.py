@@ -30,7 +30,7 @@ from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.life import dynamic_load_rating
 
-PLACES = 241
+RELEASE_PLACES = 241
 """Ball positions across the spall at which the load is computed."""
 
 TYPICAL_LOAD, LOAD_SPREAD = 0.007, 1.0
@@ -114,12 +114,12 @@ def release_offset(
     spall = Defect(extent, 0.4 * bearing.ball_diameter, under, race, edge)
     turn = spall.turn_ratio(bearing)
     spall = dataclasses.replace(spall, center=under * (1.0 - turn))
-    place = np.linspace(-0.5 * extent, 0.5 * extent, PLACES)  # of the ball, from the middle
+    place = np.linspace(-0.5 * extent, 0.5 * extent, RELEASE_PLACES)  # of the ball, from the middle
     scene = Scene(bearing, spall, Load(fy=-load), 0.0, FAN_RIG_SUPPORT, dofs=("x", "y"))
     state = equilibrium(scene, under + place / (1.0 - turn))
     compression = np.asarray(state.ball_load[:, 0]) ** (2.0 / 3.0)  # falls straight to 0
     free = np.flatnonzero(compression <= 0.0)
-    if free.size < 2 or free[0] < 2 or free[-1] > PLACES - 3:
+    if free.size < 2 or free[0] < 2 or free[-1] > RELEASE_PLACES - 3:
         return math.nan
     released = _falls_to_zero(place, compression, int(free[0]) - 1, -1)
     pressed = _falls_to_zero(place, compression, int(free[-1]) + 1, 1)

@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
@@ -44,8 +45,8 @@ one core, and some gigabytes."""
 
 def diagnose(
     recording: Recording,
-    bearing: Bearing | None,
-    shaft_speed: float | tuple[float, float] | None,
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = 0.02,
     most_samples: int = MOST_SAMPLES,
@@ -59,8 +60,8 @@ def diagnose(
     recording
         acceleration of the housing, one direction or two.
     bearing
-        its geometry; only balls, diameters and contact angle count. None if it is unknown: then no
-        part is named, and the status says so.
+        its geometry, or its designation; only balls, diameters and contact angle count. None if it
+        is unknown: then no part is named, and the status says so.
     shaft_speed
         [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
         of the recording is taken if it carries one, else it is looked for between 300 and 6000
@@ -79,6 +80,8 @@ def diagnose(
     ValueError
         for a speed, slip or source that cannot be, and for rows that are not alike.
     """
+    checks.instance("recording", recording, Recording)
+    bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
     found = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
@@ -93,7 +96,7 @@ def _diagnose(
     most_samples: int,
     speed_source: str,
 ) -> Diagnosis:
-    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed, speed_source)
     most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
     if recording.acceleration.size > most:
@@ -120,11 +123,11 @@ def _speeds(
     if shaft_speed is None:
         given = getattr(recording, "shaft_speed", None)
         if given is not None:
-            speed = checks.number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+            speed = checks.real_number("shaft_speed", given, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:
-        speed = checks.number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
+        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said
     try:
         first, last = shaft_speed  # type: ignore[misc]
@@ -132,8 +135,8 @@ def _speeds(
         raise checks.refuse(
             "shaft_speed", shaft_speed, "a number [rad/s], a pair of them, or None"
         ) from None
-    first = checks.number("lower shaft_speed", first, above=0.0, unit="rad/s")
-    last = checks.number("upper shaft_speed", last, at_least=first, unit="rad/s")
+    first = checks.real_number("lower shaft_speed", first, above=0.0, unit="rad/s")
+    last = checks.real_number("upper shaft_speed", last, at_least=first, unit="rad/s")
     return first / turn, last / turn, "looked for"
 
 

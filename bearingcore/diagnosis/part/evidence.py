@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.numbers import number
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.signals.filter_bank import Band
@@ -141,6 +141,7 @@ class EnvelopeLines:
     direction: str
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Diagnosis:
     """Diagnosis of the damaged part of a bearing.

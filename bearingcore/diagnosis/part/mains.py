@@ -16,7 +16,7 @@ from bearingcore.signals.line_levels import LineLevels
 MAINS = (50.0, 60.0)
 """[Hz]"""
 
-DEVIATION = 0.002
+MAINS_DEVIATION = 0.002
 """By how much the mains' frequency may be off while a signal lasts, as a fraction. Large grids stay
 within half of that but for minutes (standard range 50 mHz of 50 Hz, EU 2017/1485); a recorder's
 clock adds to it."""
@@ -31,10 +31,12 @@ def mains_lines(levels: LineLevels, mains: float, resolution: float) -> NDArray[
     hidden = np.zeros(len(levels.level), dtype=bool)
     at = levels.step * np.arange(len(hidden))
     for middle in np.arange(mains, at[-1] + mains, mains).tolist():
-        reach = 1.5 * resolution + DEVIATION * middle
+        reach = 1.5 * resolution + MAINS_DEVIATION * middle
         first, last = np.searchsorted(at, (middle - reach, middle + reach)).tolist()
         height = 10.0 ** (0.05 * float(levels.level[first:last].max(initial=0.0)))
-        reach = DEVIATION * middle + resolution * max(1.5, 0.5 + (height / math.pi) ** (1.0 / 3.0))
+        reach = MAINS_DEVIATION * middle + resolution * max(
+            1.5, 0.5 + (height / math.pi) ** (1.0 / 3.0)
+        )
         first, last = np.searchsorted(at, (middle - reach, middle + reach)).tolist()
         hidden[first:last] = True
     return hidden

@@ -24,14 +24,14 @@ from bearingcore.diagnosis.part.search import RARE
 from bearingcore.signals.filter_bank import LOWEST, Band, squared_envelopes, thinned
 from bearingcore.signals.line_levels import LineLevels, line_levels
 
-TURNS = 240.0
+SEGMENT_TURNS = 240.0
 """Of the shaft in a spectrum's segment."""
 
-WHITENING = 3.0
+SHAFT_WHITENING = 3.0
 """Turns of the shaft a second over which a signal is whitened before its envelope is taken: tones
 of the mains would beat with those of the shaft, at lines beside the shaft's."""
 
-LOUDEST = 80.0
+GREATEST_SHAFT_LEVEL = 80.0
 """[dB] to which a line's level is cut."""
 
 SUBMULTIPLES = (5, 4, 3, 2)
@@ -85,7 +85,7 @@ def shaft_lines(
     columns
         signals (n,), one a direction.
     """
-    segment, top = TURNS / low, (2 * HARMONICS + 1) * high
+    segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
     for values, rate in _series(columns, sample_rate, low, top):
         levels = line_levels(values, rate, segment, top, 2.0 * low)
@@ -117,7 +117,9 @@ def _series(
     full = [Band(LOWEST, 0.5 * sample_rate)]
     for samples in columns:
         yield thinned(samples - samples.mean(), sample_rate, top)
-        for envelope in squared_envelopes(samples, sample_rate, full, top, None, WHITENING * low):
+        for envelope in squared_envelopes(
+            samples, sample_rate, full, top, None, SHAFT_WHITENING * low
+        ):
             yield envelope.values, envelope.rate
 
 
@@ -148,7 +150,9 @@ def _excess(
 
 def _lines(levels: LineLevels, frequency: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     """Levels (count, n) [dB] of the lines of combs."""
-    return lines_at(np.clip(levels.level, FAINTEST, LOUDEST), levels.step, frequency, count)
+    return lines_at(
+        np.clip(levels.level, FAINTEST, GREATEST_SHAFT_LEVEL), levels.step, frequency, count
+    )
 
 
 def _at(

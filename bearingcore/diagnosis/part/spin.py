@@ -28,7 +28,7 @@ LAG, AHEAD = 0.06, 0.02
 RACE_SLIP = 0.025
 """The same of a race's line."""
 
-DEVIATION = 1.4826
+DEVIATIONS_A_MEDIAN = 1.4826
 """Standard deviations of normal numbers in a median of their distances from their median."""
 
 
@@ -135,4 +135,4 @@ def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]
     if not np.isfinite(mean).any():
         return np.asarray(mean)
     away = mean - np.nanmedian(mean)
-    return np.asarray(away / max(DEVIATION * float(np.nanmedian(np.abs(away))), 1e-9))
+    return np.asarray(away / max(DEVIATIONS_A_MEDIAN * float(np.nanmedian(np.abs(away))), 1e-9))

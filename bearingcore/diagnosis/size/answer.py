@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.table import ResultTable, table_of
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.pass_quality import PassQuality
 from bearingcore.diagnosis.size.synthesis import Band
@@ -138,6 +138,7 @@ class Candidate:
         return found[True] % (2.0 * math.pi), found[False] % (2.0 * math.pi)
 
 
+@shown_as_table
 @dataclass(frozen=True)
 class Sizing:
     """Result of sizing a defect by a signal.

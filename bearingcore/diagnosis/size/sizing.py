@@ -123,9 +123,11 @@ def size_defect(
     ValueError
         for a scene that is not fit for it, or a signal too short, too long or sampled too slowly.
     """
+    checks.instance("recording", recording, Recording)
+    checks.instance("scene", scene, Scene)
     check_samples("acceleration", recording.acceleration, most_samples)
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
-    slip = checks.number("slip", slip, at_least=0.0, at_most=0.1)
+    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     tolerances = tolerances if tolerances is not None else Tolerances()
     if fault is not None:
         checks.choice("fault", fault, (OUTER,))
@@ -236,8 +238,8 @@ def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[i
         raise checks.refuse("race", scene.defect.race, "outer: an inner-race defect turns")
     if scene.defect.floor is not None:
         raise checks.refuse("floor", "uneven", "a flat floor")
-    checks.number("depth", scene.defect.depth, above=0.0, unit="m")
-    checks.number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    checks.real_number("depth", scene.defect.depth, above=0.0, unit="m")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if not scene.bearing.rows_are_alike:
         raise ValueError(
             "rows are not alike; allowed: rows alike: else no ball pass is like the next"

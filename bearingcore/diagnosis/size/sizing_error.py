@@ -57,8 +57,8 @@ def extent_error(
     """
     if not isinstance(scene.defect, Defect):
         raise checks.refuse("defect", f"{len(scene.defect)} defects", "a single one")
-    checks.number("extent", scene.defect.extent, above=0.0, unit="rad")
-    checks.number("depth", scene.defect.depth, above=0.0, unit="m")
+    checks.real_number("extent", scene.defect.extent, above=0.0, unit="rad")
+    checks.real_number("depth", scene.defect.depth, above=0.0, unit="m")
     motion = simulate(scene, DURATION + SETTLED, SAMPLE_RATE)
     if not motion.completed:
         raise ValueError(f"there is no signal to size: {motion.reason}")

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.diagnosis.size.variants import system_variant
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import moving_system
-from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses, coefficients
 from bearingcore.statics.status import StaticStatus
@@ -143,8 +143,8 @@ class Simulator:
         self.frequency = frequency
         self._count = count
         self._columns = list(columns)
-        self._system = moving_system(scene, scene.active_dofs)
-        self._load = packing.static_load(scene, scene.active_dofs)
+        packed = packed_motion(scene)
+        self._system, self._load = moving_system(packed), packed.load
         self._n, settle, averaged = _steps(scene, frequency, count, steps_a_cycle)
         self._rows: dict[tuple[str, float], Array] = {}
         self._averaged = averaged

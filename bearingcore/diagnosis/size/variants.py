@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.dynamics.modes import contact_damping
+from bearingcore.dynamics.damping import contact_damping
 from bearingcore.scene.scene import Scene
 
 
@@ -30,7 +30,9 @@ class Tolerances:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = checks.number(field.name, getattr(self, field.name), at_least=0.0, at_most=2.0)
+            value = checks.real_number(
+                field.name, getattr(self, field.name), at_least=0.0, at_most=2.0
+            )
             object.__setattr__(self, field.name, value)
 
     @property

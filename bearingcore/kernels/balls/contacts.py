@@ -88,7 +88,7 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
     vi = row_components(work.v, INNER)
     xo = row_components(work.x, OUTER)
     vo = row_components(work.v, OUTER)
-    pace = 1.0
+    relative_speed = 1.0
     w = rotor.cage_speed
     ui = seen_from_the_cage(xi, vi, w)
     uo = seen_from_the_cage(xo, vo, w)
@@ -99,9 +99,9 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
         sj = passage.s[at, j]
         work.ball[0, j] = races.centrifugal[j] - races.weight[j] * sj
         work.ball[1, j] = 0.0
-        if contacts.pace[j] != pace:  # another row
-            pace = contacts.pace[j]
-            w = pace * rotor.cage_speed
+        if contacts.relative_speed[j] != relative_speed:  # another row
+            relative_speed = contacts.relative_speed[j]
+            w = relative_speed * rotor.cage_speed
             ui = seen_from_the_cage(xi, vi, w)
             uo = seen_from_the_cage(xo, vo, w)
         for race in range(2):

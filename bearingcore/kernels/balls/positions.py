@@ -271,10 +271,12 @@ def settle_ball(r, z, j, balls, places):
     h_rz = i_rz + e_rz
     h_zz = i_zz + e_zz
     det = h_rr * h_zz - h_rz * h_rz
-    tiny = 1e-300 + 1e-15 * (h_rr + h_zz) ** 2
-    if det < tiny:
-        h_rr += 1e-12 * (h_rr + h_zz)
-        h_zz += 1e-12 * (h_rr + h_zz)
+    trace = h_rr + h_zz
+    if det < 1e-300 + 1e-15 * trace * trace:
+        # across the line of contact, where any spring keeps the answer along it
+        h_rr += trace * i_z * i_z
+        h_rz -= trace * i_r * i_z
+        h_zz += trace * i_r * i_r
         det = h_rr * h_zz - h_rz * h_rz
     v_rr = (h_zz * i_rr - h_rz * i_rz) / det
     v_rz = (h_zz * i_rz - h_rz * i_zz) / det

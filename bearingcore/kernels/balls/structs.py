@@ -21,7 +21,7 @@ class Races(NamedTuple):
     ----------
     factor : (2, n) [N/m^exponent]
     distance : (2, n) [m]
-        A_i and A_e, whose sum is A0.
+        A_i and A_e, whose sum is A0; 0 where the line of contact is fixed.
     damping : (2, n) [N·s/m]
     mass [kg], inverse_mass [1/kg], centrifugal [N], weight [N]
     """

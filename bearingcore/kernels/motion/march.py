@@ -104,7 +104,7 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
     """
     damping = rotor.contact_damping
     tension = rotor.tension
-    pace = 1.0
+    relative_speed = 1.0
     w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
     contact = work.contact
@@ -120,9 +120,9 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
         ez = contact[i, 2]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
-        if contacts.pace[j] != pace:  # another row
-            pace = contacts.pace[j]
-            w = pace * rotor.cage_speed
+        if contacts.relative_speed[j] != relative_speed:  # another row
+            relative_speed = contacts.relative_speed[j]
+            w = relative_speed * rotor.cage_speed
             u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])

@@ -39,7 +39,7 @@ def planar_sums(x0, x1, passage, at, contacts):
 
 @inlined
 def planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts):
-    """`motion.equations_of_motion` at y + part·before (8,), all as numbers in registers.
+    """`march.equations_of_motion` at y + part·before (8,), all as numbers in registers.
 
     Written to an array and read again, that sum alone would take a seventh of the march.
     """

@@ -79,7 +79,7 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
             Sx[a, b] = 0.0
             Px[a, b] = 0.0
             Pv[a, b] = 0.0
-    pace = 1.0
+    relative_speed = 1.0
     w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
     for i in range(work.touched[0]):
@@ -92,9 +92,9 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
         bend = work.contact[i, 3]
         cj = passage.c[at, j]
         sj = passage.s[at, j]
-        if contacts.pace[j] != pace:  # another row
-            pace = contacts.pace[j]
-            w = pace * rotor.cage_speed
+        if contacts.relative_speed[j] != relative_speed:  # another row
+            relative_speed = contacts.relative_speed[j]
+            w = relative_speed * rotor.cage_speed
             u = seen_from_the_cage(work.x, work.v, w)
         r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
         directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)

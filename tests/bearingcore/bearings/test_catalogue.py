@@ -100,7 +100,7 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
             f"{HEAD};inner_groove_ratio;inner_groove_radius_mm\na;9;7;39;0.52;3.7",
             ["line 2, column inner_groove_ratio", "nothing where"],
         ),
-        (f"{HEAD};diametral_clearance_um\na;9;7;39;-3", ["clearance_um", "at least 0"]),
+        (f"{HEAD};diametral_clearance_um\na;9;7;39;-8000", ["clearance_um", "at least -0.007"]),
         (f"{HEAD};dynamic_load_rating_kn\na;9;7;39;0", ["load_rating_kn", "above 0"]),
         (f"{HEAD}\na;x;7;39\nb;9;y;39", ["line 2, column balls", "line 3, column ball_diam"]),
         (f"{HEAD}\n" + "a;x;7;39\n" * 30, ["line 2, column balls", " more"]),

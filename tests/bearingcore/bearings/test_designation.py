@@ -33,8 +33,8 @@ from bearingcore.bearings.suffix import (
     CLEARANCE_CLASSES,
     DEEP_GROOVE,
     ROLLERS,
-    SELF_ALIGNING,
-    TAPERED,
+    SELF_ALIGNING_BALLS,
+    TAPERED_ROLLERS,
 )
 from bearingcore.errors import FieldError
 from tests.benchmarks.insides import judged
@@ -79,7 +79,7 @@ def test_bore_follows_from_the_number() -> None:
         assert one.bore == pytest.approx(1e-3 * {0: 10, 1: 12, 2: 15, 3: 17}.get(code, 5 * code))
 
 
-@pytest.mark.parametrize("kind", [DEEP_GROOVE, SELF_ALIGNING, ROLLERS])
+@pytest.mark.parametrize("kind", [DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS])
 def test_clearance_classes_follow_each_other(kind: str) -> None:
     before = None
     for bore in (0.010, 0.012, 0.017, 0.020, 0.030, 0.040, 0.050, 0.065, 0.080, 0.100):
@@ -198,7 +198,7 @@ def test_designations(text: str, basic: str, angle: float, clearance_class: str)
     found = read_designation(text)
     assert (found.basic, found.clearance_class) == (basic, clearance_class)
     assert math.degrees(found.bearing.contact_angle) == pytest.approx(angle, abs=0.1)
-    if clearance_class and found.kind != SELF_ALIGNING:
+    if clearance_class and found.kind != SELF_ALIGNING_BALLS:
         least, most = clearance(found.kind, found.bore, clearance_class)
         assert found.bearing.diametral_play == pytest.approx(0.5 * (least + most))
 
@@ -291,7 +291,7 @@ def test_tapered_sizes_as_other_catalogues_print_them() -> None:
 
 
 def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
-    for basic in (name for name in boundaries() if SERIES[name[:-2]] == TAPERED):
+    for basic in (name for name in boundaries() if SERIES[name[:-2]] == TAPERED_ROLLERS):
         size, bearing = boundaries()[basic], read_designation(basic).bearing
         assert dynamic_load_rating(bearing) == pytest.approx(size.dynamic_rating, rel=1e-9)
         length, cosine = bearing.roller_length or 0.0, math.cos(bearing.contact_angle)
@@ -353,7 +353,7 @@ def test_tapered_designations(text: str, arrangement: str, centers: float) -> No
     """Pressure centres of a pair are 2 a apart back to back, 2 (T - a) face to face."""
     found = read_designation(text)
     bearing = found.bearing
-    assert (found.basic, found.kind, found.clearance_class) == ("30206", TAPERED, "")
+    assert (found.basic, found.kind, found.clearance_class) == ("30206", TAPERED_ROLLERS, "")
     assert (bearing.arrangement, bearing.kind.name) == (arrangement, "tapered")
     if bearing.rows:
         assert bearing.pressure_centers_apart == pytest.approx(centers)
@@ -376,3 +376,31 @@ def test_passing_frequencies_of_tapered_rollers_say_what_one_roller_more_does() 
     assert more.bpfo(1.0) / bearing.bpfo(1.0) - 1.0 < off
     assert bearing.frequency_spread("ftf") < 0.005
     assert more.frequency_spread("bpfo") == pytest.approx(bearing.frequency_spread("ftf"))
+
+
+@pytest.mark.parametrize(
+    ("text", "near"),
+    [
+        ("608-2RS", "the nearest known is 6000 (10 × 26 × 8 mm)"),
+        ("SKF 625", "the nearest known is 6200 (10 × 30 × 9 mm)"),
+        ("6324", "the nearest known is 6320 (100 × 215 × 47 mm)"),
+        ("71908 C", "7008 (40 × 68 × 15 mm, a heavier series of angular-contact ball bearings)"),
+        ("32008 X", "30208 (40 × 80 × 19.75 mm, another series of such rollers)"),
+        ("22210 E", "NU2210 (50 × 90 × 23 mm, cylindrical rollers of the same dimensions)"),
+        ("NU 1003", "NU1005 (25 × 47 × 12 mm)"),
+        ("UCP 205", "6205 (25 × 52 × 15 mm, the same inside in usual rings)"),
+        ("QJ 208", "7208 (40 × 80 × 18 mm, one half of its contacts)"),
+    ],
+)
+def test_what_is_not_known_is_refused_with_the_nearest(text: str, near: str) -> None:
+    with pytest.raises(FieldError, match="designation is") as refused:
+        read_designation(text)
+    assert near in str(refused.value)
+    assert read_designation(near.split("is ")[-1].split(" (")[0])
+
+
+@pytest.mark.parametrize("text", ["51105", "HK1010", "hello", "6000000"])
+def test_nothing_is_near_what_is_no_bearing_of_a_kind_that_is_known(text: str) -> None:
+    with pytest.raises(FieldError, match="allowed: a bearing of the series") as refused:
+        read_designation(text)
+    assert "nearest" not in str(refused.value)

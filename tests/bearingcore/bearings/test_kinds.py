@@ -7,7 +7,7 @@ import pytest
 
 from bearingcore import presets
 from bearingcore.bearings import KINDS
-from bearingcore.bearings.kind import kind_named
+from bearingcore.bearings.kinds import kind_named
 from bearingcore.errors import FieldError
 
 every_preset = pytest.mark.parametrize("name", list(presets))

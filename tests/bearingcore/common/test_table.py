@@ -1,15 +1,23 @@
 """Results as tables: names, units and numbers are those of the result."""
 
 import csv
+import importlib
+import inspect
 import io
 import math
+import pkgutil
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
+import bearingcore
 from bearingcore import (
     STIFFNESS_TERMS,
     equilibrium,
+    kurtogram,
+    life,
     modes,
     orbit,
     presets,
@@ -112,3 +120,88 @@ def test_words_are_no_formulas_to_a_spreadsheet(word: str) -> None:
     head, row = csv.reader(io.StringIO(text, newline=""))
     assert head == ["'" + word, "name"]
     assert row == ["-1.5", "'" + word]
+
+
+RESULTS = [
+    lambda: equilibrium(LIEW_LIM, [0.0, 0.1]),
+    lambda: modes(FAN_RIG, [0.0, 0.1]),
+    lambda: life(presets["6205"].healthy(), 14_000.0),
+    lambda: spectrum(np.random.default_rng(1).normal(size=(4096, 2)), 4096.0),
+    lambda: kurtogram(np.random.default_rng(1).normal(size=8192), 8192.0),
+]
+
+
+@pytest.mark.parametrize("make", RESULTS)
+def test_a_result_is_printed_as_its_table_in_a_notebook_too(make: Callable[[], Any]) -> None:
+    result = make()
+    table, text, page = result.table(), str(result), result._repr_html_()
+    assert text.startswith(type(result).__name__)
+    first, last = table.columns[0], table.columns[-1]
+    for column in (first, last):
+        assert column.name in text
+        assert column.name in page
+    assert "<table" in page
+    line = repr(result)
+    assert line.startswith(f"{type(result).__name__}(")
+    assert len(line) <= 120
+    assert "\n" not in line
+
+
+def test_every_result_with_a_table_is_printed_as_it() -> None:
+    names = [
+        f"{module}.{name}"
+        for module, name, thing in public_classes()
+        if "table" in vars(thing)
+        and inspect.signature(vars(thing)["table"]).return_annotation == "ResultTable"
+        and "_repr_html_" not in vars(thing)
+    ]
+    assert names == []
+
+
+def public_classes() -> Iterator[tuple[str, str, type]]:
+    for found in pkgutil.walk_packages(bearingcore.__path__, "bearingcore."):
+        if not found.name.startswith(("bearingcore.kernels", "bearingcore.files.child_program")):
+            for name, thing in vars(importlib.import_module(found.name)).items():
+                if inspect.isclass(thing) and thing.__module__ == found.name:
+                    yield found.name, name, thing
+
+
+def test_of_a_large_table_the_middle_is_left_out_and_a_frame_holds_all() -> None:
+    table = table_of(("angle", "rad", np.arange(1000.0)), ("word", "", ["none"]))
+    assert len(str(table).splitlines()) < 20
+    assert "1000 rows" in str(table)
+    frame = table.frame()
+    assert list(frame) == ["angle_rad", "word"]
+    assert len(frame) == 1000
+    assert frame["word"].isna().sum() == 999
+
+
+def test_words_in_a_table_are_no_markup() -> None:
+    assert "<script>" not in table_of(("name", "", ["<script>"]))._repr_html_()
+
+
+def test_scenes_and_bearings_are_said_in_a_line() -> None:
+    assert repr(FAN_RIG.bearing) == "<Bearing: 14 balls of 8 mm on 45 mm>"
+    assert repr(presets["nu208"].bearing) == "<Bearing: 14 rollers of 11 mm on 60.5 mm>"
+    line = repr(presets["1208"])
+    assert line.startswith("<Scene: 16 balls of 8.731 mm on 59.16 mm, 10°, 2 rows; fy = -1000; ")
+    assert line.endswith("1500 rpm; outer race damaged over 8°, 100 µm deep>")
+
+
+def test_the_stiffness_is_a_table_to_copy_at_an_angle_or_on_average() -> None:
+    state = equilibrium(LIEW_LIM, [0.0, 0.1, 0.2])
+    at = state.stiffness_table(1)
+    assert list(at["load"]) == ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]"]
+    columns = ["per_m_x", "per_m_y", "per_m_z", "per_rad_rx", "per_rad_ry"]
+    assert list(at)[1:] == columns
+    np.testing.assert_array_equal(np.stack([at[c] for c in columns], 1), state.stiffness[1])
+    mean = state.stiffness_table()
+    np.testing.assert_allclose(
+        np.stack([mean[c] for c in columns], 1), state.stiffness.mean(axis=0), rtol=1e-12, atol=1e-6
+    )
+    lines = list(csv.reader(io.StringIO(at.csv())))
+    assert (len(lines), len(lines[0])) == (6, 6)
+    loose = equilibrium(FAN_RIG.replace(fy=0.0), [0.0]).stiffness_table()
+    assert np.isnan(loose["per_m_x"]).all()
+    with pytest.raises(ValueError, match="i is 3; allowed: a whole number from 0 to 2"):
+        state.stiffness_table(3)

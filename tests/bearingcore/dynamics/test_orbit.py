@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from bearingcore import Scene, orbit, presets, simulate, spectrum
+from bearingcore import Scene, equilibrium, orbit, presets, simulate, spectrum
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import static_start
 from bearingcore.dynamics.orbit import _Shooting as Shooting
 from bearingcore.dynamics.orbit import common_ball_passes
@@ -126,10 +127,9 @@ def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
     between steps.
     """
     smooth = scene.contact_law == "published"
-    dofs = scene.active_dofs
     period = scene.bearing.ball_spacing / scene.cage_speed / 8.0
-    shooting = Shooting(scene, dofs, period, 3000)
-    start = static_start(scene, dofs)
+    shooting = Shooting(packed_motion(scene), period, 3000)
+    start = static_start(packed_motion(scene), equilibrium(scene, [0.0]))
     assert start is not None
     y = shooting.marched(shooting.own(start), 3)
     _, tangent = shooting.with_tangent(y)

@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bearingcore import Defect, Scene, contact_damping, equilibrium, presets, simulate
+from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import static_start
 from bearingcore.dynamics.problem import motion_problem
 
@@ -61,7 +62,7 @@ def test_a_damaged_bearing_with_unbalance_as_another_integrator_has_it(preset: s
     found = simulate(scene, duration, SAMPLE_RATE, step_rate=8.0 * SAMPLE_RATE)
     dofs = scene.active_dofs
     balanced = motion_problem(scene.replace(unbalance=0.0))
-    start = static_start(scene, dofs)
+    start = static_start(packed_motion(scene), equilibrium(scene, [0.0]))
     assert start is not None
     force = scene.unbalance * scene.shaft_speed**2 / scene.support.inner_mass
     n = len(dofs)

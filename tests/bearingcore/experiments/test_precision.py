@@ -57,7 +57,7 @@ def test_methods_break_where_linear_theory_says() -> None:
     assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
     for name in ("RK4", "RK4 in velocities"):
         limit = chart.linear_limit[name]
-        assert limit / 1.5 < chart.found_limit(name) < 1.5 * limit
+        assert limit / 1.5 < chart.stability_limit(name) < 1.5 * limit
         coarsest = min((t for t in chart.trials if t.method == name), key=lambda t: t.step_rate)
         assert coarsest.verdict == DIVERGED
     finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]

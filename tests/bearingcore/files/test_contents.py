@@ -9,6 +9,7 @@ import pytest
 from scipy.io import savemat
 
 from bearingcore import read_table
+from bearingcore.files import facts
 from tests.helpers.reading import read_in_this_process
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
@@ -303,3 +304,23 @@ def test_a_rate_that_the_times_contradict_is_taken_but_said() -> None:
     got = read_table("a.csv", content).recording([1], ["y"], sample_rate=12e3)
     assert got.sample_rate == 12e3
     assert "typed as 12000 Hz; the time column says 10000 Hz" in got.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "number", "unit"),
+    [
+        ("a.csv", "speed: 1797 rpm", 1797.0, "rpm"),
+        ("a.csv", "shaft speed = 29.95 Hz", 29.95, "Hz"),
+        ("a.csv", "speed: 188 rad/s", 188.0, "rad/s"),
+        ("a_1797rpm.csv", "no speed", 1797.0, "rpm"),
+        ("a.csv", "shaft frequency: 29.95", 29.95, "Hz"),
+    ],
+)
+def test_a_speed_is_in_si_and_names_the_unit_of_the_file(
+    name: str, line: str, number: float, unit: str
+) -> None:
+    speed = facts.shaft_speed_in(facts.named_in([line]), name)
+    assert speed is not None
+    in_si = {"rpm": math.pi / 30.0, "Hz": 2.0 * math.pi, "rad/s": 1.0}[unit]
+    assert (speed.file_unit, speed.value) == (unit, pytest.approx(number * in_si, rel=1e-12))
+    assert speed.in_file_unit == pytest.approx(number, rel=1e-12)

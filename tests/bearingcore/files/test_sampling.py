@@ -69,11 +69,20 @@ def test_times_that_wander_tell_no_rate_but_their_mean(time) -> None:
     assert found.sample_rate == pytest.approx((len(time) - 1) / (time[-1] - time[0]))
 
 
-@pytest.mark.parametrize("time", [np.zeros(500), -TIME, np.where(TIME > 0.1, np.nan, TIME)])
+@pytest.mark.parametrize("time", [np.zeros(500), -TIME, np.where(TIME > 0.01, np.nan, TIME)])
 def test_what_is_no_time_gives_no_rate(time) -> None:
     found = sampling_of(time)
     assert found.sample_rate is None
     assert found.trouble
+
+
+def test_only_the_longest_part_with_times_is_used() -> None:
+    time = TIME.copy()
+    time[100:110] = np.nan
+    found = sampling_of(time)
+    assert (found.first, found.last) == (110, 3000)
+    assert found.sample_rate == pytest.approx(RATE)
+    assert "Times are missing in 10 rows" in found.trouble
 
 
 def test_a_clock_that_is_off_is_believed() -> None:

@@ -7,7 +7,7 @@ from bearingcore.files.text import read_text
 
 
 def read(text: str | bytes):
-    """Columns, headings, remarks, columns of times: in this process."""
+    """The table in a text, in this process."""
     content = text.encode() if isinstance(text, str) else text
     return read_text("t", content, 10**6, 20)
 
@@ -28,7 +28,7 @@ def read(text: str | bytes):
     ],
 )
 def test_habits(text, columns) -> None:
-    np.testing.assert_array_equal(read(text)[0], columns)
+    np.testing.assert_array_equal(read(text)[1], columns)
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,10 @@ def test_habits(text, columns) -> None:
     ],
 )
 def test_headings(text, headings) -> None:
-    assert read(text)[1] == (None if headings is None else list(headings))
+    about = read(text)[0]
+    assert (about["names"] if about["headed"] else None) == (
+        None if headings is None else list(headings)
+    )
 
 
 @pytest.mark.parametrize(
@@ -59,8 +62,8 @@ def test_headings(text, headings) -> None:
     ],
 )
 def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
-    columns, _, _, stamps = read(text)
-    assert stamps == [0]
+    about, columns = read(text)
+    assert about["stamps"] == [0]
     np.testing.assert_allclose(columns, np.column_stack([seconds, [1, 2]]))
 
 
@@ -72,7 +75,7 @@ def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
         ("1_000", "start of t"),
         ("2024-99-01T12:00:00,1\n", "start of t"),
         ("," * 30 + "1", "number of columns in t is 31"),
-        ("1 " * 40_000, "number of columns in t"),
+        ("1 " * 40_000 + "\n1 2\n", "number of columns in t"),
         ("\n" * 500_001, "lines of numbers"),
         ("1\n" * 1_000_001, "count of numbers"),
     ],

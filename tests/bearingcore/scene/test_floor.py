@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
+from bearingcore.files.floor import read_floor
 from bearingcore.scene.defect import drop_into, edge_drop, path_tables
-from bearingcore.scene.floor import read_floor
 from tests.helpers.reading import read_in_this_process
 
 BEARING = presets["fan-rig"].bearing

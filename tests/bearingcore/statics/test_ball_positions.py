@@ -10,6 +10,7 @@ from bearingcore import Bearing, Load, Scene, equilibrium, presets
 from bearingcore.statics.ball_positions import EquilibriumWithMass, ball_positions, static_state
 from tests.benchmarks.random_balls import faults, random_scene
 from tests.helpers.contact_law import TwoContacts
+from tests.outside.witness import witness
 
 SINGLE_ROWS = [
     name
@@ -94,6 +95,13 @@ def test_stiffness_is_the_derivative_of_the_load() -> None:
     assert np.abs(error).max() < 1e-4
 
 
+@witness(
+    "balls: with mass",
+    "function: ball_positions",
+    by="Harris and Mindel (1973), Fig. 15",
+    compared="loads and angles of both races",
+    within=1e-3,
+)
 def test_force_balance_of_harris_and_mindel() -> None:
     """Fig. 15 of Harris and Mindel (1973): 21 balls, 3000 lb along the shaft, F_c 303.45 lb.
 

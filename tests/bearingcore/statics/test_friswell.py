@@ -8,6 +8,7 @@ import pytest
 from bearingcore import Scene, equilibrium, presets
 from tests.benchmarks import charts, rotor_bearings
 from tests.benchmarks.rotor_bearings import RATIOS, friswell, mean_stiffness, radially_loaded
+from tests.outside.witness import witness
 
 PALMGREN = 4.36e-8
 """[m (m/N²)^(1/3)] A. Palmgren: a ball of d [m] yields 4.36e-8 Q^(2/3) / d^(1/3) between races."""
@@ -27,6 +28,12 @@ def without_clearance(n_balls: int, diameter: float, load: float, angle: float) 
     )
 
 
+@witness(
+    "ball bearing: stiffness",
+    by="closed form of ROSS (Friswell and others, 2010, page 184)",
+    compared="k_yy of 24 bearings",
+    within=0.02,
+)
 @pytest.mark.parametrize("n_balls", [8, 12, 16])
 @pytest.mark.parametrize("diameter", [6e-3, 12e-3])
 @pytest.mark.parametrize("load", [100.0, 1000.0])

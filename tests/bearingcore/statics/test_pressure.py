@@ -5,12 +5,12 @@ import pytest
 
 from bearingcore import Defect, equilibrium, limits, presets
 from bearingcore.statics.pressure import contact_pressures, heaviest_balls
-from bearingcore.statics.validity import looked_at
+from bearingcore.statics.validity import state_of_limits
 
 
 def test_the_same_pressure_as_among_the_limits() -> None:
     scene = presets["6206"]
-    found = contact_pressures(scene, looked_at(scene))
+    found = contact_pressures(scene, state_of_limits(scene))
     told = {limit.name: limit.value for limit in limits(scene)}
     assert told["contact pressure, inner race"] == found.inner.greatest_pressure
     assert told["contact pressure, outer race"] == found.outer.greatest_pressure

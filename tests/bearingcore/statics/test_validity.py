@@ -9,7 +9,7 @@ import pytest
 from bearingcore import Limit, Scene, equilibrium, film, limits, presets, simulate
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.positions import over_all_positions
-from bearingcore.statics.validity import looked_at
+from bearingcore.statics.validity import state_of_limits
 
 HEALTHY_6205 = presets["6205"].healthy()
 
@@ -85,7 +85,7 @@ def test_what_centrifugal_force_changes_is_measured() -> None:
 def test_the_verdict_is_that_of_a_much_finer_look(race: str) -> None:
     """Twice as fine changes no verdict and no number by more than a hundredth."""
     scene = presets["6205"].replace(race=race, extent=0.5)
-    angles = looked_at(scene).cage_angles
+    angles = state_of_limits(scene).cage_angles
     finer = over_all_positions(scene, 241 if race == "inner" else 2 * angles.size - 1)
     for one, other in zip(limits(scene), limits(scene, finer), strict=True):
         assert one.crossed == other.crossed
@@ -184,7 +184,7 @@ def test_each_sentence_holds_its_number(name: str) -> None:
 
 def test_a_state_at_hand_gives_the_same() -> None:
     scene = presets["6206"]
-    assert limits(scene, looked_at(scene)) == limits(scene)
+    assert limits(scene, state_of_limits(scene)) == limits(scene)
     with pytest.raises(ValueError, match="equilibrium of another scene"):
         limits(scene, equilibrium(scene.healthy()))
 

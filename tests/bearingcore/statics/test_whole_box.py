@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from bearingcore import DOF_NAMES, equilibrium, kernels
+from bearingcore.scene.packing import contacts
 from bearingcore.statics.load_capacity import descent_direction
 from tests.helpers.box import Point, cage_angles_at, draw, scene_at
 from tests.helpers.contact_law import Balls
@@ -179,7 +180,7 @@ def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
         if not F.any():
             continue
         F /= np.linalg.norm(F)
-        way, share = descent_direction(scene, point.cage_angle, active, F)
+        way, share = descent_direction(contacts(scene.bearing), point.cage_angle, active, F)
         along, across = (rows[:, active].astype(float) for rows in balls.along_across)
         assert np.max(along @ way, initial=0.0) <= 1e-10
         assert np.max(np.abs(across @ way), initial=0.0) <= 1e-10

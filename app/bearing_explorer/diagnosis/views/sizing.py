@@ -189,7 +189,7 @@ class DefectSize(MeasuredJobView[Sized]):
             self._draw()
 
     def _take_extent(self, extent_deg: float) -> None:
-        if self.measurement is not None:
+        if self.measurement is not None and self.measurement.change_scene is not None:
             self.measurement.change_scene({"typed": {"extent_deg": f"{extent_deg}"}})
 
     def candidate(self, sizing: Sizing) -> Candidate:
@@ -234,7 +234,8 @@ class DefectSize(MeasuredJobView[Sized]):
             return
         self.status.line = status(sized)
         looked = sized.sizing.candidates.index(self.candidate(sized.sizing))
-        self.candidates.show(rows(sized), looked)
+        takes = self.measurement is not None and self.measurement.change_scene is not None
+        self.candidates.show(rows(sized), looked, takes=takes)
         for dof, row in self._rows.items():
             row.visible = dof in sized.measured.directions
 

@@ -45,14 +45,18 @@ class CandidateList(pn.Column):
             self._table, row(chosen, self._take), sizing_mode="stretch_width", margin=(2, 0, 8, 0)
         )
 
-    def show(self, rows: list[dict[str, Any]], looked: int) -> None:
-        """Show candidates, as `rows` makes them, and which of them the figures show."""
+    def show(self, rows: list[dict[str, Any]], looked: int, *, takes: bool = True) -> None:
+        """Show candidates, as `rows` makes them, and which of them the figures show.
+
+        `takes`: whether there is a scene on the page that can take one.
+        """
         self._rows, self._looked = rows, looked
         self._table.object = table_html(rows, looked)
         options = [[str(index), row["extent"]] for index, row in enumerate(rows)]
         self._fields.values["candidate"] = str(looked)
         self._fields.widgets["candidate"].param.update(**choices(options), value=str(looked))
-        self._take.label = f"Take {rows[looked]['extent']} into the scene"
+        label = f"Take {rows[looked]['extent']} into the scene"
+        self._take.param.update(label=label, visible=takes)
 
 
 def table_html(rows: list[dict[str, Any]], looked: int) -> str:

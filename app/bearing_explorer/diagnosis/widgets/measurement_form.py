@@ -31,7 +31,8 @@ LABELS = {
     "sample_rate": "Sample rate (Hz)",
 }
 FORMATS = (
-    "CSV or other text, WAV, MATLAB (.mat) or HDF5, by whatever name; at most "
+    "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, or a zip of "
+    "one of them; at most "
     f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
 )
 _MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
@@ -153,7 +154,7 @@ class MeasurementForm(pn.Column):
         load = state.load
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
-            visible=bool(load),
+            visible=bool(load and self._measurement and self._measurement.change_scene),
         )
         self._shown = state
 

@@ -22,11 +22,12 @@ from bearingcore import (
 from bearingcore import limits as limits_of
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
-from bearingcore.statics.validity import looked_at
+from bearingcore.statics.limit import unknown
+from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
-    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual. "
+    f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual; no limit is judged by them. "
     "Enter yours on the Machine tab, under Bearing."
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
@@ -82,6 +83,9 @@ class Endurance:
     assumed: str
 
 
+_LIFE_ASSUMES = "Life assumes usual ones, by which no limit is judged"
+
+
 @cached
 def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
@@ -109,7 +113,7 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
             no_life = sentence_of(error)
-    state = looked_at(scene)
+    state = state_of_limits(scene)
     pressures, no_pressures = None, ""
     try:
         pressures = contact_pressures(scene, state)
@@ -171,8 +175,19 @@ def limits(
     motion; None: there is none.
     """
     compiling.need(compiling.STATICS)
-    state = looked_at(scene)
+    state = state_of_limits(scene)
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, state)
-    return limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
+    found = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
+    if with_usual_grooves(scene) is None:
+        return found
+    return tuple(_not_judged(one) for one in found)
+
+
+def _not_judged(one: Limit) -> Limit:
+    """A limit that is not known for want of groove radii, which are assumed on the Life tab."""
+    own = unknown(one.name, one.limit, one.unit, NO_DRAWING)
+    if one.sentence != own.sentence:
+        return one
+    return unknown(one.name, one.limit, one.unit, f"{NO_DRAWING}; {_LIFE_ASSUMES}")

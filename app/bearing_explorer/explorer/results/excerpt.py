@@ -49,6 +49,8 @@ class Excerpt:
     static_cage_angle : (p,) [rad], moving_load : (p, N_b) [N], drop : {race: (p, N_b)} [m]
         cage, what each ball carries as it moves, and how far its centre is in a defect, at each of
         the same instants.
+    bandwidth : float [Hz]
+        up to which the acceleration is known.
     broke_off
         why the motion ended early; empty if it did not.
     """
@@ -66,6 +68,7 @@ class Excerpt:
     static_cage_angle: NDArray[np.float64]
     moving_load: NDArray[np.float64]
     drop: dict[str, NDArray[np.float64]]
+    bandwidth: float
 
     def table(self) -> ResultTable:
         """Rows in time: acceleration and loads as they move; and the loads at rest."""
@@ -136,6 +139,7 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
         static_cage_angle=static_cage,
         moving_load=load[np.searchsorted(time[cut], static_time).clip(max=last - first - 1)],
         drop={race: drops_at(scene, static_cage, race) for race in RACES},
+        bandwidth=motion.bandwidth,
     )
 
 

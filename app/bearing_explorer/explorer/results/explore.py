@@ -117,6 +117,8 @@ class MapOutput:
 def _all_outputs() -> dict[str, MapOutput]:
     made = []
     for name, output in OUTPUTS.items():
+        if output.per_sample:
+            continue
         unit = "" if output.unit == "1" else output.unit
         for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
             label = output.label.format(mode_symbol(mode)) if mode else output.label

@@ -460,7 +460,7 @@ class Results:
                 step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
             except ValueError:
                 step_rate = None  # no motion, no steps
-        return endurance.limits(self.scene, step_rate, self._dynamic_load, self.life_inputs)
+        return endurance.limits(self.scene, step_rate, self.load_in_motion, self.life_inputs)
 
     @property
     def endurance(self) -> Endurance:
@@ -468,7 +468,7 @@ class Results:
         return endurance.endurance(self.scene, self.life_inputs)
 
     @property
-    def _dynamic_load(self) -> float | None:
+    def load_in_motion(self) -> float | None:
         """Greatest ball load [N] of the settled motion, where one has been simulated."""
         key = self.scene, self.settings.marching
         simulated = not self.moving and motions.motion.knows(*key)

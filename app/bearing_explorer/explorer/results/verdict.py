@@ -74,7 +74,7 @@ def of_statics(results: Results) -> Verdict:
     found = results.equilibrium
     bad = np.flatnonzero(~found.converged)
     if not bad.size:
-        return Verdict("good", "Converged")
+        return Verdict("good", "Computed without problems")
     reason = found.reason(int(bad[0]))
     if bad.size == found.converged.size:
         return Verdict("bad", f"No answer: {reason}")
@@ -87,14 +87,14 @@ def of_now(results: Results) -> Verdict:
     """Whether there is a static equilibrium at the cage angle that is drawn."""
     now = results.now
     if now.converged[0]:
-        return Verdict("good", "Converged")
+        return Verdict("good", "Computed without problems")
     return Verdict("bad", f"No answer at this cage angle: {now.reason(0)}")
 
 
 def of_motion(results: Results) -> Verdict:
     """Whether the simulated motion reached its end."""
     if not results.fault:
-        return Verdict("good", "Converged")
+        return Verdict("good", "Computed without problems")
     return Verdict("bad", f"The motion {results.fault}")
 
 

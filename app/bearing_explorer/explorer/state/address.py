@@ -24,7 +24,7 @@ The rules of version 1, which later versions go on reading:
   between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
   of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
   it has not, and none of the last ones. `name` is what a person calls the bearing, `estimated` the
-  dimensions that are estimates, with dots between them.
+  dimensions that are estimates, with dots between them, `rating` a catalogue's C_r [N].
 - What has ``compare1.`` in front are the first scene that is compared, by
   the same rules; `compare1.label` is the name of its curves.
 - `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
@@ -62,6 +62,7 @@ from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
 from bearingcore.bearings.rows import Row
+from bearingcore.common import checks
 from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene.floor import MOST_ROWS
 
@@ -84,7 +85,7 @@ FORMER_TABS = {
 }
 """Former names of tabs, in links that people have."""
 
-_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length")
+_MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
     *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),
@@ -530,6 +531,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(checks.real_number, "rating")),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

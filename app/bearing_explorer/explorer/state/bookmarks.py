@@ -34,6 +34,7 @@ from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common.scene_file import LARGEST_TEXT
 
+_COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in their order
 _STEPS = ("set", "typed", "choose", "reset", "floor")
 
 
@@ -70,6 +71,10 @@ def read_request(request: OpenRequest) -> Place | str:
 def name_of(text: str) -> str:
     """A name for a scene from untrusted text: short, on one line, not empty."""
     return one_line(text, LONGEST_NAME) or "Unnamed"
+
+
+FIRST_TAB = "overview"
+"""The tab of a page whose address names none; links that are shared name it."""
 
 
 class Bookmarks:
@@ -188,7 +193,7 @@ class Bookmarks:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
         self.compared += (Reference(scene, name),)
-        self.say(f"“{name}” is drawn with every scene now.")
+        self.say(f"Dashed {_COLORS[len(self.compared) - 1]}: “{name}”, for comparison.")
 
     def kept(self, name: str) -> dict[str, str]:
         """The scene of now for the browser to keep."""
@@ -201,7 +206,7 @@ class Bookmarks:
 
     def state(self) -> dict[str, Any]:
         """State for the browser."""
-        place = replace(place_of(self._editor, self._tab), compared=self.compared)
+        place = replace(place_of(self._editor, self._tab or FIRST_TAB), compared=self.compared)
         address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})

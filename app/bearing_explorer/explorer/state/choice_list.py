@@ -141,12 +141,12 @@ ROW = Choice(
 
 EDGE = Choice(
     "edge",
-    "Edge model",
+    "How a ball rolls over the edge",
     "Defect",
     (
         Option(
             "published",
-            "Published (Eq. 6)",
+            "As in the paper (Eq. 6)",
             "Eq. 6 with its factor 0.25: a ball sinks less than geometry asks for, but the "
             "paper's figures were made with it.",
         ),
@@ -184,7 +184,7 @@ FLOOR = Choice(
             "measured",
             "From a file",
             "A text file of two columns: angle around the race in degrees, depth in "
-            "micrometres. Extent, depth and centre come from the file; their sliders stretch "
+            "micrometres. Length, depth and centre come from the file; their sliders stretch "
             "it.",
         ),
     ),
@@ -199,7 +199,7 @@ LAW = Choice(
     (
         Option(
             "published",
-            "Published, may pull",
+            "As in the paper (contacts can pull: not physical)",
             "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
         ),
         Option(

@@ -368,8 +368,8 @@ def steps_sentence(chart: StabilityChart | None) -> str:
         return "Stability of the steps is not measured yet."
     words = []
     for name in dict.fromkeys(t.method for t in chart.trials):
-        found, limit = (v / chart.highest_frequency
-                        for v in (chart.found_limit(name), chart.linear_limit[name]))  # fmt: skip
+        found, limit = chart.stability_limit(name), chart.linear_limit[name]
+        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
         met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
         expected = style.number(limit, 2) if limit else "none"
         words.append(f"{name} {met} (linear theory: {expected})")

@@ -10,11 +10,12 @@ from bokeh.models import Circle, CustomJS, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
 from bearing_explorer.kit.plots import color_scales, style
-from bearing_explorer.kit.plots.element_words import element_name, elements
+from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import color_bar
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -297,12 +298,10 @@ class BearingDrawing(View):
         loaded = int(now.loaded_balls[0])
         if loaded == 0:
             return f"{where} none of the {total} {names} carries load{inside}."
-        most = int(np.argmax(load))
+        why = reasons.most_loaded(results.scene, now, 0, drop)
         return (
-            f"{where}, {loaded} of {total} {names} {'carry' if loaded > 1 else 'carries'} load; "
-            f"{element_name(bearing, most)} carries the most, "
-            f"{style.with_prefix(load[most], 'N')} at "
-            f"{style.in_degrees(now.ball_angle[0, most])}{inside}."
+            f"{where}, {loaded} of {total} {names} {'carry' if loaded > 1 else 'carries'} load"
+            f"{inside}. {why}"
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

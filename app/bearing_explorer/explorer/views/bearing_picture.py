@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS
 from bearingcore import Bearing
+from bearingcore.bearings.drawing import center_distance
 
 Point = tuple[float, float]
 
@@ -332,7 +333,7 @@ def _grooves(bearing: Bearing) -> Iterable[str]:
     (x, y), ball, gap = CONTACT, 76.0, _gap(bearing)
     angle = bearing.contact_angle
     sine, cosine = math.sin(angle), math.cos(angle)
-    likely = 0.5 * (bearing.groove_center_distance + bearing.ball_diameter)
+    likely = 0.5 * (center_distance(bearing.groove_center_distance) + bearing.ball_diameter)
     far = {}
     for race in ("outer", "inner"):
         wider = 2.0 * (bearing.groove_radius(race) or likely) / bearing.ball_diameter - 1.0

@@ -102,9 +102,9 @@ class ExplorePlane(SceneJobView[Plane]):
     def fields(self) -> list[FieldSpec]:
         outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
         return [
-            {"name": "output", "label": "Map of", "options": outputs},
+            {"name": "output", "label": "What to draw", "options": outputs},
             *plane_fields(headings=True),
-            {"name": "grid", "label": "Points", "options": _GRIDS},
+            {"name": "grid", "label": "Fineness", "options": _GRIDS},
             {"name": "band_from", "label": "Band from (kHz)", "only": {"output": _WITH_BAND}},
             {"name": "band_to", "label": "to (kHz)", "only": {"output": _WITH_BAND}},
         ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -71,10 +72,7 @@ class FreeDirections(View):
         scene = results.scene
         free = style.list_words([DOF_SYMBOLS[dof] for dof in scene.active_dofs])
         words = f"{free} {'is' if len(scene.active_dofs) == 1 else 'are'} free"
-        needed = scene.active_dofs == scene.needed_dofs
-        words += ", as the scene needs" if needed else ", which is forced on the scene"
-        why = scene.bearing.kind.left_out
-        return f"{words}: {why}." if why else f"{words}."
+        return f"{words}. {reasons.not_needed(scene)}".rstrip()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

@@ -270,10 +270,10 @@ def _pressures(results: Results, found: Endurance) -> FactGroup:
         )
         facts.append(
             Fact(
-                "contact, half its size",
+                "half-axes of the contact ellipse",
                 f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
                 f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
-                "Semi-axes of the contact ellipse; of a roller half its length and half the width.",
+                "Of a roller half its length and half the width of the contact.",
             )
         )
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")

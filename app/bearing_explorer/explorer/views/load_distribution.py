@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import pieces, spans
 from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
 from bearing_explorer.explorer.results.results import Results
@@ -144,6 +145,8 @@ class LoadDistribution(View):
         words = ", ".join(parts)
         if results.over_shaft:
             words += " (the most at each angle in all turns of the shaft)"
+        why = reasons.greatest_load(results)
+        words += f". There {why[0].lower()}{why[1:-1]}" if why else ""
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])

@@ -15,6 +15,7 @@ from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.folded_view import FoldedView
+from bearingcore.dynamics.ball_comparison import LOWEST
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
@@ -109,8 +110,10 @@ class WhichMechanism(FoldedView[Results]):
         words = in_words(found)
         if found.comparison is None:
             return f"{words} The motion is too short to show where massless balls will do."
-        sentence = found.comparison.sentence
-        return f"{words} {sentence[0].upper()}{sentence[1:]}."
+        up_to = found.comparison.massless_up_to
+        if np.isnan(up_to):
+            return f"{words} The mass of the balls makes a difference from {_hertz(LOWEST)} on."
+        return f"{words} Up to {_hertz(up_to)} the mass of the balls makes no difference."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.share_table().named()

@@ -9,8 +9,10 @@ import numpy as np
 from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.kit.plots.layers import (
     Layer,
@@ -84,7 +86,7 @@ class NaturalFrequencies(View):
         "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now. "
         "With a defect of the inner race lines are those of the turn of now, bands of all turns."
     )
-    needs = frozenset({"modes", "bands"})
+    needs = frozenset({"modes", "bands", "ranges"})
 
     def build(self, packed: PackedSource) -> Any:
         self._range = StickyRange(0.0, 2000.0, least_span=20.0, room=ROOM)
@@ -158,7 +160,8 @@ class NaturalFrequencies(View):
         first = radial[0]
         if results.reference_label and np.isfinite(healthy.get(first, (np.nan,))[0]):
             text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
-        return text + "."
+        why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
+        return f"{text}. {why}".rstrip()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)

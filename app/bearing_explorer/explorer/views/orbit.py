@@ -186,7 +186,7 @@ class SteadyOrbit(View):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        none = {"mood": "bad", "words": "No orbit", "details": []}
+        none = {"mood": "busy", "words": "Not computed", "details": []}  # the sentence says why
         self.status.put(line=none if results is None else orbit_status(results))
 
     def sentence(self, results: Results) -> str:

@@ -134,7 +134,7 @@ class OrbitStability(SweptView):
 
     def fields(self) -> list[FieldSpec]:
         grids = [[str(n), f"{n} × {n}"] for n in GRIDS]
-        return [*plane_fields(), {"name": "grid", "label": "Points", "options": grids}]
+        return [*plane_fields(), {"name": "grid", "label": "Fineness", "options": grids}]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         fills = plane_fills(editor.limits)

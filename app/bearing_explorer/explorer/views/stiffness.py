@@ -15,9 +15,10 @@ from bokeh.plotting import figure
 
 from bearing_explorer.explorer.plots import matrix_cells
 from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, layers, style
-from bearing_explorer.kit.plots.element_words import elements
+from bearing_explorer.kit.plots.element_words import elements, with_elements_of
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.style import in_degrees, with_prefix, words_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -167,9 +168,10 @@ class Stiffness(View):
         at = in_degrees(results.cage_angle)
         over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(found.scene.bearing)} carry load"
-        return f"{'; '.join(parts)}. {count} {carry}. Marked: cage angle {at}." + (
-            over if results.over_shaft else ""
-        )
+        why = with_elements_of(found.scene.bearing, reasons.stiffness(results))
+        why += f" {reasons.not_needed(results.scene)}"
+        text = f"{'; '.join(parts)}. {why} {count} {carry}. Marked: cage angle {at}."
+        return text + (over if results.over_shaft else "")
 
     def say(self, results: Results | None, sentence: str) -> None:
         """Say in the legend whether there is a defect."""

@@ -21,7 +21,7 @@ FAINT = 0.35
 
 @dataclass(frozen=True)
 class Swept:
-    """A result of the core, of `result.scene` but for the fields that `sweeps` run through."""
+    """A result of the core, of its scene but for the fields that `sweeps` run through."""
 
     result: Any
     sweeps: tuple[Sweep, ...]

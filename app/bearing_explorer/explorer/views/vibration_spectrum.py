@@ -11,11 +11,14 @@ from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.chain import loudest
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
 from bearing_explorer.explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.kit.plots.layers import (
     CENTERED,
@@ -55,7 +58,7 @@ GREY: FieldSpec = {
 AXIS: FieldSpec = {
     "name": "axis",
     "label": "Frequency",
-    "options": [["linear", "Rigid-body range"], ["logarithmic", "Full range (log)"]],
+    "options": [["linear", f"0–{HIGHEST / 1e3:g} kHz"], ["logarithmic", "Full range (log)"]],
 }
 """The switches above the figures."""
 
@@ -118,7 +121,7 @@ class VibrationSpectra(LookView):
         "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
         "frequencies."
     )
-    needs = frozenset({"motion", "late_spectra", "reference", "bands"})
+    needs = frozenset({"motion", "late_spectra", "reference", "bands", "ranges"})
     look_fields = (AXIS, GREY)
     first_look: ClassVar[dict[str, Any]] = {"axis": "linear", "grey": HEALTHY}
 
@@ -219,7 +222,7 @@ class VibrationSpectra(LookView):
         return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
 
     def sentence(self, results: Results) -> str:
-        return loudest_words(results)
+        return f"{loudest_words(results)} {why_words(results)}".rstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
@@ -271,6 +274,18 @@ def loudest_words(results: Results) -> str:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")
     return f"{text}. Computed by time integration, without the first {start}."
+
+
+def why_words(results: Results, *, briefly: bool = False) -> str:
+    """Why the largest peak is where it is, and whether one stands at the ball-pass frequency."""
+    spectra = {dof: results.late_spectra[dof] for dof in SHOWN if dof in results.late_spectra}
+    if not spectra:
+        return ""
+    most = max(spectra.values(), key=lambda spectrum: loudest(spectrum).level)
+    rates = [rate for _, _, rate in passed(results.scene)]
+    words = [reasons.peak(results, rates, briefly=briefly)]
+    words.append(reasons.passes(most, min(rates), briefly=briefly))
+    return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 
 def passed(scene: Scene) -> list[tuple[str, int, float]]:

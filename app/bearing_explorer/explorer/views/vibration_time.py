@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.excerpt import Event, Excerpt
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.passage_view import (
@@ -22,7 +23,7 @@ from bearing_explorer.explorer.views.passage_view import (
     traces,
 )
 from bearing_explorer.kit.plots import compared_curves, style
-from bearing_explorer.kit.plots.element_words import element_name
+from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -99,7 +100,7 @@ class VibrationInTime(PassageView):
             for dof in SHOWN
             if dof in shown.acceleration
         ]
-        below = style.with_prefix(results.motion.bandwidth, "Hz", 2)
+        below = style.with_prefix(shown.bandwidth, "Hz", 2)
         text = (
             f"The housing's acceleration below {below} peaks at " + style.list_words(peaks)
             if peaks
@@ -117,7 +118,8 @@ class VibrationInTime(PassageView):
                 + ("it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball))
                 + " leaves it"
             )
-        return text + "."
+        why = with_elements_of(bearing, reasons.jolt(shown, bearing))
+        return f"{text}. {why}".rstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.excerpt.table().named()

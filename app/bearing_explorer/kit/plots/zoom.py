@@ -2,7 +2,7 @@
 
 One finger goes on scrolling the page, and so does the wheel alone. Ranges from the server move the
 axes of a figure only while it is not zoomed; back is always where they would be then (see
-`server.packed_source`).
+`serve.packed_source`).
 """
 
 from __future__ import annotations

@@ -30,9 +30,9 @@ def session_name(document: Any) -> str:
     return str(getattr(context, "id", "none"))[:8]
 
 
-def scene_name(scene: object) -> str:
+def scene_name(scene: Any) -> str:
     """Eight digits that equal scenes share."""
-    return hashlib.blake2b(repr(scene).encode(), digest_size=4).hexdigest()
+    return hashlib.blake2b(repr(scene.to_data()).encode(), digest_size=4).hexdigest()
 
 
 def update(document: Any, scene: object, view: str, seconds: float) -> None:

@@ -1,6 +1,6 @@
 """A view: figures made once, numbers pushed through the packed source, one live sentence.
 
-A view never computes physics. It says in `needs` which attributes of `compute.results.Results` it
+A view never computes physics. It says in `needs` which attributes of `results.results.Results` it
 reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it

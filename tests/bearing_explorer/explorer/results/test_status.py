@@ -14,7 +14,7 @@ from bearingcore import presets
 
 def test_the_status_line_says_what_happened() -> None:
     good = status_of(Results(presets["fan-rig"]), 0.0123)
-    assert (good["mood"], good["words"]) == ("good", "Converged")
+    assert (good["mood"], good["words"]) == ("good", "Computed without problems")
     assert good["details"][1:] == [
         "2 degrees of freedom: x y",
         "361 cage angles",
@@ -31,12 +31,12 @@ def test_the_status_line_says_what_happened() -> None:
     [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: period doubling (flip)")],
 )
 def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
-    """An orbit that no machine stays on is not "Converged", though its static states are."""
+    """An orbit that no machine stays on is a problem, though its static states are none."""
     rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
     results = Results(rig)
     line = status_of(results, 0.0, SteadyOrbit.needs)
     assert (line["mood"], line["words"]) == (mood, words)
-    assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Converged"
+    assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
 
 
 def test_a_motion_that_breaks_off_is_not_converged() -> None:

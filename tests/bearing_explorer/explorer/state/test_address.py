@@ -1,6 +1,7 @@
 """A scene in the address and back: to the last bit, for ever, and whatever strangers write."""
 
 import base64
+import copy
 import dataclasses
 import math
 import tomllib
@@ -32,6 +33,7 @@ from bearingcore import (
     Defect,
     MeasuredFloor,
     RoughFloor,
+    Scene,
     presets,
 )
 
@@ -147,7 +149,11 @@ def test_links_of_earlier_days_open(link: dict) -> None:
     place = opened(link["text"], editor)
     assert place.note == ""
     assert (place.cage_angle, place.tab) == (link.get("cage_angle", 0.0), link.get("tab", ""))
-    same(editor.scene.to_data(), link["scene"])
+    same(editor.scene.to_data(), Scene.from_data(link["scene"]).to_data())
+    kept = copy.deepcopy(link["scene"])
+    if "roller_length" in kept["bearing"]:  # straight races had centres too in those days
+        del kept["bearing"]["groove_center_distance"]
+    same(editor.scene.to_data(), kept)
 
 
 def same(found: object, kept: object) -> None:

@@ -18,7 +18,7 @@ from bearingcore import (
     life,
     presets,
 )
-from bearingcore.statics.validity import looked_at
+from bearingcore.statics.validity import state_of_limits
 
 
 def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
@@ -56,7 +56,7 @@ def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
     assert "Assumed" in facts("fan-rig")["Life of the healthy bearing"]["words"]
     usual = with_usual_grooves(scene)
     assert usual is not None
-    loads = [looked_at(one).ball_load for one in (scene, usual)]
+    loads = [state_of_limits(one).ball_load for one in (scene, usual)]
     np.testing.assert_allclose(loads[1], loads[0], atol=1e-9)
     assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
 

@@ -15,7 +15,7 @@ from bearing_explorer.kit.views.base import SessionParts
 
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
-from bearingcore.dynamics.ball_motion import contact_resonance
+from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.scene.pit import pit
 
 FAN_RIG = presets["fan-rig"]
@@ -76,7 +76,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     results = Results(FAN_RIG, grey=OTHER_BALLS)
     sources, _ = spectra.data(results)
     band = sources["spectrum_wide_resonance"]
-    assert band["high"][0] == pytest.approx(contact_resonance(FAN_RIG))
+    assert band["high"][0] == pytest.approx(contact_resonance_band(FAN_RIG)[1])
     assert band["above"][0] == 0.0
     own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_others"]
     high = own["frequency"] > 9e3

@@ -41,7 +41,9 @@ def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None
 
 def test_free_directions_are_those_that_the_scene_needs_or_forced() -> None:
     view = FreeDirections(PackedSource())
-    assert view.sentence(Results(presets["fan-rig"])) == "x and y are free, as the scene needs."
+    assert view.sentence(Results(presets["fan-rig"])) == (
+        "x and y are free. Not needed here: z, θx and θy (no load along the shaft, no moment)."
+    )
     forced = Results(presets["liew-lim"].replace(dofs=("x", "y")))
-    assert "forced on the scene" in view.sentence(forced)
+    assert "are held by choice" in view.sentence(forced)
     assert view.table(forced)["free"].tolist() == [1.0, 1.0, 0.0, 0.0, 0.0]

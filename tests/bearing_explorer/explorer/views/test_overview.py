@@ -10,13 +10,21 @@ import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
+from bearing_explorer.explorer.views.free_directions import FreeDirections
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
-from bearing_explorer.explorer.views.overview.stiffness import OverviewStiffness, free_terms
-from bearing_explorer.explorer.views.overview.words import story
+from bearing_explorer.explorer.views.overview.stiffness import (
+    HIGH,
+    WIDE,
+    OverviewStiffness,
+    cells_for,
+    free_terms,
+)
+from bearing_explorer.explorer.views.overview.words import Cause, story
+from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import DOF_NAMES, Scene, equilibrium, presets
+from bearingcore import Scene, equilibrium, presets
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
@@ -34,14 +42,24 @@ def test_a_ball_spacing_longer() -> None:
     fall, rise = (now.stiffness[term] / before.stiffness[term] for term in ("k_yy", "k_xx"))
     (low, high), (low0, high0) = now.bands["y1"], before.bands["y1"]
     assert told(LONGER, FAN_RIG) == (
-        "Defect longer by one ball spacing (12.9 → 38.61°): load shifts to balls farther from the "
-        "load line, "
-        f"k_yy falls by {100 * (1 - fall):.0f} %, k_xx rises by {100 * (rise - 1):.0f} %, "
-        f"the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
+        "Defect longer by one ball spacing (12.9 → 38.61°): the balls beside the defect take over "
+        f"the load, so k_yy falls by {100 * (1 - fall):.0f} % and k_xx rises by "
+        f"{100 * (rise - 1):.0f} %. "
+        f"Therefore the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
         "and the spectrum's peak with it, "
         f"from {before.peaks['y'].frequency:.0f} to {now.peaks['y'].frequency:.0f} Hz."
     )
     assert now.off_line > before.off_line
+
+
+def test_the_cause_is_that_of_the_change() -> None:
+    """A larger load presses contacts harder, a longer defect moves the load, thrust loads more."""
+    pressed = told(FAN_RIG.replace(fy=-300.0), FAN_RIG)
+    assert "each contact is stiffer on average, so k_yy rises" in pressed
+    assert "the load turns by 31°, so k_yy falls" in told(FAN_RIG.replace(fx=60.0), FAN_RIG)
+    assert "more balls carry" in told(FAN_RIG.replace(fz=200.0), FAN_RIG)
+    back = told(FAN_RIG, LONGER)
+    assert "balls near the line of the load carry more of it again, so k_yy rises" in back
 
 
 def test_only_what_really_changed_is_said() -> None:
@@ -63,7 +81,9 @@ def test_only_what_really_changed_is_said() -> None:
 def test_what_has_no_answer_is_said_too() -> None:
     loose = FAN_RIG.replace(fy=0.0)
     assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
-    assert told(FAN_RIG, None).startswith("With the defect: "), "before the first change"
+    assert told(FAN_RIG, None).startswith("Compared with a healthy bearing: "), (
+        "before the first change"
+    )
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")
@@ -77,17 +97,20 @@ CHAIN = Chain(
 
 
 def changed(**news: object) -> str:
-    return story("So", dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
+    return story(Cause("So"), dataclasses.replace(CHAIN, **news), CHAIN)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
     ("news", "words"),
     [
         ({}, "So: nothing changes."),
-        ({"off_line": 0.53}, "So: load shifts to balls farther from the load line."),
+        ({"off_line": 0.53}, "So: load spreads to balls farther from its line."),
         ({"off_line": 0.6, "direction": -1.0}, "So: the load turns by 33°."),
         ({"greatest_load": 90.0}, "So: the greatest load of a ball rises to 2.2 times."),
-        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}}, "So: k_yy falls by 25 %."),
+        ({"stiffness": {"k_xx": 2e7, "k_yy": 3e7}},
+         "So: balls push back more sideways (sin²φ 0.67 → 0.60), so k_yy falls by 25 %."),
+        ({"stiffness": {"k_xx": 1.5e7, "k_yy": 3e7}, "loaded_balls": 3.0},
+         "So: fewer balls carry (4 → 3), so k_yy falls by 25 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
          "So: the y₁ band widens from 615–678 to 600–690 Hz."),
         # a peak goes with a band only where it lies in it, both times, and goes its way
@@ -97,13 +120,13 @@ def changed(**news: object) -> str:
          "from 672 to 576 Hz."),
         ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
           "peaks": {"y": Peak(1088.0, -30.0, 32.0)}},
-         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak along y moves "
+         "So: the y₁ band sinks from 615–678 to 532–616 Hz; the spectrum's peak along y moves "
          "from 672 to 1088 Hz, 8 dB lower."),
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
         # next to almost nothing decibels say nothing
         ({"peaks": {"y": Peak(640.0, -76.0, 32.0)}},
-         "So: the spectrum's peak at 672 Hz falls to almost none."),
+         "So: hardly any vibration is left at 672 Hz."),
         ({"peaks": {}, "silent": "nothing turns"},
          "So: at rest hardly anything changes; there is no spectrum: nothing turns."),
         # what is said is not only what happens where the housing is loudest
@@ -121,14 +144,44 @@ def test_each_link_in_words(news: dict, words: str) -> None:
 def test_only_terms_that_matter_are_lively() -> None:
     view = OverviewStiffness(PackedSource())
     terms = view.data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
-    lively = {i for i, yes in enumerate(terms["lively"]) if yes}
-    assert lively == {0, 1, 5}, "k_xx, k_xy and k_yy: the ring moves along x and y alone"
-    assert terms["now"][5] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
+    assert list(terms["term"]) == [0, 1, 5], "k_xx, k_xy and k_yy: the ring moves along x and y"
+    assert terms["now"][2] == equilibrium(FAN_RIG, [0.1]).term("k_yy")[0]
     assert free_terms(("x", "y", "z")) == {"k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz"}
     all_of = OverviewStiffness(PackedSource()).data(Results(presets["liew-lim"], 0.1))[0]
-    assert all_of["overview_terms"]["lively"].sum() > 10
-    held = {DOF_NAMES[int(terms["held"][i])] for i in set(range(15)) - lively}
-    assert held == {"z", "rx", "ry"}, "a cell without a curve says why"
+    assert len(all_of["overview_terms"]["term"]) > 10
+    wide = {name: sources["overview_terms"]["right"][0] - sources["overview_terms"]["left"][0]
+            for name, sources in (("few", {"overview_terms": terms}), ("all", all_of))}  # fmt: skip
+    assert wide["few"] > 1.6 * wide["all"], "few terms are drawn larger"
+
+
+@pytest.mark.parametrize("count", range(16))
+def test_cells_of_terms_are_apart_and_inside(count: int) -> None:
+    cells = cells_for(count)
+    assert len(cells) == count
+    assert all(0.0 < c.left < c.right < WIDE and -HIGH < c.bottom < c.top < 0.0 for c in cells)
+    assert len({(c.left, c.top) for c in cells}) == count
+
+
+def test_what_is_held_is_said_alike_on_all_tabs() -> None:
+    def said(scene: Scene) -> list[str]:
+        views = (OverviewStiffness, Stiffness, FreeDirections)
+        return [view(PackedSource()).sentence(Results(scene)) for view in views]
+
+    short, *full = said(FAN_RIG)
+    missing = "Not needed here: z, θx and θy"
+    assert f"{missing}." in short
+    assert all(f"{missing} (no load along the shaft, no moment)." in words for words in full)
+    chosen = FAN_RIG.replace(dofs=("x", "y", "z"))
+    assert all("θx and θy are held by choice." in words for words in said(chosen))
+    rollers = "cylindrical rollers carry nothing along the others"
+    assert all(rollers in words for words in said(presets["nu208"])[1:])
+    assert not any("held" in words or "Not needed" in words for words in said(presets["liew-lim"]))
+
+
+def test_no_rounding_noise_is_said() -> None:
+    for name in ("fan-rig", "liew-lim", "3208"):
+        words = OverviewStiffness(PackedSource()).sentence(Results(presets[name]))
+        assert not re.search(r"\b[nµ]N|−\d", words), words
 
 
 @pytest.mark.parametrize("name", ["liew-lim", "3208"])

@@ -8,11 +8,19 @@ from bearing_explorer.diagnosis.views.how_sure import extents, reliability
 
 from bearingcore.diagnosis.part.probability import CALIBRATION
 from tests.benchmarks.scoreboard import CANNOT, FILE, fitted, left_out, stated, tables
+from tests.outside.witness import witness
 
 ROOT = Path(__file__).parents[4]
 ROWS = json.loads(FILE.read_text(encoding="utf-8"))["records"]
 
 
+@witness(
+    "function: diagnose",
+    "function: measure_extent",
+    by="80 measured records (Case Western Reserve University, MFPT, HIT-SM, FEMTO-ST)",
+    compared="part named, extent of spalls: as stated in DIAGNOSIS.md",
+    within="no wrong part",
+)
 @pytest.mark.parametrize(
     ("document", "names"),
     [

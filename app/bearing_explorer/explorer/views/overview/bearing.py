@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from bokeh.models import LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.views.bearing import BearingDrawing
 from bearing_explorer.kit.plots import style
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.results import Results
 
 
 class OverviewBearing(BearingDrawing):
@@ -16,9 +22,13 @@ class OverviewBearing(BearingDrawing):
     prefix = "overview_bearing"
     title = "Load of the balls"
     compact = short = True
-    sentence_looks = ("unseen",)
     leads_to = "load"
     in_report = False
+
+    def sentence(self, results: Results) -> str:
+        drop = results.drop["outer"] + results.drop["inner"]
+        why = reasons.most_loaded(results.scene, results.now, 0, drop, briefly=True)
+        return why or super().sentence(results)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
         plot = style.bare_figure(x, y, height=200, min_width=240)

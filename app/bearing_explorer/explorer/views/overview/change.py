@@ -8,7 +8,8 @@ import numpy as np
 import panel as pn
 
 from bearing_explorer.explorer.state.difference import difference
-from bearing_explorer.explorer.views.overview.words import story
+from bearing_explorer.explorer.views.overview.words import Cause, story
+from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
@@ -29,14 +30,13 @@ class LastChange(View):
     title = "Effect of your last change"
     about = (
         "Computed for each change, against the scene before it. Means are over all cage angles. "
-        "Outwards: to balls further from the line of the radial load. Small changes are not "
+        "sin²φ: the share of the radial stiffness that is vertical. Small changes are not "
         "named: stiffness and natural frequencies by less than 1 %, the greatest load of a ball "
         "by less than 5 %, the loudest line by less than 2 dB. Before the first change the scene "
         "is compared with the bearing without its defect."
     )
     needs = frozenset({"chain", "before", "late_spectra", "reference"})
     compact = True
-    sentence_looks = ("large",)
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:
@@ -45,13 +45,22 @@ class LastChange(View):
     def sentence(self, results: Results) -> str:
         before = results.before
         if before is not None:
-            cause = difference(results.scene, before.scene, results.focus)
+            words = difference(results.scene, before.scene, results.focus)
         elif results.scene.defects:
-            cause = "With the defect"
+            words = "Compared with a healthy bearing"
         else:
             return _NOTHING
-        why = "" if before is None else why_not(results.scene, before.scene)
-        return story(cause, results.chain, results.chain_of(before or results.grey), why)
+        reference = before or results.grey
+        now, then = results.scene, reference.scene
+        cause = Cause(
+            words,
+            defect=now.healthy() == then.healthy(),
+            masses=now.support != then.support,
+            contacts=now.bearing != then.bearing or now.balls != then.balls,
+            why_not="" if before is None else why_not(now, then),
+        )
+        text = story(cause, results.chain, results.chain_of(reference))
+        return with_elements_of(now.bearing, text)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         now = results.chain.table().in_units().named()

@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
-from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra, loudest_words
+from bearing_explorer.explorer.views.vibration_spectrum import (
+    VibrationSpectra,
+    loudest_words,
+    why_words,
+)
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.frequency_bands import (
     BAND_NAME,
@@ -22,14 +26,12 @@ from bearing_explorer.kit.plots.levels import (
     FREQUENCY,
     HIGHEST,
     SHOWN,
-    density_axis,
     drawn_levels,
     seen_levels,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearingcore.sweep.outputs import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
@@ -103,7 +105,6 @@ class OverviewSpectrum(View):
     )
     needs = VibrationSpectra.needs | {"bands"}
     compact = True
-    sentence_looks = ("unseen",)
     leads_to = "vibration"
     in_report = False
 
@@ -112,7 +113,7 @@ class OverviewSpectrum(View):
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         plot = style.make_figure(
             FREQUENCY,
-            density_axis(""),
+            style.AxisQuantity("Vibration level", "", "dB"),
             packed.range("overview_frequency", 0.0, HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
             height=120,
@@ -140,14 +141,7 @@ class OverviewSpectrum(View):
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
 
     def sentence(self, results: Results) -> str:
-        moving = [
-            f"{mode_symbol(label)} {low:.0f} to {high:.0f} Hz"
-            for label, (low, high) in results.bands.items()
-            if low == low
-        ]
-        words = style.list_words(moving)
-        bands = f" The natural frequencies move within: {words}." if words else ""
-        return loudest_words(results) + bands
+        return why_words(results, briefly=True) or loudest_words(results)
 
     table = VibrationSpectra.table
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from bearing_explorer.explorer.results.chain import Chain, Peak
+from bearing_explorer.explorer.results.reasons import why_softer
 from bearing_explorer.kit.plots import style
 from bearingcore.statics.equilibrium import TERM_SYMBOLS
 from bearingcore.sweep.outputs import mode_symbol
@@ -25,25 +27,56 @@ _SAME = 1e-7  # of a number: rounding
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
-def story(cause: str, now: Chain, before: Chain, why_not: str = "") -> str:
-    """One sentence: the `cause`, then its effects link after link.
+@dataclass(frozen=True)
+class Cause:
+    """A change between two scenes.
 
-    `why_not` is why the loads stay exactly as they are, should they.
+    Parameters
+    ----------
+    words
+        in words.
+    defect, masses
+        whether nothing but defects was changed; whether rotor and support were.
+    contacts
+        whether bearing or load case changed what a contact is: then loads alone do not explain
+        stiffness.
+    why_not
+        why the loads stay exactly as they are, should they.
     """
+
+    words: str
+    defect: bool = False
+    masses: bool = False
+    contacts: bool = False
+    why_not: str = ""
+
+
+def story(by: Cause, now: Chain, before: Chain) -> str:
+    """The cause, then its effects link after link, "so" only where one makes the next."""
+    cause, why_not = by.words, by.why_not
     if now.answered == 0.0:
         gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
         return f"{cause}: {gone} ({now.reason})."
     if before.answered == 0.0:
         return f"{cause}: now there is an equilibrium, which there was not before."
     along = direction(now, before)
-    said = [load_words(now, before), *stiffness_words(now, before, along)]
+    load, stiff = load_words(now, before, by.defect), stiffness_words(now, before, along)
     label = moved_band(now, before, along)
-    if label:
-        said.append(band_words(label, now.bands[label], before.bands[label]))
     peaks = (along, *(dof for dof in now.peaks if dof != along))
-    said.append(next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), ""))
-    said = [words for words in said if words]
-    text = f"{cause}: {style.list_words(said) or unchanged(now, before, why_not)}"
+    heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
+    band = band_words(label, now.bands[label], before.bands[label]) if label else ""
+    own = label and f"k_{label[:-1] * 2}"
+    follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
+    why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
+    # where the load went explains the stiffness only if balls push back elsewhere
+    text = load if load and (by.defect or not why or "push" in why) else why
+    if stiff:
+        text += f"{', so ' if why else ', ' if text else ''}{style.list_words(stiff)}"
+    last = [words for words in (band, heard) if words]
+    if text and last:
+        text += ". Therefore " if band and follows and not by.masses else "; "
+    text += (" and " if "with it" in heard else "; ").join(last)
+    text = f"{cause}: {text or unchanged(now, before, why_not)}"
     if now.answered < 1.0:
         text += (
             f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
@@ -87,17 +120,38 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
     return "nothing changes" + (f", as {why_not}" if why_not else "")
 
 
-def load_words(now: Chain, before: Chain) -> str:
-    """Shift of the load, or change of the load of the most loaded ball."""
+def why_stiffer(now: Chain, before: Chain, along: str) -> str:
+    """Why the radial stiffness that is named first changed, from balls and their places."""
+    term = next(iter(named_terms(now, before, along)), "")
+    return why_softer(
+        term, (now.stiffness, now.loaded_balls), (before.stiffness, before.loaded_balls), True
+    )
+
+
+def band_follows(now: Chain, before: Chain, label: str) -> bool:
+    """Whether a band moves the way that the stiffness along it does."""
+    moved = sum(now.bands[label]) - sum(before.bands[label])
+    return moved * _change(now, before, f"k_{label[:-1] * 2}") > 0.0
+
+
+def load_words(now: Chain, before: Chain, by_defect: bool = False) -> str:
+    """Shift of the load, or change of the load of the most loaded ball.
+
+    `by_defect`: nothing else was changed, so that it is defects that move the load.
+    """
     around = math.degrees(now.direction - before.direction)
     around = abs((around + 180.0) % 360.0 - 180.0)
     if around >= math.degrees(LEAST_TURN):
         return f"the load turns by {style.number(around, 2)}°"
     turned = now.off_line - before.off_line
     if turned >= LEAST_TURN:
-        return "load shifts to balls farther from the load line"
+        if by_defect:
+            return "the balls beside the defect take over the load"
+        return "load spreads to balls farther from its line"
     if turned <= -LEAST_TURN:
-        return "load shifts to balls nearer the load line"
+        if by_defect:
+            return "balls near the line of the load carry more of it again"
+        return "load gathers on balls nearer its line"
     grown = _ratio(now.greatest_load, before.greatest_load)
     if abs(grown) >= LEAST_LOAD:
         return f"the greatest load of a ball {_by(grown)}"
@@ -106,6 +160,12 @@ def load_words(now: Chain, before: Chain) -> str:
 
 def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     """Change of the mean stiffness along a direction, and in another where it is larger."""
+    terms = named_terms(now, before, along)
+    return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
+
+
+def named_terms(now: Chain, before: Chain, along: str) -> list[str]:
+    """The terms whose change is named."""
     main = f"k_{along}{along}"
     own = abs(_change(now, before, main))
     others = [term for term in now.stiffness if term != main]
@@ -113,7 +173,7 @@ def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     terms = [main] if own >= LEAST else []
     if abs(_change(now, before, most)) >= max(_SECOND * own, LEAST) and most != main:
         terms.append(most)
-    return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
+    return terms
 
 
 def moved_band(now: Chain, before: Chain, along: str) -> str:
@@ -164,8 +224,9 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
     if abs(louder) >= ALMOST_NONE:
         where = "" if along == now.loudest else f" along {along}"
         at = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
-        verb = "rises from" if louder > 0.0 else "falls to"
-        return f"the spectrum's peak{where} at {at} {verb} almost none"
+        if louder < 0.0:
+            return f"hardly any vibration is left{where} at {at}"
+        return f"vibration appears{where} at {at}"
     if abs(louder) >= LEAST_LEVEL:
         level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
     moved = new.frequency - old.frequency

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, RoughFloor, presets
-from bearingcore.common.kept import kept
+from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import path_tables
 
 
 def test_results_are_kept_up_to_a_number_of_bytes() -> None:
     asked: list[int] = []
 
-    @kept(100, 1000, lambda found, n: n)
+    @lru_cache_by_bytes(100, 1000, lambda found, n: n)
     def made(n: int) -> np.ndarray:
         asked.append(n)
         return np.zeros(n)
@@ -26,7 +26,7 @@ def test_results_are_kept_up_to_a_number_of_bytes() -> None:
 
 
 def test_errors_are_not_kept() -> None:
-    @kept(2, 1000, lambda found, n: 1)
+    @lru_cache_by_bytes(2, 1000, lambda found, n: 1)
     def refused(n: int) -> int:
         raise ValueError(n)
 

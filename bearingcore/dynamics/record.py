@@ -1,33 +1,39 @@
-"""Effects between a motion and its measurement: wandering cages, paths, knocks, tones, noise.
+"""Simulated records: a motion behind wandering cages, paths, knocks, tones and noise.
 
 A simulated motion has a cage that turns steadily and a sensor that feels the housing itself. Real
 ones have neither. Each effect can be switched off by itself, to find which of them a method bears.
+The effects are drawn, not derived: what is learned from such records has to be tried on real ones.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import zlib
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len
-from scipy.interpolate import make_interp_spline
-from scipy.signal import resample_poly
 
+from bearingcore.common import checks
 from bearingcore.dynamics.motion import simulate
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
+from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import crossings
-from tests.helpers.simulated import SETTLING
+
+SETTLING = 0.12
+"""[s] of motion before the record begins: several times the slowest mode's decay."""
 
 SLOWEST_WANDER = 0.3
 """[Hz] The cage's speed wanders no slower than this, and no faster than the cage turns."""
 
 WANDERS = 6
 """Sines of which a wandering speed consists."""
+
+_BACKGROUND = (math.log(1.0), math.log(10.0))
+"""Logarithms of the least and greatest background [m/s²] that are drawn."""
 
 TONES = 6
 """Harmonics of the shaft, each fainter than the one before: the first, half, a third of it …"""
@@ -42,10 +48,10 @@ class Resonance:
     damping: float
     """ratio to the critical one"""
     gain: tuple[float, ...]
-    """what it adds at its peak, along each direction, to the 1 of the direct path"""
+    """amount added at its peak, along each direction, to the 1 of the direct path"""
 
     def transfer(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """What it adds (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
+        """Amount added (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
         r = frequency / self.frequency
         return np.asarray(2j * self.damping * r / (1.0 - r**2 + 2j * self.damping * r))
 
@@ -67,7 +73,7 @@ def drawn_resonances(rng: np.random.Generator) -> tuple[Resonance, ...]:
 
 @dataclass(frozen=True)
 class PathEffects:
-    """What is added to a simulated motion, each switched off by its 0, () or None.
+    """Effects added to a simulated motion, each switched off by its 0, () or None.
 
     Attributes
     ----------
@@ -76,12 +82,15 @@ class PathEffects:
     resonances
         between housing and sensor.
     knock, knock_frequency, knock_damping
-        peak of what a ball makes ring as it strikes the far edge, over the peak of the motion;
-        its frequency [Hz] and damping ratio.
+        peak of what a ball makes ring as it strikes the far edge, over the peak of the motion, on
+        an inner race as strong as the load there; its frequency [Hz] and damping ratio.
     shaft_tones
         root mean square of the shaft's first harmonic, over that of the signal.
     noise
         [dB] by which the power of pink noise lies below the signal's; None for none.
+    background
+        [m/s²] root mean square of pink noise that the machine makes whatever the bearing does. A
+        healthy bearing of this model is far quieter than any machine.
     """
 
     cage_wander: float = 0.004
@@ -91,47 +100,69 @@ class PathEffects:
     knock_damping: float = 0.04
     shaft_tones: float = 0.3
     noise: float | None = 20.0
+    background: float = 0.0
 
     def without(self, *names: str) -> PathEffects:
         """The same with some effects switched off, by the names of their fields."""
         off: dict[str, Any] = {"cage_wander": 0.0, "resonances": (), "knock": 0.0}
-        off |= {"shaft_tones": 0.0, "noise": None}
+        off |= {"shaft_tones": 0.0, "noise": None, "background": 0.0}
         return dataclasses.replace(self, **{name: off[name] for name in names})
 
 
-def recorded_through(
+def simulated_record(
     scene: Scene,
-    effects: PathEffects,
+    effects: PathEffects | None = None,
     duration: float = 1.4,
     sample_rate: float = 20_480.0,
     *,
-    seed: int = 0,
+    seed: int | None = None,
 ) -> Recording:
-    """What a sensor records of a scene, beyond the motion of its housing.
+    """Record of a sensor in a scene, beyond the motion of its housing, for learning and trials.
 
     A cage that wanders is the steady motion on a clock that wanders: passes and events move in
     time as they do, modes by the same few thousandths, which nothing shows.
+
+    Parameters
+    ----------
+    scene
+        with its defect, or healthy.
+    effects
+        see `PathEffects`; None draws the resonances of the path, and a background between 1 and
+        10 m/s².
+    duration, sample_rate
+        [s], [Hz].
+    seed
+        of all that is drawn; None: that of the scene, so that equal scenes give equal records.
+
+    Raises
+    ------
+    ValueError
+        where the motion cannot be computed, in a sentence.
     """
+    checks.instance("scene", scene, Scene)
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    seed = zlib.crc32(scene.to_toml().encode()) if seed is None else seed
     rng = np.random.default_rng(seed)
+    if effects is None:
+        resonances, background = drawn_resonances(rng), math.exp(rng.uniform(*_BACKGROUND))
+        effects = PathEffects(resonances=resonances, background=background)
     start = SETTLING + float(rng.uniform(0.05, 0.25))
     motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
-    assert motion.completed, motion.reason
+    if not motion.completed:
+        raise checks.refuse("scene", motion.reason, "one whose motion is computed")
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)
     columns = [motion.dofs.index(name) for name in directions]
     count = round(duration * sample_rate)
     time = np.arange(count) / sample_rate
     clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
     signal = _at(motion.outer_acceleration[:, columns], sample_rate, clock)
-    if effects.knock > 0.0:
+    if effects.knock > 0.0 and scene.defects:
         peak = float(np.abs(signal).max())
-        ring = _knocks(scene, effects, clock, time)
-        toward = np.array([math.cos(scene.defects[0].center), math.sin(scene.defects[0].center)])
-        along = [toward["xy".index(name)] for name in directions]
-        # a blow along the defect's radius is felt a little across it too
-        felt = np.where(np.abs(along) < 0.3, 0.3, along)
-        signal = signal + effects.knock * peak * ring[:, None] * felt
+        signal = signal + effects.knock * peak * _knocks(scene, effects, clock, time, directions)
     if effects.resonances:
         signal = _through(signal, sample_rate, effects.resonances)
+    if effects.background > 0.0:
+        signal = signal + effects.background * pink_noise(count, len(directions), rng)
     level = math.sqrt(float(np.mean(signal**2)))
     if effects.shaft_tones > 0.0:
         turn = scene.shaft_speed * time
@@ -142,7 +173,7 @@ def recorded_through(
     if effects.noise is not None:
         noise = pink_noise(count, len(directions), rng)
         signal = signal + level * 10.0 ** (-effects.noise / 20.0) * noise
-    return Recording(signal, sample_rate, directions, "simulated, along a path")
+    return Recording(signal, sample_rate, directions, "simulated, along a path", scene.shaft_speed)
 
 
 def wandering_clock(
@@ -174,35 +205,61 @@ def _at(
     signal: NDArray[np.float64], rate: float, clock: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """The signal (n, d) at other times [s] than those of its samples."""
+    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
+    from scipy.signal import resample_poly
+
     fine = resample_poly(signal, 4, 1, axis=0)
     return np.asarray(make_interp_spline(np.arange(len(fine)) / (4.0 * rate), fine, k=3)(clock))
 
 
 def _knocks(
-    scene: Scene, effects: PathEffects, clock: NDArray[np.float64], time: NDArray[np.float64]
+    scene: Scene,
+    effects: PathEffects,
+    clock: NDArray[np.float64],
+    time: NDArray[np.float64],
+    directions: tuple[str, ...],
 ) -> NDArray[np.float64]:
-    """What rings (n,), with a peak of about 1, each time that a ball reaches the far edge."""
-    cage = scene.cage_speed
-    exits = [
-        crossing.cage_angle / cage
+    """Ringing (n, d), with a peak of about 1, each time that a ball reaches the far edge."""
+    cage, ratio = scene.cage_speed, scene.bearing.cage_ratio
+    left = [
+        (crossing.cage_angle, scene.defects[crossing.defect])
         for crossing in crossings(scene, float(clock[0]) * cage, float(clock[-1]) * cage)
         if not crossing.enters
     ]
-    begins = np.interp(exits, clock, time)
+    begins = np.interp([angle / cage for angle, _ in left], clock, time)
+    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in left]
+    places = np.array([defect.center for _, defect in left]) + turns
+    inner = np.array([defect.race == "inner" for _, defect in left], dtype=bool)
+    strength = np.where(inner, _load_at(scene, places) if inner.any() else 1.0, 1.0)
+    # a blow along the defect's radius is felt a little across it too
+    along = np.stack([np.cos(places) if name == "x" else np.sin(places) for name in directions], 1)
+    felt = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
     omega = 2.0 * math.pi * effects.knock_frequency
-    signal = np.zeros(len(time))
-    for begin in begins.tolist():
+    signal = np.zeros((len(time), len(directions)))
+    for begin, by in zip(begins.tolist(), felt, strict=True):
         first = int(np.searchsorted(time, begin))
         last = min(len(time), first + int(12.0 / (effects.knock_damping * omega * time[1])))
         since = time[first:last] - begin
-        signal[first:last] += np.exp(-effects.knock_damping * omega * since) * np.sin(omega * since)
+        ring = np.exp(-effects.knock_damping * omega * since) * np.sin(omega * since)
+        signal[first:last] += ring[:, None] * by
     return signal
+
+
+def _load_at(scene: Scene, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Load of a ball of the healthy bearing at angles [rad], over the greatest."""
+    state = equilibrium(scene.healthy())
+    angle, load = state.ball_angle.ravel(), np.nan_to_num(state.ball_load.ravel())
+    order = np.argsort(angle)
+    share = load[order] / max(float(load.max()), 1e-300)
+    return np.interp(places % (2.0 * math.pi), angle[order], share, period=2.0 * math.pi)
 
 
 def _through(
     signal: NDArray[np.float64], rate: float, resonances: tuple[Resonance, ...]
 ) -> NDArray[np.float64]:
     """The signal (n, d) behind a path, each direction by its own gains."""
+    from scipy.fft import next_fast_len  # imported late: see `spectrum`
+
     count = len(signal)
     size = next_fast_len(count + round(0.2 * rate), real=True)
     frequency = np.asarray(np.fft.rfftfreq(size, 1.0 / rate), dtype=float)

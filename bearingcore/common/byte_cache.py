@@ -13,12 +13,15 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar, cast
 
 P = ParamSpec("P")
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 
-def kept(
-    most: int, most_bytes: int, size: Callable[..., int]
-) -> Callable[[Callable[P, Found]], Callable[P, Found]]:
+def lru_cache_by_bytes(
+    most: int,
+    most_bytes: int,
+    size: Callable[..., int],
+    key: Callable[..., Hashable] | None = None,
+) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
     """Keep what a function returns, by its arguments, the least recently used going first.
 
     Parameters
@@ -29,34 +32,36 @@ def kept(
         of all that is kept. What is larger than half of it is not kept at all.
     size
         bytes of a result and what it keeps alive: called with the result, then the arguments.
+    key
+        what a result belongs to, of the arguments; None: the arguments themselves, which are kept.
     """
 
-    def around(function: Callable[P, Found]) -> Callable[P, Found]:
+    def decorate(function: Callable[P, Result]) -> Callable[P, Result]:
         held: OrderedDict[Hashable, tuple[int, Any]] = OrderedDict()
         lock = threading.Lock()
         total = 0
 
         @wraps(function)
-        def asked(*arguments: P.args, **named: P.kwargs) -> Found:
+        def cached(*arguments: P.args, **named: P.kwargs) -> Result:
             nonlocal total
-            key = (arguments, tuple(named.items()))
+            of = key(*arguments, **named) if key else (arguments, tuple(named.items()))
             with lock:
-                if key in held:
-                    held.move_to_end(key)
-                    return cast(Found, held[key][1])
-            found = function(*arguments, **named)
-            bytes_ = size(found, *arguments, **named)
+                if of in held:
+                    held.move_to_end(of)
+                    return cast(Result, held[of][1])
+            result = function(*arguments, **named)
+            bytes_ = size(result, *arguments, **named)
             if 2 * bytes_ > most_bytes:
-                return found
+                return result
             with lock:
-                if key not in held:
-                    held[key] = (bytes_, found)
+                if of not in held:
+                    held[of] = (bytes_, result)
                     total += bytes_
                 while len(held) > most or total > most_bytes:
                     _, (gone, _) = held.popitem(last=False)
                     total -= gone
-            return found
+            return result
 
-        return asked
+        return cached
 
-    return around
+    return decorate

@@ -1,0 +1,363 @@
+"""Why results are as they are: a sentence each, from the results alone.
+
+Where the results do not show a reason the sentence is empty, or says that there is none here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.explorer.results.chain import Peak, direction, loudest
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.element_words import element_name, elements
+from bearingcore import DOF_NAMES
+from bearingcore.scene.scene import DOF_SYMBOLS
+from bearingcore.statics.passes import drops_at
+from bearingcore.statics.ranges import BALL_LOAD
+from bearingcore.sweep.outputs import mode_symbol
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.results.excerpt import Excerpt
+    from bearing_explorer.explorer.results.results import Results
+    from bearingcore import Bearing, Equilibrium, Scene, Spectrum
+
+LEAST = 0.01
+"""Of a stiffness: less is no change."""
+ALIKE = 0.01
+"""Of the greatest load: balls that carry as much within this carry the most together."""
+SEPARATE = 4.0
+"""Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
+STANDS_OUT = 3.0
+"""[dB] over its surroundings, halfway to its neighbours, from which a peak is one."""
+LOADED = 0.01
+"""Of the greatest load at rest from which a ball counts as loaded."""
+LARGE_SWING = 1.25
+"""Greatest load in motion over that at rest from which a swing is not small."""
+_ACROSS = {"x": "the horizontal", "y": "the vertical"}
+_OTHER = {"x": "up and down", "y": "sideways"}
+_SQUARE = {"x": "cos²φ", "y": "sin²φ"}
+
+
+# --- loads ----------------------------------------------------------------------------------------
+
+
+def most_loaded(
+    scene: Scene,
+    found: Equilibrium,
+    state: int,
+    drop: NDArray[np.float64],
+    *,
+    briefly: bool = False,
+) -> str:
+    """Which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
+    load, bearing = found.ball_load[state], scene.bearing
+    if not (np.isfinite(load).all() and load.max() > 0.0):
+        return ""
+    most = np.flatnonzero(load >= (1.0 - ALIKE) * load.max())
+    several = most.size > 1
+    what = f"{style.with_prefix(load.max(), 'N')}{' each' if several else ''}"
+    line = direction(scene)
+    if most.size == load.size:
+        return f"All {elements(bearing)} carry alike, {what}: nothing loads one side."
+    names = _named(bearing, most)
+    text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
+    text += "" if briefly else f", {what}"
+    if math.isnan(line):
+        return f"{text}: there the rings are pressed together most."
+    apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
+    nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
+    inside = nearer[drop[nearer] > 0.0]
+    if not nearer.size:
+        off = style.in_degrees(apart[most].min(), 0)
+        near = "on the line of the load" if off == "0°" else f"nearest the line of the load ({off})"
+        if briefly:
+            return f"{text}: nearest the load."
+        return f"{text}: {near}, where the rings are pressed together most."
+    if not inside.size:
+        return f"{text}: there the rings are pressed together most."
+    said = _named(bearing, inside)
+    if briefly:
+        return f"{text}: {said} {'is' if inside.size == 1 else 'are'} in the defect."
+    left = load[inside].sum()
+    carry = f"only {style.with_prefix(left, 'N')}" if left > 0.0 else "nothing"
+    verb = "lies" if inside.size == 1 else "lie"
+    hold = "carries" if inside.size == 1 else "carry"
+    return f"{text}: {said}, nearer the line of the load, {verb} in the defect and {hold} {carry}."
+
+
+def greatest_load(results: Results) -> str:
+    """The same where a ball carries the most of all positions of the bearing."""
+    found = results.ranges.state
+    load = np.where(found.converged[:, None], found.ball_load, -1.0).max(axis=1)
+    state = [int(np.argmax(load))]
+    if load[state] <= 0.0:
+        return ""
+    drop = drops_at(results.scene, found.cage_angles[state], None, found.leads[state])[0]
+    return most_loaded(results.scene, found, state[0], drop)
+
+
+def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
+    """At most three elements by their names: "balls 10 and 12"."""
+    names = [element_name(bearing, k) for k in which[:3]]
+    if len(names) > 1 and len(bearing.all_rows) == 1:
+        numbers = style.list_words([str(k + 1) for k in which[:3]])
+        return f"{elements(bearing)} {numbers}"
+    return style.list_words(names)
+
+
+# --- stiffness ------------------------------------------------------------------------------------
+
+
+def radial(results: Results) -> tuple[dict[str, float], float]:
+    """Mean stiffness [N/m] along x and y over all positions, and mean number of loaded balls."""
+    ranges = results.ranges
+    found = ranges.state
+    balls = ranges.mean(np.where(found.converged, found.loaded_balls, math.nan))
+    terms = [f"k_{dof}{dof}" for dof in ("x", "y") if dof in found.dofs]
+    return {term: ranges.mean(found.term(term)) for term in terms}, balls
+
+
+def why_softer(
+    term: str,
+    now: tuple[Mapping[str, float], float],
+    before: tuple[Mapping[str, float], float],
+    briefly: bool = False,
+) -> str:
+    """Why the mean of k_xx or k_yy changed, from both and the number of loaded balls.
+
+    A contact at φ with stiffness k adds k·cos²φ to k_xx and k·sin²φ to k_yy: their sum is the
+    stiffness of all contacts, the share of one of them the mean cos²φ or sin²φ. Empty where the
+    means do not show it.
+    """
+    (stiff, balls), (former, balls_before) = now, before
+    if not {term, "k_xx", "k_yy"} <= set(stiff) & set(former):
+        return ""
+    total, total_before = (of["k_xx"] + of["k_yy"] for of in (stiff, former))
+    if not (min(stiff[term], former[term], balls, balls_before) > 0.0):
+        return ""
+    share, share_before = stiff[term] / total, former[term] / total_before
+    turned, grown = math.log(share / share_before), math.log(total / total_before)
+    more = math.log(balls / balls_before)
+    dof = term[-1]
+    rises = stiff[term] > former[term]
+    said = []
+    if (turned > 0.0) == rises and abs(turned) >= 0.5 * abs(grown):
+        how = "farther from" if turned < 0.0 else "nearer"
+        push = "more" if turned < 0.0 else "less"
+        lie = "" if briefly else f"loaded balls lie {how} {_ACROSS[dof]} and "
+        said.append(
+            f"{lie or 'balls '}push back {push} {_OTHER[dof]} "
+            f"({_SQUARE[dof]} {share_before:.2f} → {share:.2f})"
+        )
+    if (grown > 0.0) == rises and abs(grown) >= 0.5 * abs(turned):
+        if (more > 0.0) == rises and abs(more) >= 0.5 * abs(grown):
+            many = "more" if more > 0.0 else "fewer"
+            said.append(
+                f"{many} balls carry ({style.number(balls_before)} → {style.number(balls)})"
+            )
+        else:
+            said.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
+    return said[0] if said and briefly else style.list_words(said)
+
+
+def stiffness(results: Results, *, briefly: bool = False) -> str:
+    """Why the radial stiffness is not that of the healthy bearing, or why x and y differ."""
+    now = radial(results)
+    means = now[0]
+    if len(means) < 2 or not all(map(math.isfinite, means.values())):
+        return ""
+    if results.scene.defects and results.reference_label:
+        before = radial(results.reference)
+        grown = {term: means[term] / before[0][term] - 1.0 for term in means}
+        most = max(grown, key=lambda term: abs(grown[term]))
+        along = direction(results.scene)  # the stiffness that carries the load first
+        term = "k_yy" if math.isnan(along) or abs(math.sin(along)) > 0.5 else "k_xx"
+        term = term if abs(grown[term]) >= LEAST else most
+        if math.isfinite(grown[term]) and abs(grown[term]) >= LEAST:
+            verb = "rises" if grown[term] > 0.0 else "falls"
+            by = style.number(100.0 * abs(grown[term]), 2)
+            why = why_softer(term, now, before, briefly)
+            if briefly and why:
+                return f"{term} {verb}: {why}."
+            text = f"With the defect {term} {verb} by {by} % on average"
+            return f"{text}: {why}." if why else f"{text}."
+        if math.isfinite(grown[term]) and abs(now[1] - before[1]) < LEAST * before[1]:
+            many = style.number(now[1])
+            return (
+                "The defect hardly changes the mean stiffness: as many balls carry as without it "
+                f"({many} on average), at the same angles."
+            )
+    share = means["k_yy"] / (means["k_xx"] + means["k_yy"])
+    if 0.45 <= share <= 0.55:
+        return f"k_xx and k_yy are alike: balls carry all around (mean sin²φ {share:.2f})."
+    dof, other = ("y", "x") if share > 0.5 else ("x", "y")
+    large, small = max(share, 1.0 - share), min(share, 1.0 - share)
+    return (
+        f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: loaded balls "
+        f"lie near {_ACROSS[dof]} and push back along it ({_SQUARE[dof]} {large:.2f} on average, "
+        f"{_SQUARE[other]} {small:.2f})."
+    )
+
+
+def not_needed(scene: Scene, *, briefly: bool = False) -> str:
+    """Directions in which the rings are held in a scene, and why; empty where all are free."""
+    held = [dof for dof in DOF_NAMES if dof not in scene.active_dofs]
+    if not held:
+        return ""
+    names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
+    if scene.active_dofs != scene.needed_dofs:
+        return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
+    if briefly:
+        return f"Not needed here: {names}."
+    kind = scene.bearing.kind
+    why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
+    if scene.active_dofs != kind.needed_directions:
+        tilts = "rx" in kind.needed_directions
+        why.append("no load along the shaft" + (", no moment" if tilts else ""))
+    return f"Not needed here: {names} ({'; '.join(why)})." if why else f"Not needed here: {names}."
+
+
+# --- natural frequencies --------------------------------------------------------------------------
+
+
+def frequencies(results: Results) -> str:
+    """Why the natural frequency that moves most does so."""
+    ranges = results.ranges
+    widths = {
+        label: high / low
+        for label, (low, high) in results.bands.items()
+        if label[:-1] in ("x", "y") and low > 0.0
+    }
+    if not widths:
+        return ""
+    label = max(widths, key=lambda one: widths[one])
+    term = f"k_{label[:-1] * 2}"
+    ratio = ranges.greatest[term] / ranges.least[term] if ranges.least[term] > 0.0 else math.nan
+    if not ratio > 1.0:
+        return ""
+    name = mode_symbol(label)
+    moves, varies = (f"{style.number(100.0 * (of - 1.0), 2)} %" for of in (widths[label], ratio))
+    if ratio < 1.0 + LEAST:
+        return f"The bands are narrow because {term} varies by no more than {varies}."
+    power = math.log(widths[label]) / math.log(ratio)
+    text = f"{name} moves most, by {moves}, because {term} varies by {varies}"
+    if power > 0.55:
+        return f"{text}, and other terms with it."
+    if power >= 0.45:
+        return f"{text}: a frequency goes with the square root of the stiffness."
+    return (
+        f"{text}: less than its square root, as the support, whose stiffness stays, has a part "
+        "in it."
+    )
+
+
+# --- vibration ------------------------------------------------------------------------------------
+
+
+def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
+    """Whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it."""
+    frequency, density = spectrum
+    spacing = float(frequency[1] - frequency[0])
+    hertz = style.with_prefix(rate, "Hz")
+    if not rate > 0.0:
+        return ""
+    if rate < SEPARATE * spacing:
+        if briefly:
+            return (
+                f"None at {hertz}, how often balls pass: lines are {spacing:.0f} Hz apart (see "
+                "Vibration)."
+            )
+        return (
+            f"No peak at {hertz}, as often as balls pass: lines are {spacing:.0f} Hz apart. See "
+            f"each pass in time (Vibration, every {style.with_prefix(1.0 / rate, 's')}) or in the "
+            "envelope (Diagnosis)."
+        )
+    level = 10.0 * np.log10(np.maximum(density, 1e-20))
+    at = round(rate / spacing)
+    own = level[at - 1 : at + 2].max()
+    valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
+    below = float(level.max() - own)
+    if own - max(valleys) < STANDS_OUT:
+        return (
+            f"No peak stands out at {hertz}, as often as balls pass: so slow a force moves the "
+            f"housing little, {style.number(below, 2)} dB below the largest peak."
+        )
+    return f"Peaks stand {hertz} apart, as often as balls pass."
+
+
+def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
+    """Why the largest peak of the settled vibration is where it is; `rates` [Hz] of ball passes."""
+    spectra = results.late_spectra
+    peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
+    if not peaks:
+        return ""
+    dof = max(peaks, key=lambda one: peaks[one].level)
+    most = peaks[dof]
+    text = f"The largest peak, {most.frequency:.0f} Hz along {dof},"
+    bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
+    inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
+    if own := [label for label in inside if label[:-1] == dof]:
+        if briefly:
+            return f"Largest peak in {mode_symbol(own[0])}: balls make it swing."
+        return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
+    for rate in rates:
+        halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
+        resolved = rate >= SEPARATE * most.resolution and halves > 0
+        if resolved and abs(most.frequency - 0.5 * halves * rate) <= most.resolution:
+            hertz = style.with_prefix(rate, "Hz")
+            times = f"{style.number(0.5 * halves)} times {hertz}, as often as balls pass"
+            why = "" if halves % 2 == 0 else ": the motion repeats only every second pass"
+            return f"{text} lies in no band of {dof}. It is {times}{why}."
+    if inside:
+        words = _lies(most, inside[0], bands)
+        return f"{text} {words}: along {dof} the housing takes part in that swing."
+    if not bands:
+        return ""
+    label = min(bands, key=lambda one: _off(most, bands[one]))
+    side = "below" if most.frequency < bands[label][0] else "above"
+    text += f" lies in no band, {_off(most, bands[label]):.0f} Hz {side} {mode_symbol(label)}"
+    moving, still = results.load_in_motion, results.ranges.greatest[BALL_LOAD]
+    if moving is not None and moving > LARGE_SWING * still:
+        times = style.number(moving / still, 2)
+        return (
+            f"{text}: bands hold for small swings, and here a ball carries {times} times as much "
+            "as at rest."
+        )
+    return f"{text}; the results here do not show why."
+
+
+def jolt(shown: Excerpt, bearing: Bearing) -> str:
+    """When the housing is shaken most, against the loaded balls that enter and leave a defect."""
+    if shown.broke_off or not shown.acceleration or not shown.events:
+        return ""
+    size = np.max([np.abs(values) for values in shown.acceleration.values()], axis=0)
+    at = float(shown.time[int(np.argmax(size))])
+    nearest = min(shown.events, key=lambda event: abs(event.time - at))
+    own = np.flatnonzero(shown.balls == nearest.ball)
+    load = shown.ball_load[:, own].max(initial=0.0)
+    if not load > LOADED * shown.greatest_static_load:
+        return (
+            "No loaded ball passes the defect: only the changing number of loaded balls shakes it."
+        )
+    apart = at - nearest.time
+    verb, what = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
+    when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
+    return (
+        f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect "
+        f"and {what} its load ({style.with_prefix(load, 'N', 2)} at most)."
+    )
+
+
+def _off(peak: Peak, band: tuple[float, float]) -> float:
+    """Distance [Hz] of a peak from a band."""
+    return max(band[0] - peak.frequency, peak.frequency - band[1], 0.0)
+
+
+def _lies(peak: Peak, label: str, bands: Mapping[str, tuple[float, float]]) -> str:
+    where = "in" if _off(peak, bands[label]) == 0.0 else "at the edge of"
+    return f"lies {where} the band of {mode_symbol(label)}"

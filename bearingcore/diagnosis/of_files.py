@@ -1,0 +1,202 @@
+"""Diagnosis of a recording, of a file, or of all files of a folder, in one call."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, overload
+
+from bearingcore.bearings.named import BearingLike
+from bearingcore.common import checks
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.diagnosis.part.diagnose import diagnose as diagnose_recording
+from bearingcore.diagnosis.part.evidence import Diagnosis
+from bearingcore.files.facts import Finding
+from bearingcore.files.table import MOST_BYTES, Table, read_table
+from bearingcore.signals.recording import Recording
+
+FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class FolderDiagnosis:
+    """Diagnoses of the files of a folder, in the order of their names.
+
+    Attributes
+    ----------
+    names
+        of the files.
+    answers
+        a `Diagnosis` each; None of a file that cannot be read.
+    sentences
+        of the answers, or why a file cannot be read.
+    """
+
+    names: tuple[str, ...]
+    answers: tuple[Diagnosis | None, ...]
+    sentences: tuple[str, ...]
+
+    def table(self) -> ResultTable:
+        """A row a file: part, probability, shaft speed and the answer in words."""
+        answers = self.answers
+        faults = ["not read" if one is None else one.fault for one in answers]
+        odds = [math.nan if one is None else one.probability for one in answers]
+        speeds = [math.nan if one is None else one.shaft_speed or math.nan for one in answers]
+        return table_of(
+            ("file", "", self.names),
+            ("fault", "", faults),
+            ("probability", "1", odds),
+            ("shaft_speed", "rad/s", speeds),
+            ("sentence", "", self.sentences),
+        )
+
+
+@overload
+def diagnose(
+    recording: Recording,
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    **more: Any,
+) -> Diagnosis: ...
+@overload
+def diagnose(
+    recording: str | os.PathLike[str],
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    **more: Any,
+) -> Diagnosis | FolderDiagnosis: ...
+def diagnose(
+    recording: Recording | str | os.PathLike[str],
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    *,
+    columns: tuple[int | str, ...] | None = None,
+    directions: tuple[str, ...] | None = None,
+    unit: str | None = None,
+    sample_rate: float | None = None,
+    sensitivity: float | None = None,
+    **more: Any,
+) -> Diagnosis | FolderDiagnosis:
+    """Diagnosis of the damaged part of a bearing from a signal, a file, or a folder of files.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing, one direction or two; or the path of a file that `read_table`
+        reads, or of a folder of such files.
+    bearing
+        its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
+        angle count. None: that of the file's collection where it is a known one; else it is
+        unknown, no part is named, and the status says so.
+    shaft_speed
+        [rad/s], good to `slip`; a pair (from, to) if it is rough; None: what recording or file say,
+        else it is looked for between 300 and 6000 turns a minute.
+    columns, directions, unit, sample_rate, sensitivity
+        what a file does not say, or says wrongly: see `Table.recording`. Without a unit the numbers
+        are taken as they are: their scale does not count here.
+    **more
+        `slip` (0.02): by how much balls may pass faster or slower than the shaft speed says, as a
+        fraction. `most_samples` (20,000,000): of all directions that may be analysed; where there
+        are more nothing is begun, and the status says so. `speed_source`, `bearing_source`: where
+        they are from, "given", "from the file" or "assumed", perhaps with words behind a colon.
+
+    Returns
+    -------
+    Diagnosis or FolderDiagnosis
+        of a folder the second, a row a file; a file that cannot be read says why in its row.
+
+    Raises
+    ------
+    ValueError
+        for a speed, slip or source that cannot be, rows that are not alike, a path that leads
+        nowhere, and a file that cannot be read or needs an answer: of which columns, at which rate.
+    """
+    choices: dict[str, Any] = {"columns": columns, "directions": directions, "unit": unit}
+    choices |= {"sample_rate": sample_rate, "sensitivity": sensitivity}
+    if isinstance(recording, Recording):
+        for name, value in choices.items():
+            if value is not None:
+                raise checks.refuse(name, value, "None for a recording, which has it")
+        return diagnose_recording(recording, bearing, shaft_speed, **more)
+    if not isinstance(recording, os.PathLike):
+        recording = checks.instance("recording", recording, str, FILE_OR_FOLDER)
+    path = Path(recording)
+    if path.is_dir():
+        return _of_folder(path, bearing, shaft_speed, choices, more)
+    return _of_file(path, bearing, shaft_speed, choices, more)
+
+
+def _of_folder(
+    folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
+) -> FolderDiagnosis:
+    files = [one for one in sorted(folder.iterdir()) if one.is_file() and one.name[0] != "."]
+    if not files:
+        raise checks.refuse("recording", str(folder), "a folder with files in it")
+    answers: list[Diagnosis | None] = []
+    sentences = []
+    for one in files:
+        try:
+            found = _of_file(one, bearing, shaft_speed, choices, more)
+            answers.append(found)
+            sentences.append(found.sentence)
+        except ValueError as error:
+            answers.append(None)
+            sentences.append(str(error))
+    return FolderDiagnosis(tuple(one.name for one in files), tuple(answers), tuple(sentences))
+
+
+def _of_file(
+    path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
+) -> Diagnosis:
+    if not path.is_file():
+        raise checks.refuse("recording", str(path), FILE_OR_FOLDER)
+    if (size := path.stat().st_size) > MOST_BYTES:
+        most = f"at most {MOST_BYTES // 2**20} MB: split it, or export less of it"
+        raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
+    table = read_table(path.name, path.read_bytes())
+    says = table.contents
+    if bearing is None and says.bearing is not None and says.bearing.taken:
+        bearing = says.bearing.value
+        more = {"bearing_source": _source(says.bearing, f"{bearing}, ")} | more
+    if shaft_speed is None and says.shaft_speed is not None and says.shaft_speed.taken:
+        shaft_speed = says.shaft_speed.value
+        more = {"speed_source": _source(says.shaft_speed)} | more
+    return diagnose_recording(_recording(table, **choices), bearing, shaft_speed, **more)
+
+
+def _source(finding: Finding[Any], words: str = "") -> str:
+    """Where a fact is from, as `diagnose` says it."""
+    return "from the file" if finding.stated else f"assumed: {words}{finding.reason}"
+
+
+def _recording(
+    table: Table,
+    columns: tuple[int | str, ...] | None,
+    directions: tuple[str, ...] | None,
+    unit: str | None,
+    sample_rate: float | None,
+    sensitivity: float | None,
+) -> Recording:
+    """The recording in a table, with what the file says where nothing else is given."""
+    says = table.contents
+    if columns is None:
+        chosen = says.choice.columns
+        if not chosen:
+            names = [table.names[i] for i in says.choice.options or range(len(table.names))]
+            question = f"{says.choice.question} " if says.choice.question else ""
+            wanted = f"{question}columns=[...] out of {', '.join(names)}"
+            raise checks.refuse("columns", None, wanted)
+        directions, columns = directions or tuple(chosen), tuple(chosen.values())
+    if directions is None:
+        directions = ("x", "y")[-len(columns) :]
+    units: dict[int | str, str | None] = {one.name: one.unit for one in says.columns}
+    units |= {number: one.unit for number, one in enumerate(says.columns)}
+    if unit is None and not all(units.get(column) for column in columns):
+        unit = says.unit.value if says.unit.taken else "m/s²"
+    rate = says.sample_rate
+    if sample_rate is None and rate is not None and rate.taken:
+        sample_rate = rate.value
+    return table.recording(columns, directions, unit, sample_rate, sensitivity=sensitivity)

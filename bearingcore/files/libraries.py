@@ -1,0 +1,197 @@
+"""Formats that other libraries read: UFF, TDMS, Parquet, and NumPy's own; and a zip of one file.
+
+Runs in the process of `child` alone. The libraries come with the extra `files`.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import os
+import re
+import zipfile
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+from unittest.mock import patch
+
+import numpy as np
+
+from bearingcore.common import checks
+from bearingcore.errors import FieldError
+
+if TYPE_CHECKING:
+    from bearingcore.files.formats import Variables
+
+MOST_UNPACKED = 2**28
+"""[bytes] of a file in a zip."""
+
+_TIME_RESPONSE = (0, 1)
+"""Function types of data set 58 that are signals over time: general ones, and time responses."""
+
+
+def library_for(name: str, content: bytes) -> tuple[str, Callable[[bytes, Variables], None]] | None:
+    """Name and reader of the format of a file, by its first bytes; None where it is none of these.
+
+    Raises
+    ------
+    FieldError
+        where the format's library is not installed.
+    """
+    for mark, kind, walk, package in _KINDS:
+        if re.match(mark, content, re.DOTALL):
+            if package and importlib.util.find_spec(package[0]) is None:
+                raise checks.refuse(
+                    "file",
+                    name,
+                    f"a {kind} only where the package {package[1]} is installed (pip install "
+                    f"{package[1]}); else export it as CSV from the program that wrote it",
+                )
+            return kind, walk
+    return None
+
+
+def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
+    """Name and content of the file in a zip, or of the one that the end of `name` says.
+
+    Raises
+    ------
+    FieldError
+        for a damaged zip, or one of several files none of which is named.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            files = [
+                one
+                for one in packed.infolist()
+                if one.filename[-1:] not in ("", "/")
+                and not re.search(r"(^|/)(\.|__MACOSX/)", one.filename)
+            ]
+            if any(one.filename == "[Content_Types].xml" for one in files):
+                raise checks.refuse("file", name, "no office document: save its sheet as CSV")
+            named = [one for one in files if name.endswith(f".zip/{one.filename}")]
+            if len(named or files) != 1:
+                some = ", ".join(one.filename for one in files[:6])
+                raise checks.refuse(
+                    "file",
+                    name,
+                    f"a zip of one file, not of {len(files)} ({some}): unpack it, or write which "
+                    f"one after the zip's name, as in {name}/{files[0].filename if files else ''}",
+                )
+            one = (named or files)[0]
+            if one.file_size > MOST_UNPACKED:
+                raise checks.refuse(
+                    "file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB"
+                )
+            inside = packed.read(one)
+            if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
+                raise checks.refuse("file", name, "no zip inside a zip: unpack it")
+            return one.filename, inside
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # a damaged zip raises almost anything in there
+        raise checks.refuse("file", name, "a whole zip without a password") from None
+
+
+def is_npz(content: bytes) -> bool:
+    """Whether a zip is of NumPy's arrays."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            names = packed.namelist()
+    except Exception:  # a damaged zip raises almost anything in there
+        return False
+    return bool(names) and all(name.endswith(".npy") for name in names)
+
+
+def _npy(content: bytes, found: Variables) -> None:
+    _add_array("", np.load(io.BytesIO(content), allow_pickle=False), found)
+
+
+def npz(content: bytes, found: Variables) -> None:
+    """All arrays of NumPy's `savez`."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        for name in arrays.files:
+            _add_array(name, arrays[name], found)
+
+
+def _add_array(name: str, array: np.ndarray[Any, Any], found: Variables) -> None:
+    if array.dtype.names:
+        for part in array.dtype.names:
+            found.add(f"{name}.{part}" if name else part, _plain(array[part].ravel()))
+    else:
+        found.add(name or "array", _plain(array))
+
+
+def _plain(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Dates and durations as seconds since the first."""
+    if values.dtype.kind == "M" and values.size:
+        values = values - values.ravel()[0]
+    return values / np.timedelta64(1, "s") if values.dtype.kind == "m" else values
+
+
+def _parquet(content: bytes, found: Variables) -> None:
+    import pandas as pd
+
+    frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
+    if not isinstance(frame.index, pd.RangeIndex):
+        frame = frame.reset_index()
+    for name in frame.columns:
+        values = frame[name]
+        dated = values.dtype.kind in "Mm"
+        if dated or values.dtype.kind in "iuf":
+            column = values.to_numpy().astype(
+                values.dtype.str.replace("tz", "") if dated else float
+            )
+            found.add(f"{name} [s]" if dated else str(name), _plain(column))
+
+
+def _tdms(content: bytes, found: Variables) -> None:
+    from nptdms import TdmsFile
+
+    with TdmsFile.read(io.BytesIO(content)) as file:
+        parts = [("", file), *((group.name, group) for group in file.groups())]
+        for group in file.groups():
+            for channel in group.channels():
+                path = f"{group.name}.{channel.name}"
+                found.add(path, _plain(np.asarray(channel[:])))
+                parts.append((path, channel))
+        for path, part in parts:
+            for name, value in part.properties.items():
+                found.add(f"{path}.{name}" if path else name, np.asarray(value))
+
+
+def _uff(content: bytes, found: Variables) -> None:
+    import pyuff
+
+    # it takes names of files alone, and this process writes none
+    with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
+        sets = pyuff.UFF(os.devnull).read_sets()
+    sets = [
+        one
+        for one in (sets if isinstance(sets, list) else [sets])
+        if one.get("type") == 58 and one["func_type"] in _TIME_RESPONSE
+    ]
+    points = {one.get("rsp_node") for one in sets}
+    for index, one in enumerate(sets):
+        said = [one.get("id1", ""), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
+        said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
+        path = " ".join(word.strip() for word in said if word and word.strip() != "NONE")
+        path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
+        found.add(path, np.asarray(one["data"]))
+        if one["abscissa_spacing"]:
+            found.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
+        else:
+            found.add(f"{path} time [s]", np.asarray(one["x"]))
+        unit = str(one.get("ordinate_axis_units_lab", "")).strip()
+        if unit and unit != "NONE":
+            found.add(f"{path}.unit", np.array(unit))
+
+
+_AXES = {1: "x", 2: "y", 3: "z"}
+
+_KINDS: tuple[tuple[bytes, str, Callable[[bytes, Variables], None], tuple[str, str] | None], ...]
+_KINDS = (
+    (rb"\x93NUMPY", "NumPy file", _npy, None),
+    (rb"PAR1", "Parquet file", _parquet, ("pyarrow", "pyarrow")),
+    (rb"TDSm", "TDMS file", _tdms, ("nptdms", "npTDMS")),
+    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", _uff, ("pyuff", "pyuff")),
+)

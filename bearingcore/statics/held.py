@@ -1,0 +1,49 @@
+"""Moment on the shaft where a scene holds its tilts: what another bearing is taken to carry."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearingcore.common.numbers import with_prefix
+from bearingcore.scene import packing
+from bearingcore.statics.equilibrium import Equilibrium
+from bearingcore.statics.limit import Limit
+
+HELD_TILTS = "held tilts"
+
+_NOTICED = 1e-6
+"""Moment over that of all loads at the pitch circle, from which on it is more than rounding."""
+
+
+def held_tilts(state: Equilibrium) -> Limit | None:
+    """The greatest moment [N·m] that held tilts take, in words; None where there is none.
+
+    M = Σ Q_j (r_d sin α_j − z_k cos α_j)(sin φ_j, −cos φ_j), less the moment of the load.
+    """
+    bearing, tilts = state.scene.bearing, ("rx", "ry")
+    held = [dof for dof in tilts if dof not in state.dofs]
+    if not held or not set(tilts) <= set(bearing.kind.needed_directions):
+        return None
+    contacts, units = packing.contacts(bearing), packing.length_units(state.scene)
+    angle = np.nan_to_num(state.contact_angle)
+    lever = contacts.reach * np.sin(angle) - contacts.arm * np.cos(angle)
+    push = state.ball_load * lever * units[3]
+    phi = packing.ball_angles(bearing, state.cage_angles)
+    load = state.scene.load
+    moments = {
+        "rx": (push * np.sin(phi)).sum(axis=1) - load.mx,
+        "ry": -(push * np.cos(phi)).sum(axis=1) - load.my,
+    }
+    size = np.hypot(*(moments[dof] if dof in held else 0.0 * moments[dof] for dof in tilts))
+    size = size[np.isfinite(size)]
+    all_loads = float(np.nan_to_num(state.ball_load).sum(axis=1).max(initial=0.0))
+    if not size.max(initial=0.0) > _NOTICED * all_loads * bearing.groove_center_radius:
+        return None
+    sentence = (
+        f"The shaft is kept from tilting, which takes up to {with_prefix(float(size.max()), 'N·m')}"
+        f" of its other bearing; whether that can carry so much is not checked. With free tilts "
+        f"the {bearing.kind.elements} would carry other loads."
+    )
+    return Limit(HELD_TILTS, math.nan, math.nan, "N·m", False, sentence)

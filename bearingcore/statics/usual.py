@@ -1,0 +1,65 @@
+"""A sound bearing with a speed and a load as bearings of its size and kind have them."""
+
+from __future__ import annotations
+
+import math
+
+from bearingcore.bearings.named import BearingLike, bearing_of
+from bearingcore.scene.defect import Defect
+from bearingcore.scene.load import Load
+from bearingcore.scene.presets import FAN_RIG_SUPPORT
+from bearingcore.scene.scene import Scene
+from bearingcore.statics.life import dynamic_load_rating
+from bearingcore.statics.thrust import facing, induced_thrust
+
+SPEED_FACTOR = 150_000.0
+"""n d_m [mm/min], a third of what ball bearings in grease reach, half of what tapered ones do."""
+
+LOAD_SHARE = 1.0 / 15.0
+"""Radial load over the rating: machines are laid out for C/P of 10 to 20."""
+
+THRUST_SHARE = 1.3
+"""Thrust over the one that the radial load induces: with less of it half of a row is idle."""
+
+
+def scene_of(bearing: BearingLike) -> Scene:
+    """A scene of a sound bearing under a load and at a speed that are usual for it.
+
+    The load is a fifteenth of the dynamic rating, downwards; a bearing that carries thrust one way
+    only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min. A
+    bearing that tilts freely, or would tip under such a load, is that of a shaft on two bearings:
+    its tilts are held. Rotor and support are those of the fan rig, which is no machine that this
+    bearing is in: what depends on them (natural frequencies, vibration) needs those of the machine.
+
+    Parameters
+    ----------
+    bearing
+        a bearing, or its designation: "6205".
+
+    Raises
+    ------
+    ValueError
+        for a text that is no designation, and a bearing without a rating that ISO 281 does not
+        rate: give it its `dynamic_load_rating`.
+
+    Examples
+    --------
+    >>> scene = scene_of("6205")
+    >>> round(scene.load.fy), round(scene.shaft_speed * 30.0 / math.pi)
+    (-933, 3896)
+    """
+    own = bearing_of(bearing)
+    rated = own.replace(ball_youngs_modulus=None, ball_poisson=None) if own.is_hybrid else own
+    rating = own.dynamic_load_rating or dynamic_load_rating(rated)
+    scene = Scene(
+        bearing=own,
+        defect=Defect.none(),
+        load=Load(fy=-LOAD_SHARE * rating),
+        shaft_speed=SPEED_FACTOR / (1e3 * own.pitch_diameter) * math.pi / 30.0,
+        support=FAN_RIG_SUPPORT,
+    )
+    way = facing(own)
+    if not way:
+        return scene
+    scene = scene.replace(dofs=("x", "y", "z"))
+    return scene.replace(fz=way * THRUST_SHARE * induced_thrust(scene))

@@ -1,0 +1,114 @@
+"""Each reason is that of its scene, and what is named is what the core gives."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.bearing import BearingDrawing
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution
+from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.explorer.views.overview.bearing import OverviewBearing
+from bearing_explorer.explorer.views.vibration_spectrum import why_words
+from bearing_explorer.explorer.views.vibration_time import VibrationInTime
+from bearing_explorer.kit.serve.packed_source import PackedSource
+
+from bearingcore import Scene, equilibrium, presets
+
+RIG = presets["fan-rig"]
+SIDEWAYS = RIG.replace(fx=100.0, fy=0.0)
+"""The load passes by the defect, which is below."""
+FAST = RIG.replace(shaft_speed=60.0 * math.pi)
+UNDER = 3.0 * math.pi / 2.0 - RIG.bearing.ball_spacing * 10
+"""Cage angle with ball 11 at the bottom."""
+
+
+@cache
+def of(scene: Scene) -> Results:
+    return Results(scene, UNDER)
+
+
+def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
+    words = BearingDrawing(PackedSource()).sentence
+    load = equilibrium(RIG, [UNDER]).ball_load[0]
+    assert load[10] == 0.0
+    assert words(of(RIG)).endswith(
+        f"Balls 10 and 12 carry most, {load[9]:.3g} N each: ball 11, nearer the line of the load, "
+        "lies in the defect and carries nothing."
+    )
+    assert "Ball 11 carries most, 39 N: on the line of the load" in words(of(RIG.healthy()))
+    assert "nearest the line of the load (13°)" in words(of(SIDEWAYS))
+    evenly = RIG.healthy().replace(fy=0.0, fz=100.0)
+    assert "All balls carry alike" in words(of(evenly))
+    assert "rollers" not in words(of(RIG))
+    assert "Roller" in words(Results(presets["nu208"], UNDER))
+    short = OverviewBearing(PackedSource()).sentence
+    assert short(of(RIG)) == "Balls 10 and 12 carry most: ball 11 is in the defect."
+    assert short(of(RIG.healthy())) == "Ball 11 carries most: nearest the load."
+    most = LoadDistribution(PackedSource()).sentence
+    assert "ball 11, nearer the line of the load, lies in the defect" in most(of(RIG))
+    assert "in the defect" not in most(of(RIG.healthy()))
+
+
+def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None:
+    text = reasons.stiffness(of(RIG))
+    found, healthy = (equilibrium(s, np.linspace(0, s.bearing.ball_spacing, 721)[:-1])
+                      for s in (RIG, RIG.healthy()))  # fmt: skip
+    share = [float((e.term("k_yy")).mean() / (e.term("k_xx") + e.term("k_yy")).mean())
+             for e in (healthy, found)]  # fmt: skip
+    # of contacts alone: what each pushes back with goes with the cube root of its load (Hertz)
+    for e, expected in zip((healthy, found), share, strict=True):
+        k = np.cbrt(e.ball_load)
+        angles = float((k * np.sin(e.ball_angle) ** 2).sum() / k.sum())
+        assert angles == pytest.approx(expected, abs=0.01)
+    assert f"sin²φ {share[0]:.2f} → {share[1]:.2f}" in text
+    assert "k_yy falls" in text
+    assert "farther from the vertical" in text
+    assert "hardly changes" in reasons.stiffness(of(SIDEWAYS))
+    assert "lie near the vertical" in reasons.stiffness(of(RIG.healthy()))
+    assert "lie near the horizontal" in reasons.stiffness(of(SIDEWAYS.healthy()))
+    assert "alike" in reasons.stiffness(of(RIG.healthy().replace(fy=0.0, fz=100.0)))
+
+
+def test_a_frequency_moves_with_the_root_of_its_stiffness_or_less() -> None:
+    assert "square root of the stiffness" in reasons.frequencies(of(RIG))
+    shared = RIG.replace(fz=200.0)
+    assert "less than its square root, as the support" in reasons.frequencies(of(shared))
+    (low, high), ranges = of(shared).bands["y1"], of(shared).ranges
+    most = math.sqrt(ranges.greatest["k_yy"] / ranges.least["k_yy"])
+    assert high / low - 1.0 < 0.5 * (most - 1.0)
+    words = NaturalFrequencies(PackedSource()).sentence
+    assert words(of(RIG)).endswith(reasons.frequencies(of(RIG)))
+
+
+def test_a_peak_is_in_a_band_or_at_a_multiple_of_the_ball_passes() -> None:
+    slow, fast = why_words(of(RIG)), why_words(of(FAST))
+    assert "672 Hz along y, lies in the band of y₁" in slow
+    assert "No peak at 40.3 Hz, as often as balls pass: lines are 32 Hz apart" in slow
+    assert "lies in no band of y. It is 10 times 173 Hz" in fast
+    assert "Peaks stand 173 Hz apart" in fast
+    rate = FAST.bearing.bpfo(FAST.shaft_speed)
+    assert 10 * rate == pytest.approx(1728, abs=16)
+
+
+def test_the_largest_jolt_is_of_a_ball_that_carries() -> None:
+    words = VibrationInTime(PackedSource()).sentence
+    assert "leaves the defect and takes back its load" in words(of(RIG))
+    assert "No loaded ball passes the defect" in words(of(SIDEWAYS))
+
+
+def test_what_life_assumes_is_said_by_life_and_limits_alike() -> None:
+    """The Life tab has a pressure with usual groove radii, which limits do not judge."""
+    rig = of(RIG)
+    assert "no limit is judged by them" in rig.endurance.assumed
+    assert rig.endurance.pressures is not None
+    pressures = [limit for limit in rig.limits if limit.name.startswith("contact pressure, ")]
+    assert len(pressures) == 2
+    for limit in pressures:
+        assert math.isnan(limit.value)
+        assert limit.sentence.endswith("Life assumes usual ones, by which no limit is judged.")
+    assert not any("Life assumes" in limit.sentence for limit in Results(presets["nu208"]).limits)

@@ -1,0 +1,108 @@
+"""Each half of the program serves without the other; a half that is broken is not left out."""
+
+import subprocess
+import sys
+
+import pytest
+
+_FILE_DIAGNOSED = """
+import asyncio, io, math
+from bearing_explorer.diagnosis.upload import PIECE
+from bearing_explorer.page import TABS, Halves, page
+from scipy.io import wavfile
+from bearingcore import presets, simulate
+
+rig = presets["fan-rig"].replace(extent=math.radians(38.6))
+file = io.BytesIO()
+wavfile.write(file, 48_000, simulate(rig, 3.2, 48e3).outer_acceleration[9600:, 1].astype("f4"))
+content = file.getvalue()
+
+async def main():
+    page()
+    halves = Halves("v=1&preset=fan-rig&tab=load")  # a tab of the other half
+    session, brought = halves.session, halves.diagnosis.measurement
+    assert halves.explorer is None
+    assert [name for name, _ in TABS] == [session.shown] == ["diagnosis"]
+    session.start()
+    wanted = []
+    brought.want = lambda begin, of: wanted.append((begin, of))
+    brought.begin_upload("fan.wav", len(content))
+    while wanted:
+        begin, of = wanted.pop()
+        brought.take_piece(content[begin : begin + PIECE], of)
+    while brought._tasks:
+        await asyncio.sleep(0.01)
+    said = {"unit": "m/s²", "bearing": "scene", "speed": "scene"}
+    brought.take_form({**brought.state.values, **said})
+    session.draw()
+    view = found = None
+    while getattr(found, "fault", None) is None:
+        await asyncio.sleep(0.05)
+        views = [one for one in session.views_made() if one.name == "diagnosis"]
+        found = views[0].answer() if views else None
+    print(found.fault)
+    session.stop()
+
+asyncio.run(main())
+"""
+
+_SCENE_CHANGED = """
+import asyncio
+from bearing_explorer.explorer.messages import SceneChange
+from bearing_explorer.kit.messages import take
+from bearing_explorer.page import TABS, Halves, page
+
+async def main():
+    page()
+    halves = Halves("v=1&preset=fan-rig&tab=diagnosis")  # a tab of the other half
+    session = halves.session
+    assert halves.diagnosis is None and "diagnosis" not in dict(TABS)
+    assert session.shown == "overview"
+    session.start()
+    session.show_tab({"show": "load"})
+    take(halves.explorer.requests.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
+    halves.explorer.requests.simulate("20", "scene", "scene")  # of the other half: nothing comes
+    while session._drawn_mark < 4 or not session._loop.idle:
+        await asyncio.sleep(0.05)
+    [drawn] = [view for view in session.views_made() if view.name == "depth-profile"]
+    assert drawn.csv()
+    print(f"{halves.explorer.scene.defect.depth:.6g}")
+    session.stop()
+
+asyncio.run(main())
+"""
+
+
+def _without(half: str, script: str) -> str:
+    """What a script prints where a half is not there."""
+    hidden = f"import sys; sys.modules['bearing_explorer.{half}'] = None\n{script}"
+    done = subprocess.run(
+        [sys.executable, "-c", hidden], capture_output=True, text=True, timeout=600, check=False
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return done.stdout.strip().splitlines()[-1]
+
+
+def test_a_file_is_diagnosed_without_the_half_of_the_scene() -> None:
+    assert _without("explorer", _FILE_DIAGNOSED) == "outer race"
+
+
+def test_the_scene_is_changed_and_drawn_without_the_half_of_the_signal() -> None:
+    assert _without("diagnosis", _SCENE_CHANGED) == "8e-05"
+
+
+@pytest.mark.parametrize("module", ["explorer.half", "diagnosis.half", "kit.session"])
+def test_a_half_that_is_broken_is_not_left_out_unsaid(module: str) -> None:
+    """A module that is missing inside it is an error of the program."""
+    missing = f"""
+import sys
+sys.modules["bearing_explorer.{module}"] = None
+try:
+    import bearing_explorer.page
+except ModuleNotFoundError as error:
+    print(error.name)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", missing], capture_output=True, text=True, timeout=600, check=True
+    )
+    assert done.stdout.strip() == f"bearing_explorer.{module}"

@@ -1,0 +1,93 @@
+"""A file, or a folder of files, is diagnosed in one call; what is missing is asked by name."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bearingcore import Recording, diagnose
+from bearingcore.bearings.named import bearing_of
+
+RATE, TURNS = 12_000.0, 30.0
+SPEED = 2.0 * math.pi * TURNS
+
+
+def outer_race_signal(seed: int = 1) -> np.ndarray:
+    """Blows at the BPFO of a 6205, each ringing at 3 kHz, in noise."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(int(2.0 * RATE)) / RATE
+    signal = 0.1 * rng.standard_normal(len(time))
+    passing = bearing_of("6205").bpfo(SPEED)
+    for k in range(int(1.9 * passing)):
+        since = time - (k + 0.004 * rng.standard_normal()) / passing - 0.01
+        hit = (since >= 0.0) & (since < 0.01)
+        signal[hit] += np.exp(-600.0 * since[hit]) * np.sin(2e3 * math.pi * 3.0 * since[hit])
+    return signal
+
+
+def write(path: Path, heading: str, *columns: np.ndarray) -> Path:
+    rows = "\n".join(
+        ",".join(f"{value:.6g}" for value in row) for row in zip(*columns, strict=True)
+    )
+    path.write_text(f"{heading}\n{rows}\n", encoding="utf-8")
+    return path
+
+
+SIGNAL = outer_race_signal()
+TIME = np.arange(len(SIGNAL)) / RATE
+
+
+def test_a_file_that_says_all_needs_its_bearing_alone(tmp_path: Path) -> None:
+    path = write(tmp_path / "de_1800rpm.csv", "time (s),vertical (m/s²)", TIME, SIGNAL)
+    found = diagnose(path, "6205")
+    assert (found.fault, found.speed_source.partition(",")[0]) == ("outer race", "from the file")
+    assert found.shaft_speed == pytest.approx(SPEED, rel=0.01)
+    assert diagnose(str(path), bearing="6205").sentence == found.sentence
+    same = diagnose(Recording(SIGNAL[:, None], RATE, ("y",)), "6205", SPEED)
+    assert same.fault == found.fault
+    assert diagnose(path, "6205", 2.0 * SPEED).shaft_speed != pytest.approx(SPEED, rel=0.1)
+
+
+def test_what_a_file_does_not_say_is_asked_by_name_and_can_be_given(tmp_path: Path) -> None:
+    path = write(tmp_path / "two.csv", "a,b", SIGNAL, np.roll(SIGNAL, 50))
+    with pytest.raises(
+        ValueError, match=r"columns is None; allowed: .* columns=\[...\] out of a, b"
+    ):
+        diagnose(path, "6205", SPEED)
+    with pytest.raises(ValueError, match="sample_rate is None"):
+        diagnose(path, "6205", SPEED, columns=("b",))
+    found = diagnose(path, "6205", SPEED, columns=("b",), sample_rate=RATE)
+    assert found.fault == "outer race"
+    in_g = diagnose(path, "6205", SPEED, columns=(0, 1), sample_rate=RATE, unit="g")
+    assert in_g.fault == "outer race"
+
+
+def test_a_folder_is_a_table_of_answers_and_says_what_was_not_read(tmp_path: Path) -> None:
+    write(tmp_path / "b_1800rpm.csv", "time (s),vertical (m/s²)", TIME, SIGNAL)
+    noise = np.random.default_rng(3).standard_normal(len(TIME))
+    write(tmp_path / "a_1800rpm.csv", "time (s),vertical (m/s²)", TIME, noise)
+    (tmp_path / "readme.txt").write_text("Measured on a Monday.\n", encoding="utf-8")
+    (tmp_path / ".hidden").write_text("1\n", encoding="utf-8")
+    found = diagnose(tmp_path, "6205")
+    table = found.table()
+    assert list(table["file"]) == ["a_1800rpm.csv", "b_1800rpm.csv", "readme.txt"]
+    assert table["fault"][1] == "outer race"
+    assert table["fault"][0] != "outer race"
+    assert table["fault"][2] == "not read"
+    assert found.answers[2] is None
+    assert "readme.txt" in found.sentences[2]
+    assert np.isnan(table["probability"][2])
+    assert table["sentence"][1] == found.answers[1].sentence
+    assert "outer race" in str(found)
+
+
+def test_a_path_that_leads_nowhere_and_what_a_recording_has_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="the path of a file or folder that is there"):
+        diagnose(tmp_path / "none.csv", "6205")
+    with pytest.raises(ValueError, match="a folder with files in it"):
+        diagnose(tmp_path, "6205")
+    with pytest.raises(ValueError, match="unit is 'g'; allowed: None for a recording"):
+        diagnose(Recording(SIGNAL[:, None], RATE, ("y",)), "6205", SPEED, unit="g")

@@ -1,0 +1,588 @@
+"""Files as programs, loggers and instruments lay them out, and what must come out of them."""
+
+import io
+import json
+import math
+import zipfile
+from typing import Any
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.io import savemat
+
+from bearingcore import join_tables, read_recording, read_table
+from bearingcore.files import libraries, table
+from bearingcore.files.channels import Column
+from tests.helpers.reading import read_in_this_process
+
+N, RATE = 2000, 8000.0
+SIGNAL = np.random.default_rng(11).standard_normal((N, 2)).round(4)
+TIME = np.arange(N) / RATE
+DATES = pd.date_range("2024-01-01", periods=N, freq="125us")
+FRAME = pd.DataFrame({"time": TIME, "acc": SIGNAL[:, 0]})
+
+
+@pytest.fixture(autouse=True)
+def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How files are read in a process of their own is tested elsewhere."""
+    read_in_this_process(monkeypatch)
+
+
+def rows(*columns: Any, heading: str = "", delimiter: str = ",", digits: int = 6) -> bytes:
+    lines = [
+        delimiter.join(f"{value:.{digits}f}" for value in row) for row in np.column_stack(columns)
+    ]
+    return "\n".join([heading, *lines] if heading else lines).encode()
+
+
+def read(content: bytes | str, name: str = "a.csv") -> Any:
+    return read_table(name, content.encode() if isinstance(content, str) else content)
+
+
+def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
+    """One signal of the whole length is chosen, and the rate is said."""
+    contents = read_one.contents
+    (index,) = contents.choice.columns.values()
+    np.testing.assert_allclose(read_one.columns[:, index], SIGNAL[:, 0], atol=1e-6)
+    found = contents.sample_rate
+    assert (found is None) if rate is None else found.stated
+    assert rate is None or found.value == pytest.approx(rate, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("remark", "rate", "turns", "unit"),
+    [
+        ("# fs = 12000 Hz", 12e3, None, None),
+        ("# fs=12000,rpm=1797", 12e3, 1797, None),
+        ("# sampling rate 25.6 kHz, speed 1500 rpm", 25.6e3, 1500, None),
+        ("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz", 12e3, 1797, None),
+        ("rpm = 1797", None, 1797, None),
+        ("data_rate = 4000.0 Hz", 4e3, None, None),
+        ("# unit: g\n# fs [kHz] = 12", 12e3, None, "g"),
+        ("# acc [g]\n# fs = 12000 Hz", 12e3, None, "g"),
+        ("# load = 500 N", None, None, None),
+        ("# duration = 0.5 s", None, None, None),
+        ("# temperature: 45 °C", None, None, None),
+        ("# samples = 2000", None, None, None),
+    ],
+)
+def test_remarks_above_one_column_are_no_names_of_it(remark, rate, turns, unit) -> None:
+    made = read(remark.encode() + b"\n" + rows(SIGNAL[:, 0]))
+    check_one_signal(made, rate)
+    speed = made.contents.shaft_speed
+    assert (speed and round(speed.value * 30.0 / math.pi)) == turns
+    assert (made.contents.unit.value if made.contents.unit.stated else None) == unit
+
+
+@pytest.mark.parametrize(
+    ("remark", "likely"),
+    [("# fs = 12.000 Hz", 12e3), ("# 12 kHz", 12e3), ("# recorded at 12 kHz", 12e3)],
+)
+def test_a_rate_that_is_not_sure_is_asked_about(remark: str, likely: float) -> None:
+    rate = read(remark.encode() + b"\n" + rows(SIGNAL[:, 0])).contents.sample_rate
+    assert (rate.value, rate.stated) == (likely, False)
+
+
+def test_two_rates_that_disagree_are_asked_about() -> None:
+    text = b"# fs = 12000 Hz\n" + rows(TIME, SIGNAL[:, 0], heading="time,acc")
+    rate = read(text).contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
+    assert "“fs” in the file is 12000 Hz" in rate.reason
+
+
+@pytest.mark.parametrize(
+    ("content", "rate"),
+    [
+        (FRAME.to_csv(), RATE),
+        (FRAME.to_csv(sep=";", decimal=","), RATE),
+        (FRAME.acc.to_csv(), None),
+        (pd.Series(SIGNAL[:, 0]).to_csv(), None),
+        (pd.Series(SIGNAL[:, 0], index=TIME).to_csv(), RATE),
+        (pd.Series(SIGNAL[:, 0], index=DATES).to_csv(), RATE),
+        (pd.DataFrame({"acc": SIGNAL[:, 0]}, index=DATES - DATES[0]).to_csv(), RATE),
+        (pd.DataFrame(np.column_stack([TIME, SIGNAL[:, 0]])).to_csv(index=False), RATE),
+        (FRAME.reset_index().to_csv(), RATE),
+        (
+            '"time" "acc"\n'
+            + "\n".join(f'"{i + 1}" {t:.6f} {a}' for i, (t, a) in enumerate(FRAME.to_numpy())),
+            RATE,
+        ),
+    ],
+    ids=["frame", "german", "series", "unnamed", "times", "dates", "durations", "bare", "two", "R"],
+)
+def test_the_index_of_a_data_frame_is_no_signal(content: str, rate: float | None) -> None:
+    check_one_signal(read(content), rate)
+
+
+@pytest.mark.parametrize(
+    ("heading", "a_second"),
+    [
+        ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
+        ("Zeitstempel", 1.0), ("elapsed [s]", 1.0), ("X [s]", 1.0), ("Timestamp (ns)", 1e9),
+        ("host_time_ns", 1e9), ("Elapsed Time (ms)", 1e3), ("time/s", 1.0), ("TimeStamp", 1.0),
+        ("us", 1e6), ("Zeit in ms", 1e3),
+    ],
+)  # fmt: skip
+def test_times_are_known_by_name_and_unit_in_any_column(heading: str, a_second: float) -> None:
+    made = read(rows(SIGNAL[:, 0], TIME * a_second, heading=f"acc [g],{heading}"))
+    assert [column.role for column in made.contents.columns] == ["signal", "time"]
+    check_one_signal(made)
+
+
+@pytest.mark.parametrize(("unit", "a_second"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
+def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -> None:
+    made = read(rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"))
+    rate = made.contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
+    assert f"if it is in {unit};" in rate.reason
+    with pytest.raises(ValueError, match="sample_rate is None"):
+        made.recording([1], ["y"], "g")
+    by_hand = read_recording(
+        "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
+    )
+    assert by_hand.sample_rate == pytest.approx(RATE)
+
+
+@pytest.mark.parametrize(("unit", "size"), [("s", 1), ("ms", 10**3), ("µs", 10**6), ("ns", 10**9)])
+def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None:
+    micro = [1_700_000_000_000_000 + 125 * i for i in range(N)]
+    told = [
+        f"{m * size // 10**6}"
+        if size >= 10**6
+        else f"{m // (10**6 // size)}.{m % (10**6 // size):0{len(str(10**6 // size)) - 1}d}"
+        for m in micro
+    ]
+    lines = [f"{when},{value:.4f}" for when, value in zip(told, SIGNAL[:, 0], strict=True)]
+    made = read("timestamp,acc\n" + "\n".join(lines))
+    check_one_signal(made)
+    assert f"in {unit} since 1970" in made.contents.sample_rate.reason
+
+
+@pytest.mark.parametrize(
+    ("heading", "names"),
+    [
+        ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
+        ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
+        ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
+        ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")),  # which one is missing?
+    ],
+)
+def test_rows_of_units_and_more_headings_than_columns(heading: str, names: tuple) -> None:
+    made = read(rows(TIME, SIGNAL, heading=heading, delimiter=";"))
+    assert made.names == names
+    assert made.contents.sample_rate.value == pytest.approx(RATE)
+    assert made.contents.choice.question
+
+
+@pytest.mark.parametrize("where", [[0], [700], range(N)])
+def test_a_column_of_words_is_left_out_whichever_rows_have_one(where) -> None:
+    lines = [f"{t:.6f}\t{a:.4f}" + "\tok" * (i in where) for i, (t, a) in enumerate(zip(
+        TIME, SIGNAL[:, 0], strict=True))]  # fmt: skip
+    made = read("time\tacc\tComment\n" + "\n".join(lines))
+    assert made.names == ("time", "acc")
+    check_one_signal(made)
+
+
+def test_an_oscilloscope_writes_its_settings_beside_the_numbers() -> None:
+    settings = ["Sample Interval,1.25e-04,", "Source,CH1,", "Vertical Units,V,"]
+    lines = [f"{t - 0.1:.6f},{a:.4f}," for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    beside = [*settings, *[",,"] * (N - len(settings))]
+    made = read("\n".join(f"{a},{b}" for a, b in zip(beside, lines, strict=True)))
+    assert [column.role for column in made.contents.columns] == ["time", "signal"]
+    assert made.contents.sample_rate.value == pytest.approx(RATE)
+    assert (made.contents.unit.value, made.contents.unit.stated) == ("V", True)
+
+
+def test_the_head_of_labview_says_step_and_units() -> None:
+    head = (
+        "LabVIEW Measurement\t\nChannels\t2\t\nSamples\t2000\t2000\t\nDelta_X\t1.25E-4\t1.25E-4\t"
+    )
+    units = "\nY_Unit_Label\tg\tV\t\n***End_of_Header***\t\t\t\n"
+    text = (head + units).encode()
+    made = read(text + rows(SIGNAL, heading="DE\tNDE\tComment", delimiter="\t"), "a.lvm")
+    assert [column.unit for column in made.contents.columns] == ["g", "V"]
+    assert made.contents.sample_rate.value == RATE
+    assert "several places" in made.contents.choice.question
+    same = read(text.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), "a.lvm")
+    assert (same.contents.unit.value, same.contents.unit.stated) == ("g", True)
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", " "])
+def test_numbers_in_one_row_are_a_column(delimiter: str) -> None:
+    text = delimiter.join(f"{value:.4f}" for value in SIGNAL[:, 0])
+    check_one_signal(read(text), None)
+    named = f"time{delimiter}" + delimiter.join(f"{t:.6f}" for t in TIME)
+    check_one_signal(read(f"{named}\nacc{delimiter}{text}"))
+
+
+@pytest.mark.parametrize("gap", ["nan", "NaN", "", "-", "NULL", "n/a", "?", "overrun"])
+def test_the_longest_part_without_a_missing_number_is_used(gap: str) -> None:
+    lines = rows(TIME, SIGNAL[:, 0], heading="time,acc [g]").decode().splitlines()
+    for index in range(1201, 1205):
+        lines[index] = lines[index].partition(",")[0] + f",{gap}"
+    got = read("\n".join(lines)).recording([1], ["y"])
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:1200, 0] * 9.80665)
+    assert "rows 1 to 1200 of 2000" in " ".join(got.notes)
+
+
+@pytest.mark.parametrize("kept", [-3, -9, -12, -16])
+def test_a_last_line_that_is_cut_off_is_left_out(kept: int) -> None:
+    content = rows(TIME, SIGNAL[:, 0], heading="time;acc [g]", delimiter=";")[:kept]
+    got = read(content).recording([1], ["y"])
+    assert len(got.acceleration) in (N - 1, N)
+    assert got.sample_rate == pytest.approx(RATE)
+    assert (kept in (-3, -9)) or "is cut off" in got.notes[0]  # these are whole rows, or a gap
+
+
+def test_words_in_many_lines_are_still_refused_with_the_first() -> None:
+    lines = rows(TIME, SIGNAL[:, 0]).decode().splitlines()
+    lines[500:600] = ["some words"] * 100
+    with pytest.raises(ValueError, match=r"line 501 of a\.csv is 'some words'"):
+        read("\n".join(lines))
+
+
+LVM = """LabVIEW Measurement\t
+Separator\tTab
+X_Columns\tNo
+Date\t2024/01/01
+Time\t10:00:00,45
+***End_of_Header***\t
+
+Channels\t2\t\t
+Samples\t2000\t2000\t
+Delta_X\t1,25E-4\t1,25E-4\t
+Y_Unit_Label\tg\tg\t
+***End_of_Header***\t\t\t
+X_Value\tDE\tNDE\tComment
+"""
+
+
+def test_a_first_column_that_is_empty_and_decimal_commas() -> None:
+    lines = [f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL]
+    made = read(LVM + "\n".join(lines), "a.lvm")
+    assert made.names == ("DE", "NDE")
+    assert made.contents.sample_rate.value == RATE
+    assert made.contents.unit.value == "g"
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        lambda i: f"1/1/2024 10:00:00.{125 * i:06d} AM",
+        lambda i: f"01-Jan-2024 10:00:00.{125 * i:06d}",
+        lambda i: f"{125e-6 * i:.6g} sec",
+        lambda i: f"0 days 00:00:00.{125 * i:06d}",
+        lambda i: f"01.01.2024 10:00:00.{125 * i:06d}+01:00",
+    ],
+)
+def test_dates_and_durations_as_programs_write_them(when) -> None:
+    check_one_signal(read("Time,acc\n" + "\n".join(
+        f"{when(i)},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0]))))  # fmt: skip
+
+
+def test_days_are_a_question() -> None:
+    lines = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    rate = read("Time,acc\n" + "\n".join(lines)).contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE, rel=1e-4), False)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    ["X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000"],
+)
+def test_a_rate_above_columns_that_count(heading: str) -> None:
+    lines = [f"{i},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0])]
+    check_one_signal(read(f"{heading}\n" + "\n".join(lines)))
+
+
+def test_lists_of_numbers_are_columns() -> None:
+    check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
+    check_one_signal(read(json.dumps(FRAME.to_numpy().tolist()), "a.json"))
+
+
+def matlab(**variables: Any) -> bytes:
+    file = io.BytesIO()
+    savemat(file, variables)
+    return file.getvalue()
+
+
+def cells(*each: Any) -> Any:
+    made = np.empty(len(each), dtype=object)
+    made[:] = each
+    return made
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {"data": cells({"name": "DE", "y": SIGNAL[:, 0]}, {"name": "NDE", "y": SIGNAL[:, 1]})},
+        {"s": {"DE": {"acc": SIGNAL[:, 0]}, "FE": {"acc": SIGNAL[:, 1]}}},
+        {"data": SIGNAL, "names": cells("DE", "FE")},
+        {"a": {"x": SIGNAL[:, 0], "unit": "g"}, "b": {"x": SIGNAL[:, 1], "unit": "g"}},
+    ],
+)
+def test_signals_that_have_names_of_places_are_asked_about(variables: dict) -> None:
+    choice = read(matlab(**variables), "a.mat").contents.choice
+    assert not choice.columns
+    assert choice.options == (0, 1)
+
+
+def octave(*parts: tuple[str, str, str]) -> str:
+    """As Octave's `save` writes it: name, the rest of the head, and the lines of values."""
+    made = [f"# name: {name}\n# type: {head}\n{values}\n\n\n" for name, head, values in parts]
+    return "# Created by Octave 8.4.0\n" + "".join(made)
+
+
+@pytest.mark.parametrize("name", ["a.mat", "a.txt"])
+def test_the_text_of_octave_is_read(name: str) -> None:
+    column = f"matrix\n# rows: {N}\n# columns: 1"
+    values = "\n".join(f" {value}" for value in SIGNAL[:, 0])
+    flat = octave(("fs", "scalar", "8000"), ("rpm", "scalar", "1797"), ("acc", column, values))
+    made = read(flat, name)
+    check_one_signal(made)
+    assert made.contents.shaft_speed.value == pytest.approx(1797.0 * math.pi / 30.0)
+    parts = octave(("acc", column, values), ("unit", "string\n# elements: 1\n# length: 1", "g"),
+                   ("t", "double_range\n# base, limit, increment", "0 0.249875 0.000125"),
+                   )  # fmt: skip
+    struct = (
+        octave(("s", "scalar struct\n# ndims: 2\n 1 1\n# length: 3", "")) + parts.partition("\n")[2]
+    )
+    made = read(struct, name)
+    assert made.names == ("s.acc", "s.t")
+    check_one_signal(made)
+    assert (made.contents.unit.value, made.contents.unit.stated) == ("g", True)
+    with pytest.raises(ValueError, match="damaged"):
+        read(flat[: len(flat) // 2], name)
+
+
+def test_what_hdf5_says_beside_each_data_set_is_its_own() -> None:
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, unit, signal in zip(("DE", "NDE"), ("g", "V"), SIGNAL.T, strict=True):
+            data = file.create_dataset(f"rig/{name}", data=signal)
+            data.attrs["wf_increment"], data.attrs["unit_string"] = 1.0 / RATE, unit
+    contents = read(buffer.getvalue(), "a.h5").contents
+    assert [column.unit for column in contents.columns] == ["g", "V"]
+    assert contents.sample_rate.value == pytest.approx(RATE)
+    assert contents.choice.options == (0, 1)
+
+
+def tdms() -> bytes:
+    nptdms = pytest.importorskip("nptdms")
+    buffer = io.BytesIO()
+    said = {"wf_increment": 1.0 / RATE, "unit_string": "g"}
+    with nptdms.TdmsWriter(buffer) as writer:
+        writer.write_segment([nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
+    return buffer.getvalue()
+
+
+def uff(tmp_path: Any, binary: int = 0) -> bytes:
+    pyuff = pytest.importorskip("pyuff")
+    path = tmp_path / "a.uff"
+    one = {
+        "type": 58, "func_type": 1, "binary": binary, "id1": "Bearing DE", "rsp_node": 1,
+        "rsp_dir": 2, "ref_node": 1, "ref_dir": 0, "data": SIGNAL[:, 0], "x": TIME,
+        "abscissa_inc": 1.0 / RATE, "abscissa_min": 0.0, "abscissa_spacing": 1, "num_pts": N,
+        "ordinate_axis_units_lab": "g", "orddenom_spec_data_type": 0,
+        "ordinate_spec_data_type": 12, "abscissa_spec_data_type": 17, "z_axis_axis_lab": "NONE",
+    }  # fmt: skip
+    path.unlink(missing_ok=True)
+    pyuff.UFF(str(path)).write_sets([one], "add")
+    return bytes(path.read_bytes())
+
+
+def numpy_file(save: Any, *arrays: Any, **named: Any) -> bytes:
+    buffer = io.BytesIO()
+    save(buffer, *arrays, **named)
+    return buffer.getvalue()
+
+
+def parquet() -> bytes:
+    pytest.importorskip("pyarrow")
+    buffer = io.BytesIO()
+    pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES).to_parquet(buffer)
+    return buffer.getvalue()
+
+
+def zipped(**files: bytes) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, content in files.items():
+            file.writestr(name.replace("_", ".").replace("-", "_"), content)
+    return buffer.getvalue()
+
+
+def test_formats_of_other_libraries_are_read(tmp_path) -> None:
+    check_one_signal(read(tdms(), "a.tdms"))
+    for binary in (0, 1):
+        made = read(uff(tmp_path, binary), "a.uff")
+        check_one_signal(made)
+        assert (made.contents.unit.value, made.contents.columns[0].direction) == ("g", "y")
+    check_one_signal(read(parquet(), "a.parquet"))
+
+
+def test_arrays_of_numpy_are_read() -> None:
+    check_one_signal(read(numpy_file(np.save, SIGNAL[:, 0]), "a.npy"), None)
+    check_one_signal(read(numpy_file(np.save, np.column_stack([TIME, SIGNAL[:, 0]]).T), "a.npy"))
+    several = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, unit="g")
+    for name in ("a.npz", "upload"):
+        check_one_signal(read(several, name))
+    with pytest.raises(ValueError, match="damaged or unknown part"):
+        read(numpy_file(np.save, cells({}, {})), "a.npy")
+
+
+def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
+    text = FRAME.to_csv().encode()
+    made = read(zipped(run_csv=text), "rig.zip")
+    check_one_signal(made)
+    assert made.name == "rig.zip/run.csv"
+    two = zipped(a_csv=text, b_npy=numpy_file(np.save, SIGNAL[:, 0]))
+    with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
+        read(two, "rig.zip")
+    check_one_signal(read(two, "rig.zip/a.csv"))
+    check_one_signal(read(two, "rig.zip/b.npy"), None)
+    with pytest.raises(ValueError, match="unpack it"):
+        read(zipped(a_zip=two), "rig.zip")
+    with pytest.raises(ValueError, match="a whole zip"):
+        read(two[:2000], "rig.zip")
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
+        (b"Octave-1-L\x00", "save -v7"),
+        (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
+        (json.dumps({"a": [1, 2]}).encode(), "a table of numbers"),
+    ],
+)
+def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        read(content)
+
+
+def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
+    monkeypatch.setattr(libraries.importlib.util, "find_spec", lambda name: None)
+    for mark, package in (
+        (b"TDSm", "npTDMS"),
+        (b"PAR1", "pyarrow"),
+        (b"    -1\n    58\n", "pyuff"),
+    ):
+        with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
+            read(mark + bytes(100))
+
+
+# -- said by hand ----------------------------------------------------------------------------------
+
+THREE = rows(TIME * 1e3, SIGNAL, heading="a,b,c")
+
+
+def test_everything_can_be_said_by_hand_in_one_call() -> None:
+    got = read_recording(
+        "x.csv", THREE, columns={"time": "a", "signal": [1, 2]}, directions="xy", time_unit="ms",
+        unit="g", shaft_speed=188.0,
+    )  # fmt: skip
+    np.testing.assert_allclose(got.acceleration, SIGNAL * 9.80665, atol=1e-5)
+    assert (got.sample_rate, got.directions, got.shaft_speed) == (
+        pytest.approx(RATE),
+        ("x", "y"),
+        188.0,
+    )
+    rate = read_recording("x.csv", THREE, columns={"time": None, "signal": 2}, unit="mV",
+                          sensitivity=0.01, sample_rate=9000.0)  # fmt: skip
+    assert rate.sample_rate == 9000.0
+    np.testing.assert_allclose(rate.acceleration[:, 0], SIGNAL[:, 1] * 0.1, atol=1e-5)
+    speed = rows(SIGNAL[:, 0], np.full(N, 25.0), heading="p,q")
+    got = read_recording("x.csv", speed, columns={"signal": 0, "speed": 1}, unit="g",
+                         speed_unit="Hz", sample_rate=RATE)  # fmt: skip
+    assert got.shaft_speed == pytest.approx(50.0 * math.pi)
+
+
+def test_the_hand_wins_over_what_headings_say() -> None:
+    content = rows(TIME, SIGNAL, heading="DE [Hz],NDE [°C],time [s]")
+    got = read_recording("x.csv", content, columns={"time": 0, "signal": [1, 2]}, time_unit="s",
+                         unit="m/s²", directions=("y", "x"))  # fmt: skip
+    np.testing.assert_allclose(got.acceleration, SIGNAL)
+    assert got.sample_rate == pytest.approx(RATE)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
+        ({"columns": {"signal": 1}}, "unit is None"),
+        ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
+        ({"columns": {"signal": "d"}}, "one of a, b, c"),
+        ({"columns": {"speed": 1}}, "speed_unit is None"),
+        ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
+        ({"columns": {"time": [0, 1]}}, "one column of times"),
+    ],
+)
+def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        read_recording("x.csv", THREE, **given)
+
+
+def test_roles_over_the_columns_are_data_for_a_form() -> None:
+    made = read(THREE)
+    assert made.first_rows[1] == pytest.approx([0.125, *SIGNAL[1]])
+    said = made.with_columns({0: Column("", "time", "ms"), 1: Column("", "other"),
+                              "c": Column("", "signal", "g", "x")})  # fmt: skip
+    contents = said.contents
+    assert [column.role for column in contents.columns] == ["time", "other", "signal"]
+    assert [column.name for column in contents.columns] == ["a", "b", "c"]
+    assert contents.choice.columns == {"x": 2}
+    assert contents.sample_rate.stated
+    assert contents.unit.value == "g"
+    assert not made.given
+
+
+def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
+    path = tmp_path / "run_1797rpm.csv"
+    path.write_text(FRAME.to_csv())
+    got = read_recording(path, unit="g")
+    assert got.shaft_speed == pytest.approx(1797.0 * math.pi / 30.0)
+    with pytest.raises(ValueError, match="No such file"):
+        read_recording(tmp_path / "none.csv")
+
+
+# -- one signal in several files -------------------------------------------------------------------
+
+
+def parts(times: Any, heading: str = "time,acc [g]") -> list[Any]:
+    return [
+        read(rows(time, SIGNAL[i * 500 : i * 500 + 500, 0], heading=heading), f"{i}.csv")
+        for i, time in enumerate(times)
+    ]
+
+
+def test_files_of_one_signal_are_joined() -> None:
+    on = parts(TIME.reshape(4, 500))
+    got = join_tables(on).recording([1], ["y"])
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 0] * 9.80665)
+    assert got.notes == ("4 files are joined.",)
+    anew = join_tables(parts([TIME[:500]] * 4)).recording([1], ["y"])
+    np.testing.assert_array_equal(anew.acceleration, got.acceleration)
+    assert anew.notes == ("4 files are joined as if nothing were missing between them.",)
+    assert on[3].columns[0, 0] == TIME[1500]  # the parts are as they were
+    assert "1\u202f000 samples are missing" in join_tables([on[0], on[3]]).contents.sampling.trouble
+
+
+def test_files_that_do_not_belong_together_are_not_joined(monkeypatch) -> None:
+    on = parts(TIME.reshape(4, 500))
+    for other, told in (
+        (on[::-1], "order of their times"),
+        ([on[0], parts([TIME[:500]], "time,b")[0]], "columns of 0.csv"),
+        ([on[0], parts([TIME[:500] * 0.5])[0]], "sample rate of 0.csv"),
+        ([], "one or more"),
+    ):
+        with pytest.raises(ValueError, match=told):
+            join_tables(other)
+
+
+def test_a_file_that_is_too_large_says_how_to_go_on(monkeypatch) -> None:
+    monkeypatch.setattr(table, "MOST_BYTES", 2**20)
+    with pytest.raises(ValueError, match=r"at most 1 MB: split it by rows .* join"):
+        read(bytes(2**21))

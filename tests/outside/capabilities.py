@@ -1,0 +1,100 @@
+"""Everything that the program gives a number for, read from the program itself."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import inspect
+import json
+import pkgutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import bearing_explorer.explorer.views.paper_figures as paper
+
+import bearingcore
+from bearingcore import signals
+from bearingcore.bearings import KINDS
+from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.scene.defect import EDGES, RACES
+from bearingcore.scene.floor import MeasuredFloor, RoughFloor
+from bearingcore.scene.scene import BALLS, CONTACT_LAWS, DOF_NAMES
+from bearingcore.signals.indicators import Indicators
+from bearingcore.sweep.outputs import OUTPUTS
+
+ROOT = Path(__file__).parents[2]
+
+ASPECTS = (
+    *("statics", "stiffness", "natural frequencies", "ball-pass frequencies", "motion"),
+    *("life", "pressure", "film", "limits"),
+)
+"""What a kind of bearing is computed for."""
+
+NOT_A_NUMBER = {"warm"}
+"""Functions of the front that give no number: kernels compiled ahead."""
+
+PARTS = {
+    *("check_samples", "check_directions", "hann", "split", "thinned", "coefficients"),
+    *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
+    *("followed", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),
+    *("whiten", "density_difference"),
+}
+"""Functions of `signals` whose results are shown nowhere by themselves: they serve others there and
+the diagnosis, which are listed."""
+
+
+def functions_of_signals() -> Iterator[str]:
+    """Public functions of `bearingcore.signals`, each where it is defined."""
+    for module in pkgutil.iter_modules(signals.__path__):
+        found = importlib.import_module(f"bearingcore.signals.{module.name}")
+        for name, what in vars(found).items():
+            own = inspect.isfunction(what) and what.__module__ == found.__name__
+            if own and not name.startswith("_") and name not in PARTS:
+                yield name
+
+
+def charts() -> list[str]:
+    """Experiments and orbits in the charts of speed against accuracy that are shipped."""
+    shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
+    found = {name for chart in shipped for name in chart["experiments"]}
+    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(found)
+
+
+def capabilities() -> dict[str, list[str]]:
+    """Capabilities by the heading that they stand under."""
+    words = ("directions", "velocity_reason")
+    fields = [one.name for one in dataclasses.fields(Indicators) if one.name not in words]
+    front = [
+        name
+        for name in bearingcore.__all__
+        if name.islower() and callable(getattr(bearingcore, name)) and name not in NOT_A_NUMBER
+    ]
+    choices = {
+        "edge": EDGES,
+        "race": RACES,
+        "floor": ("flat", RoughFloor.kind, MeasuredFloor.kind),
+        "law": CONTACT_LAWS,
+        "balls": BALLS,
+        "material": BALL_MATERIALS,
+        "direction": DOF_NAMES,
+        "defects": ("several",),
+        "load": [*(field.name for field in dataclasses.fields(bearingcore.Load)), "unbalance"],
+    }
+    printed = [(one.number, row.name) for one in paper.FIGURES for row in one.printed]
+    return {
+        "Kinds of bearing": [f"{kind} bearing: {aspect}" for kind in KINDS for aspect in ASPECTS],
+        "Functions": [f"function: {name}" for name in front],
+        "Model choices": [f"{kind}: {one}" for kind, names in choices.items() for one in names],
+        "Outputs of sweeps": [f"output: {name}" for name in OUTPUTS],
+        "Signals": [
+            *(
+                f"indicator: {name}"
+                for name in fields
+                if name not in ("directions", "velocity_reason")
+            ),
+            *(f"signal: {name}" for name in functions_of_signals()),
+        ],
+        "Charts of accuracy": [f"chart: {name}" for name in charts()],
+        "Numbers beside the paper's": [f"figure {number}: {name}" for number, name in printed],
+    }

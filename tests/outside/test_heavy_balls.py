@@ -1,0 +1,147 @@
+"""Balls with mass in motion: the fan rig's equations written down here, by SciPy's DOP853.
+
+Each ball has its place between two contacts of 2^1.5 K and dampers of 2 c, which may pull or not.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from numba import njit
+from scipy.integrate import solve_ivp
+from scipy.signal import welch
+
+from bearingcore import presets, simulate
+from bearingcore.sweep.grid import Grid
+from bearingcore.sweep.outputs import Settings
+from tests.outside.test_sampling import (
+    CAGE,
+    CLEARANCE,
+    DAMPING,
+    DEPTH,
+    EXTENT,
+    LOAD,
+    MASS,
+    N_BALLS,
+    R_BALL,
+    R_OUTER,
+    SUPPORT,
+    SUPPORT_DAMPING,
+    K,
+    rates,
+)  # fmt: skip
+from tests.outside.witness import witness
+
+BALL = 7800.0 * math.pi / 6.0 * (2.0 * R_BALL) ** 3
+"""[kg]"""
+ONE = 2.0**1.5 * K
+
+
+@njit
+def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
+    """Rates of inner x, y, outer x, y and the balls' places [µm], then of their velocities.
+
+    `least`: load [N] that a contact that touches may have, 0 or a pull without end.
+    """
+    n = 4 + N_BALLS
+    found = np.empty(2 * n)
+    found[:n] = y[n:]
+    inner_x = inner_y = outer_x = outer_y = 0.0
+    for j in range(N_BALLS):
+        angle = CAGE * t + 2.0 * math.pi / N_BALLS * j
+        c, s = math.cos(angle), math.sin(angle)
+        away = (angle - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
+        inside, deep, slope = 0.5 * EXTENT - abs(away), 0.0, 0.0
+        if inside > 0.0:
+            half = 0.5 * R_OUTER * inside
+            deep = DEPTH
+            if half < R_BALL and R_BALL - math.sqrt(R_BALL**2 - half**2) < DEPTH:
+                root = math.sqrt(R_BALL**2 - half**2)
+                deep = R_BALL - root
+                slope = 0.5 * R_OUTER * half / root * (-1.0 if away > 0.0 else 1.0)
+        u, v = 1e-6 * y[4 + j], 1e-6 * y[n + 4 + j]
+        qi, qo = 1e-6 * (y[0] * c + y[1] * s), 1e-6 * (y[2] * c + y[3] * s)
+        vi = 1e-6 * (y[n] * c + y[n + 1] * s + CAGE * (y[1] * c - y[0] * s))
+        vo = 1e-6 * (y[n + 2] * c + y[n + 3] * s + CAGE * (y[3] * c - y[2] * s))
+        pressed_i, pressed_o = qi - u - CLEARANCE, u - qo - deep
+        push_i = push_o = 0.0
+        if pressed_i > 0.0:
+            push_i = max(ONE * pressed_i**1.5 + 2.0 * DAMPING * (vi - v), least)
+        if pressed_o > 0.0:
+            push_o = max(ONE * pressed_o**1.5 + 2.0 * DAMPING * (v - vo - CAGE * slope), least)
+        inner_x, inner_y = inner_x + push_i * c, inner_y + push_i * s
+        outer_x, outer_y = outer_x + push_o * c, outer_y + push_o * s
+        turning = BALL * 22.5e-3 * CAGE**2 - BALL * 9.80665 * s
+        found[n + 4 + j] = 1e6 * (push_i - push_o + turning) / BALL
+    found[n] = -1e6 * inner_x / MASS
+    found[n + 1] = 1e6 * (LOAD - inner_y) / MASS
+    for i, push in ((2, outer_x), (3, outer_y)):
+        held = SUPPORT * 1e-6 * y[i] + SUPPORT_DAMPING * 1e-6 * y[n + i]
+        found[n + i] = 1e6 * (push - held) / MASS
+    return found
+
+
+RATE = 65_536.0
+RIG = presets["fan-rig"].replace(contact_damping=DAMPING, balls="with mass")
+
+
+def marched(
+    duration: float, law: str = "published", rate: float = RATE
+) -> tuple[np.ndarray, np.ndarray]:
+    """Housing (n, 2): velocity [m/s] and acceleration [m/s²], from where our motion begins."""
+    first = simulate(RIG.replace(contact_law=law), 1e-3)
+    start = [first.inner_displacement[0], first.outer_displacement[0], first.ball_place[0, 0]]
+    start, least = 1e6 * np.concatenate(start), 0.0 if law == "no tension" else -math.inf
+    time = np.arange(round(duration * rate)) / rate
+    made = solve_ivp(
+        heavy_rates, (0.0, time[-1]), np.concatenate([start, 0.0 * start]), "DOP853", time,
+        rtol=1e-8, atol=1e-7, args=(least,),
+    )  # fmt: skip
+    assert made.success
+    n = start.size
+    late = [
+        1e-6 * heavy_rates(t, y, least)[n + 2 : n + 4] for t, y in zip(time, made.y.T, strict=True)
+    ]
+    return 1e-6 * made.y[n + 2 : n + 4].T, np.array(late)
+
+
+@witness(
+    "balls: with mass", "function: simulate", "ball bearing: motion", "chart: balls",
+    by="SciPy's DOP853 on equations with a place for each ball, written down in the test",
+    compared="velocity of the fan rig's housing over 20 ms, root mean square of what differs",
+    within=2e-3,
+)  # fmt: skip
+@pytest.mark.parametrize(("law", "within"), [("published", 1e-4), ("no tension", 2e-3)])
+def test_motion_of_heavy_balls(law: str, within: float) -> None:
+    own, _ = marched(0.02, law)
+    found = simulate(RIG.replace(contact_law=law), 0.02, RATE).outer_velocity
+    off = np.sqrt(np.mean((found - own) ** 2, axis=0) / np.mean(own**2, axis=0))
+    assert off.max() < within
+
+
+@witness(
+    "output: mass_share",
+    by="SciPy's DOP853 on both equations of motion, densities by SciPy's welch",
+    compared="share of the power from 2.1 to 10 kHz that mass adds, in 70 ms", within=0.01,
+)  # fmt: skip
+@pytest.mark.proof
+def test_share_of_the_power_that_mass_adds() -> None:
+    fine = 4.0 * RATE  # strikes are short: sampled at 65 kHz they would fold into the band
+    _, heavy = marched(0.07, rate=fine)
+    begin = simulate(RIG.replace(balls="massless"), 1e-3)
+    start = 1e6 * np.concatenate([begin.inner_displacement[0], begin.outer_displacement[0]])
+    time = np.arange(round(0.07 * fine)) / fine
+    made = solve_ivp(
+        rates, (0.0, time[-1]), np.concatenate([start, np.zeros(4)]), "DOP853", time,
+        rtol=1e-9, atol=1e-8,
+    )  # fmt: skip
+    light = np.array([1e-3 * rates(t, y)[6:8] for t, y in zip(time, made.y.T, strict=True)])
+
+    def power(signal: np.ndarray) -> float:
+        settled = signal[len(signal) // 2 :]
+        frequency, density = welch(settled, fine, nperseg=4 * 2185, axis=0)
+        return float(density[(frequency >= 2100.0) & (frequency < 10_000.0)].sum())
+
+    settings = Settings(duration=0.07, band_low=2100.0, band_high=10_000.0)
+    _, found = Grid.of(RIG, {"fz": [0.0]}, ["mass_share"], settings).compute()
+    assert found["mass_share"][0] == pytest.approx(1.0 - power(light) / power(heavy), abs=0.01)

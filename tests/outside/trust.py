@@ -1,0 +1,74 @@
+"""The list of witnesses: `python -m tests.outside.trust > assets/docs/TRUST.md`."""
+
+from __future__ import annotations
+
+import fnmatch
+import importlib
+
+from tests.outside.capabilities import ROOT, capabilities
+from tests.outside.witness import CLAIMS, Claim
+
+HEAD = """# What it is checked against
+
+A row a capability: what from outside holds it, what was compared, how closely, and the test that \
+repeats it. From outside is a published table or example, a program of other people, a measured \
+record, or a computation from first principles that shares no code and no constant with this \
+program. The list is made by `python -m tests.outside.trust` from the tests and from what the \
+program offers, so that nothing new is without a row: a capability without a witness fails a test, \
+unless it stands below as not checked.
+"""
+
+NOT_CHECKED: dict[str, str] = {}
+"""Capabilities without a witness, and where the program says so."""
+
+
+def claims() -> list[Claim]:
+    """All claims of tests, by importing those that make some."""
+    for file in sorted((ROOT / "tests").rglob("test_*.py")):
+        if "import witness" in file.read_text(encoding="utf-8"):
+            importlib.import_module(".".join(file.relative_to(ROOT).with_suffix("").parts))
+    return sorted(CLAIMS, key=lambda one: one.place)
+
+
+def witnesses() -> dict[str, dict[str, list[Claim]]]:
+    """Claims by capability, by heading."""
+    known = claims()
+    return {
+        heading: {
+            name: [
+                one
+                for one in known
+                if any(fnmatch.fnmatchcase(name, pattern) for pattern in one.capabilities)
+            ]
+            for name in names
+        }
+        for heading, names in capabilities().items()
+    }
+
+
+def closeness(within: float | str) -> str:
+    """In words for a cell."""
+    return within if isinstance(within, str) else f"{within:.2g}"
+
+
+def as_markdown() -> str:
+    """The document."""
+    found = witnesses()
+    number: dict[str, int] = {}
+    lines = [HEAD, "## Witnesses", ""]
+    lines += ["| | witness | compared | within | test |", "| ---: | --- | --- | --- | --- |"]
+    for one in (one for rows in found.values() for held in rows.values() for one in held):
+        if one.place not in number:
+            number[one.place] = len(number) + 1
+            cells = (number[one.place], one.by, one.compared, closeness(one.within), one.place)
+            lines.append("| " + " | ".join(map(str, cells)) + " |")
+    for heading, rows in found.items():
+        lines += ["", f"## {heading}", "", "| capability | witnesses |", "| --- | --- |"]
+        for name, held in rows.items():
+            numbers = ", ".join(str(number[one.place]) for one in held)
+            lines.append(f"| {name} | {numbers or 'not checked: ' + NOT_CHECKED[name]} |")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    print(as_markdown(), end="")

@@ -567,6 +567,7 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     visitor.open(FAN_RIG + "accuracy")
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
+    visitor.look_over()
     visitor.wait(lambda: "blank" not in visitor.figures() and len(visitor.figures()) > 8)
     visitor.choose("What to measure", "Cage angles")
     before = visitor.figures()

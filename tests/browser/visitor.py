@@ -166,6 +166,15 @@ class Visitor:
         found = self.main.locator("canvas:not(.bk-glyph)").evaluate_all(_FIGURES)
         return [pixels if drawn > 300 else "blank" for pixels, drawn in found]
 
+    def look_over(self) -> None:
+        """Scroll past all figures and back: those out of sight are painted last."""
+        for canvas in self.main.locator("canvas:not(.bk-glyph)").locator("visible=true").all():
+            canvas.scroll_into_view_if_needed()
+            self.page.wait_for_function(
+                "new Promise((done) => requestAnimationFrame(() => done(1)))"
+            )
+        self.main.evaluate("part => part.scrollTo(0, 0)")
+
     def point(self, figure: int, across: float, down: float) -> None:
         """Move the pointer to a part of a figure, 0 to 1 from its left and from its top."""
         canvas = self.main.locator("canvas:not(.bk-glyph)").locator("visible=true").nth(figure)

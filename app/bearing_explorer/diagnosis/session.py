@@ -651,8 +651,13 @@ class Measurement:
         self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False)
 
     def _what_stays(self) -> str:
-        measured = self.measured
-        return "" if measured is None else f" {measured.recording.name} stays."
+        if self.measured is not None:
+            return f" {self.measured.recording.name} stays."
+        return (
+            ""
+            if self._table is None
+            else f" The questions are still those about {self._table.name}."
+        )
 
     def _tell(self, **news: Any) -> None:
         self.state = replace(self.state, **news)

@@ -463,3 +463,13 @@ def test_a_long_file_name_loses_its_middle_and_keeps_its_end() -> None:
     made = brought(long, case_western(), signal())
     assert made.state.line.startswith(f"{short} · 167 ms")
     assert made.state.whole_name == long
+
+
+def test_a_refused_file_says_whose_questions_stay() -> None:
+    made = brought("silent.csv", b"time (s),y\n" + b"".join(
+        b"%.6f,%.4f\n" % (k / 5000.0, math.sin(0.7 * k)) for k in range(5000)))  # fmt: skip
+    made.measured = None
+    run(bring(made, "words.txt", b"no numbers here"))
+    assert made.state.bad
+    assert "words.txt" in made.state.words
+    assert made.state.words.endswith("The questions are still those about silent.csv.")

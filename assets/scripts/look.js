@@ -99,7 +99,7 @@
     clear_all(document.body ?? root)
     // closed tabs are not in the document
     for (const { el } of window.Bokeh?.index.query(({ el }) => el && !el.isConnected) ?? [])
-      if (el.matches(".off-screen")) clear_all(el.shadowRoot)
+      if (el.matches?.(".off-screen")) clear_all(el.shadowRoot)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of documents())
       for (const model of doc._all_models.values())

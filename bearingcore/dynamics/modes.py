@@ -144,7 +144,8 @@ def frequency_bands(
 
     Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
     them: see `bearingcore.statics.positions`. Around each least and greatest sample it is looked
-    for ever closer, without damping; the frequency there is the damped one, as in `Modes`.
+    for ever closer; coarsely, and where a defect turns with the shaft, without damping, and the
+    frequency there is the damped one, as in `Modes`.
 
     Parameters
     ----------
@@ -174,18 +175,22 @@ def frequency_bands(
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(state)
+    undamped = turns(scene) or coarse  # many samples, or few that have to be quick
 
-    def frequencies(cage_angles: Array, shaft_angles: Array) -> Array:
-        return search.frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
+    def frequencies(known: Equilibrium) -> Array:
+        """(m, k) [Hz] at the angles of a static state."""
+        # dampers that come in with a ball make frequencies jump, which undamped ones do not show
+        damped = None if undamped else modes_at(known, search.template)
+        return search.frequencies(known) if damped is None else damped.frequency.T
 
-    ends = extremes(found, search.frequencies(state), frequencies, rounds=rounds)
-    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
-    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
-    if not (turns(scene) or coarse):
-        # dampers that come in with a ball move the ends a little: there are few samples here
-        every = modes_at(state, search.template).frequency
-        least = np.fmin(least, np.nanmin(every, axis=0))
-        greatest = np.fmax(greatest, np.nanmax(every, axis=0))
+    def closer(cage_angles: Array, shaft_angles: Array) -> Array:
+        return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
+
+    ends = extremes(found, frequencies(state), closer, rounds=rounds)
+    least, greatest = ends.least, ends.greatest
+    if undamped:
+        there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+        least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 

@@ -179,9 +179,10 @@ def frequency_bands(
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""
+        if undamped:
+            return search.frequencies(known)
         # dampers that come in with a ball make frequencies jump, which undamped ones do not show
-        damped = None if undamped else modes_at(known, search.template)
-        return search.frequencies(known) if damped is None else damped.frequency.T
+        return modes_at(known, search.template).frequency.T
 
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))

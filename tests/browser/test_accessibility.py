@@ -126,9 +126,9 @@ def silent_figures(page: Page) -> list[str]:
 def fits(page: Page) -> None:
     """Figures take their time to follow a change of the screen, and then all fits."""
     end = time.monotonic() + 120.0
-    while odd := sideways(page):
-        assert time.monotonic() < end, odd
+    while sideways(page) and time.monotonic() < end:
         page.wait_for_timeout(50)
+    assert sideways(page) == []
 
 
 def sideways(page: Page) -> list[str]:

@@ -127,7 +127,7 @@ class View(Generic[C]):
     at_rest: ClassVar[bool] = False
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
-    #: "unseen": for screen readers alone; "large"
+    #: "unseen": for screen readers alone
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen

@@ -22,6 +22,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.diagnosis.part.listened_signal import MOST_DROPPED
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.filter_bank import Band, split, squared_envelopes
@@ -231,6 +232,8 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
         where the recording holds too few ball passes.
     """
     names, envelopes, rate = _envelopes(recording, nominal)
+    if not names:
+        return Knocks((), nominal, 0, Seen.NOTHING)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
     highest = min(20.0 * nominal, widest)
     left = envelopes
@@ -276,7 +279,10 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
     for direction, samples in zip(
         recording.directions, recording.acceleration[:kept].T, strict=True
     ):
-        dropped = signal_faults(samples).dropped
+        faults = signal_faults(samples)
+        if faults.dropped_share > MOST_DROPPED:
+            continue
+        dropped = faults.dropped
         left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
         for found in squared_envelopes(
             left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf

@@ -123,6 +123,8 @@ def test_a_pit_has_no_extent_to_measure():
 def test_noise_has_nothing_to_measure_and_names_no_race():
     noise = np.random.default_rng(4).standard_normal(round(RATE * SECONDS))
     assert measured(noise).status == ExtentStatus.NOT_VISIBLE
+    blow = np.eye(1, len(noise), 999)[0]  # of a sensor that is dead else
+    assert measured(blow).status == ExtentStatus.NOT_VISIBLE
     found = measure_extent(Recording(noise, RATE, ("y",)), MOTOR, SPEED)
     assert found.status == ExtentStatus.NO_RACE
     assert len(found.table()["extent"]) == 1

@@ -660,7 +660,12 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
         ('["fy_n"]', '"fy_n"', 5, "Expected `array`, got `str`"),
         ('["fy_n"]', '["fy"]', 5, "“fy” is not a control of the page"),
-        ("extent_deg = 64", "extent_deg = 640", 9, "640° is out of range: extent goes from 0"),
+        (
+            "extent_deg = 64",
+            "extent_deg = 640",
+            9,
+            "640° is out of range: length of the defect goes from 0",
+        ),
         ("extent_deg = 64", "extent = 64", 9, "“extent” is no number or choice of the page; was"),
         ("## Question", "Question", 17, "parts begin with"),
         ("## Answer", "Answer", 17, "two parts at least"),

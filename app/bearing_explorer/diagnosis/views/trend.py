@@ -360,7 +360,7 @@ def python_lines(found: FoundTrend, model: Model) -> str:
         "from bearingcore import Recording, Scene, presets, read_table, trend",
         "from bearingcore.files.channels import Column\n",
         f"scene = {scene_code(scene)}",
-        "files = [  # columns, directions, meaning given to columns, unit, rate, a 1, V/(m/s²), rad/s",
+        "files = [  # columns, directions, given columns, unit, rate, a 1, V/(m/s²), rad/s",
         *files,
         "]",
         "recordings = []",

@@ -22,18 +22,18 @@ from bearing_explorer.diagnosis.machine import FormError, Machine, find_publishe
 from bearing_explorer.diagnosis.signal import Origin
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
-from bearingcore.common.numbers import with_prefix
+from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files.facts import Finding
-from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import (
+from bearingcore.files import (
     STANDARD_GRAVITY,
     UNITS,
     VOLTAGES,
+    Finding,
     kind_of,
     level_doubt,
+    longest_run,
 )
-from bearingcore.signals.recording import FEWEST_SAMPLES
+from bearingcore.signals import FEWEST_SAMPLES
 
 SIGNAL_FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""

@@ -40,8 +40,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.trend import LINES
+from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
 
 if TYPE_CHECKING:

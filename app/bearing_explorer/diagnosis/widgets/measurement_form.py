@@ -19,8 +19,8 @@ from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.common.numbers import number
-from bearingcore.files.units import UNITS, VOLTAGES
+from bearingcore.common import number
+from bearingcore.files import UNITS, VOLTAGES
 
 LABELS = {
     "x": "Along x, sideways",

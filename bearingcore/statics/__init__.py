@@ -9,7 +9,7 @@ from bearingcore.statics.equilibrium import (
     has_long_period,
 )
 from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
-from bearingcore.statics.limit import summary, unknown
+from bearingcore.statics.limit import NO_OIL, summary, unknown
 from bearingcore.statics.passes import (
     Crossing,
     ball_drop,
@@ -21,7 +21,7 @@ from bearingcore.statics.passes import (
 )
 from bearingcore.statics.positions import ROUNDS, turns
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, ranges_of, static_ranges
-from bearingcore.statics.validity import NO_DRAWING, NO_OIL, state_of_limits
+from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 
 __all__ = [
     "ANGLES_A_PERIOD",

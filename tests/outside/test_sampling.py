@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import firwin, upfirdn, welch
 
 from bearingcore import orbit, presets, simulate
-from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.speed_runs import speed_run
 from tests.outside.witness import witness
 
 RATE, FINE = 65_536.0, 524_288.0

@@ -25,22 +25,26 @@ from bearing_explorer.diagnosis.signal import Origin
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
-from bearingcore.common.numbers import with_prefix
+from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files.channels import OTHER, SIGNAL, SPEED, TIME, Column
-from bearingcore.files.facts import Finding
-from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import (
+from bearingcore.files import (
+    OTHER,
+    SIGNAL,
+    SPEED,
     SPEEDS,
     STANDARD_GRAVITY,
+    TIME,
     TIMES,
     UNITS,
     VOLTAGES,
+    Column,
+    Finding,
     kind_of,
     level_doubt,
+    longest_run,
     unit_in,
 )
-from bearingcore.signals.recording import FEWEST_SAMPLES
+from bearingcore.signals import FEWEST_SAMPLES
 
 SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""

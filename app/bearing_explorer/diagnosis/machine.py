@@ -17,11 +17,9 @@ from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import Bearing, CatalogueBearing, Scene
-from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
-from bearingcore.common import checks
-from bearingcore.common.numbers import number, span
-from bearingcore.files.contents import FileContents
-from bearingcore.files.facts import Finding
+from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
+from bearingcore.common import choice, number, span
+from bearingcore.files import FileContents, Finding
 
 NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
@@ -104,7 +102,7 @@ class Machine:
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
-            return dataclasses.replace(self, speed_source=checks.choice("speed", speed, KNOWN))
+            return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
         return dataclasses.replace(self, shaft_speed=speed)
 
     @property

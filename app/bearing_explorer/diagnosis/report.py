@@ -26,7 +26,7 @@ from bearing_explorer.kit.report_page import About, document, heading, mark_of
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
-from bearingcore.common.numbers import with_prefix
+from bearingcore.common import with_prefix
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

@@ -85,12 +85,10 @@ from bearingcore import (
     Table,
     read_table,
 )
-from bearingcore.common.numbers import number, thousands, with_prefix
-from bearingcore.diagnosis.part.listed import ListedBearing
-from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.common import number, thousands, with_prefix
+from bearingcore.diagnosis import ListedBearing, Tolerances, variant
 from bearingcore.errors import FieldError
-from bearingcore.scene.pit import pit
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore.scene import WITH_MASS, pit
 
 log = logging.getLogger(__name__)
 

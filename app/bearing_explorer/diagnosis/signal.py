@@ -17,10 +17,10 @@ import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import Model, motion_of
 from bearing_explorer.kit.compute.cache import cached
-from bearingcore.common.lazy import cached_property
-from bearingcore.diagnosis.part.listened_signal import NARROWEST
-from bearingcore.files.channels import Column
-from bearingcore.signals.filter_bank import Band, squared_envelopes
+from bearingcore.common import cached_property
+from bearingcore.diagnosis import NARROWEST
+from bearingcore.files import Column
+from bearingcore.signals import Band, squared_envelopes
 
 if TYPE_CHECKING:
     from bearingcore import Bearing, Indicators, Kurtogram, Motion, Recording, Scene, Spectrum

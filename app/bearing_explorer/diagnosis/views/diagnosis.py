@@ -28,10 +28,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Diagnosis, Recording
-from bearingcore.common.numbers import probability
-from bearingcore.diagnosis.part.combs import HARMONICS
-from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
-from bearingcore.diagnosis.part.status import DiagnosisStatus
+from bearingcore.common import probability
+from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

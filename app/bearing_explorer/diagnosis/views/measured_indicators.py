@@ -13,7 +13,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.kit.widgets.form import FieldSpec
-from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
+from bearingcore.signals import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

@@ -15,13 +15,13 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
-from bearingcore.files.units import ACCELERATIONS
+from bearingcore.files import ACCELERATIONS
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.signal import Measured
     from bearingcore import Scene
-    from bearingcore.common.table import ResultTable
-    from bearingcore.diagnosis.part.evidence import EnvelopeLines
+    from bearingcore.common import ResultTable
+    from bearingcore.diagnosis import EnvelopeLines
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""

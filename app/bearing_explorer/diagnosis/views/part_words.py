@@ -10,11 +10,9 @@ from bearing_explorer.diagnosis.diagnoses import SLIP, Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SPEED_SOURCES, Machine
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
-from bearingcore import Diagnosis, MeasuredExtent
-from bearingcore.common.numbers import percent_off, probability
-from bearingcore.diagnosis.part import say
-from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
-from bearingcore.diagnosis.part.listed import ListedBearing
+from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
+from bearingcore.common import percent_off, probability
+from bearingcore.diagnosis import LIKELY, NONE_SEEN, ListedBearing, perhaps_a_ball
 
 SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""
@@ -61,7 +59,7 @@ def plain(found: Diagnosis, question: Question) -> str:
         one = found.of(found.fault)
         modulated = f", modulated once per {one.sideband_source} turn"
         turns = one.part != "outer race" and float(one.sidebands[:3].mean()) >= SIDEBANDS
-        doubt = say.perhaps_a_ball() if found.perhaps_a_ball else ""
+        doubt = perhaps_a_ball() if found.perhaps_a_ball else ""
         return (
             f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
             f"{modulated if turns else ''}.{doubt}"

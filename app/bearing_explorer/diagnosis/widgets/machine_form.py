@@ -20,7 +20,7 @@ from bearing_explorer.diagnosis.session import MeasurementState
 from bearing_explorer.diagnosis.widgets.measurement_form import notes_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.widgets.form import Fields, choices, entry, row, select
-from bearingcore.bearings.frequencies import FREQUENCIES
+from bearingcore.bearings import FREQUENCIES
 
 LABELS = {
     "bearing": "Measured bearing",

@@ -27,8 +27,8 @@ from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.common.numbers import number
-from bearingcore.files.units import UNITS
+from bearingcore.common import number
+from bearingcore.files import UNITS
 
 LABELS = {
     "columns": "Columns",

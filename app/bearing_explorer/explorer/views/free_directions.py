@@ -16,7 +16,7 @@ from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import facts_pane
 from bearing_explorer.kit.widgets.form import Fields, button
 from bearingcore import DOF_NAMES
-from bearingcore.scene.scene import DOF_SYMBOLS
+from bearingcore.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

@@ -26,6 +26,7 @@ export function render({ model }) {
   }
   const begin = (list) => {
     const all = [...list ?? []].filter((file) => !file.name.startsWith("."))
+    if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
     all.sort((one, other) => compare(place(one), place(other)))
     chosen = all.length
     count = Math.min(chosen, model.most)
@@ -59,6 +60,11 @@ export function render({ model }) {
     root.classList.toggle("over", kind === "dragover")
     if (kind === "drop") begin(event.dataTransfer?.files)
   })
+  on_event("signal-file", root, ({ file, taken }) => {
+    taken()
+    begin([file])
+  })
   show(0)
+  setTimeout(() => announce("upload-ready"), 0)  // once it is on the page
   return root
 }

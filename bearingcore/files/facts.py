@@ -259,11 +259,12 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
-        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, file_unit="rpm"))
+        turning = float(match[1]) * SPEEDS["rpm"]
+        found.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
     if not found:
         return None
-    first = next((one for one in found if one.stated), found[0])
-    if any(one.stated and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+    first = next((one for one in found if one.stated), found[-1])
+    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
         reason = f"{first.reason}, which names another one too"
         return dataclasses.replace(first, reason=reason, stated=False)
     return first

@@ -72,6 +72,8 @@ SIZES = ("unit", "sensitivity")
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
+SHOWN_LINES = 5
+
 MOST_SAID = 12
 """Numbers and words of a file that are shown."""
 
@@ -330,7 +332,7 @@ def columns_of(table: Table) -> ShownColumns:
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],
-        [[_cell(value) for value in line] for line in table.first_rows],
+        [[_cell(value) for value in line] for line in table.first_rows[:SHOWN_LINES]],
         len(table.columns),
     )
 

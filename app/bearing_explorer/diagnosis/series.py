@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from bearing_explorer.diagnosis.form import fill, read_form
-from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearingcore import CatalogueBearing, Recording, Table
 
@@ -33,11 +33,14 @@ class Series:
         sentences on files that could not be read.
     together
         whether they were chosen together, as a series.
+    shortened
+        whether rows at the end of some were left out.
     """
 
     tables: tuple[Table, ...] = ()
     left_out: tuple[str, ...] = ()
     together: bool = False
+    shortened: bool = False
 
     def with_table(self, table: Table, count: int = 1) -> Series:
         """With a further file, of `count` that come; it replaces an earlier one of its name."""
@@ -48,7 +51,8 @@ class Series:
         tables = [*(one for one in self.tables if one.name != table.name), table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
             tables.pop(0)
-        return dataclasses.replace(self, tables=tuple(tables))
+        shortened = self.shortened or rows > most
+        return dataclasses.replace(self, tables=tuple(tables), shortened=shortened)
 
     def without(self, sentence: str) -> Series:
         """With a sentence on a file that could not be read."""
@@ -68,6 +72,7 @@ def recordings_of(
     series: Series,
     shown: Measured,
     changed: Mapping[str, str],
+    kept: Mapping[str, str],
     direction: str,
     scene: Machine,
     find: Callable[[str], CatalogueBearing],
@@ -75,7 +80,8 @@ def recordings_of(
     """The recordings of a series along a direction; without files the one that is shown.
 
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; in another unit, or one that is not known, it cannot be compared and is left
+    that is `shown`; `kept` are answers for those that say
+    nothing. In another unit, or one that is not known, it cannot be compared and is left
     out.
     """
     if not series.tables:
@@ -83,7 +89,8 @@ def recordings_of(
     recordings, origins, left_out = [], [], list(series.left_out)
     for table in series.tables:
         try:
-            found = read_form(*fill(table, changed), scene, find)
+            told, form = fill(table, changed)
+            found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")
             continue

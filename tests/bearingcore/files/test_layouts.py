@@ -543,7 +543,10 @@ def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
     path = tmp_path / "run_1797rpm.csv"
     path.write_text(FRAME.to_csv())
     got = read_recording(path, unit="g")
-    assert got.shaft_speed == pytest.approx(1797.0 * math.pi / 30.0)
+    assert got.shaft_speed is None  # a name suggests it; it does not give it
+    suggested = read_table(path.name, path.read_bytes()).contents.shaft_speed
+    assert suggested.value == pytest.approx(1797.0 * math.pi / 30.0)
+    assert (suggested.stated, suggested.taken) == (False, True)
     with pytest.raises(ValueError, match="No such file"):
         read_recording(tmp_path / "none.csv")
 

@@ -15,7 +15,7 @@ from bearing_explorer.diagnosis.diagnoses import (
     Question,
     answered,
 )
-from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.session import AboutMeasurement, Measurement, MeasurementState
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
@@ -98,8 +98,8 @@ class PartDiagnosis(LookView, MeasuredView):
     first_look: ClassVar[dict[str, Any]] = {"zoom": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.machine = MachineForm(self._answer_form)
-        self.part = PartPanel()
+        self.machine = MachineForm(self._answer_form, self._forget_machine)
+        self.part = PartPanel(self._report_on)
         self._shown_of: Recording | None = None  # of which the panel has an answer
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
@@ -129,6 +129,14 @@ class PartDiagnosis(LookView, MeasuredView):
     def _answer_form(self, values: Mapping[str, str]) -> None:
         if self.measurement is not None:
             self.measurement.take_form({**self.measurement.state.values, **values})
+
+    def _report_on(self, words: Mapping[str, str]) -> None:
+        if self.measurement is not None:
+            self.measurement.about = AboutMeasurement(**words)
+
+    def _forget_machine(self) -> None:
+        if self.measurement is not None:
+            self.measurement.forget_machine()
 
     def answer(self) -> Diagnosis | str | None:
         """The diagnosis, a sentence why there is none, or None: not yet."""

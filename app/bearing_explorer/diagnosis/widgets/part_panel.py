@@ -12,7 +12,7 @@ import panel as pn
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
-from bearing_explorer.kit.widgets.form import button, row
+from bearing_explorer.kit.widgets.form import Fields, button, entry, row
 
 _PICTURES = {
     "busy": "Bearing; the signal is being analysed",
@@ -29,10 +29,24 @@ _REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
 
-class PartPanel(pn.Column):
-    """The bearing with the damaged part marked, the answer in words, and its assumptions."""
+REPORTED = {
+    "machine": ("Machine", "fan 3, motor side"),
+    "point": ("Measuring point", "drive end, vertical"),
+    "date": ("Date of the recording", "26 November 2026"),
+}
+"""What a report says of the measurement: label and example."""
 
-    def __init__(self) -> None:
+
+class PartPanel(pn.Column):
+    """The bearing with the damaged part marked, the answer in words, and its assumptions.
+
+    Parameters
+    ----------
+    report_on
+        called with the words for the report, by the names of `REPORTED`.
+    """
+
+    def __init__(self, report_on: Callable[[Mapping[str, str]], None] = lambda _: None) -> None:
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
@@ -41,7 +55,12 @@ class PartPanel(pn.Column):
         self._report = button("Report on one page", lambda: None, align="start")
         self._report.js_on_click(code=_REPORT)
         self._why_not = _words("")
-        self._actions = row(self._copy, self._report, self._why_not, visible=False)
+        fields = Fields(lambda _: report_on(dict(fields.values)))
+        for name, (label, example) in REPORTED.items():
+            fields.add(name, entry(label, placeholder=example))
+        self._actions = row(
+            self._copy, *fields.widgets.values(), self._report, self._why_not, visible=False
+        )
         super().__init__(self._answer, self._actions, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 

@@ -348,18 +348,22 @@ def _unit(
         return Finding("m/s²", "nothing says it", False, supported=False)
     if table.full_scale_known is False:
         return Finding("m/s²", "nothing says what full scale is", False, supported=False)
-    return _unit_by_level(table.columns[:, list(picked)])
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
 
 
-def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
-    """The unit in which signals are more like those of bearings."""
+def _unit_by_level(signals: NDArray[np.float64], all_signals: NDArray[np.float64]) -> Finding[str]:
+    """The unit in which signals are more like those of bearings; gravity may be on any of all."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
-        means = np.abs(finite.mean(axis=0))
         level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
-    for unit, gravity in (("g", 1.0), ("m/s²", STANDARD_GRAVITY)):
-        if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
-            return Finding(unit, f"a mean of {number(means.max())} is gravity in {unit}", False)
+        means = np.abs(np.where(np.isfinite(all_signals), all_signals, 0.0).mean(axis=0))
+    for unit in ("g", "m/s²", "mm/s²"):
+        gravity = STANDARD_GRAVITY / ACCELERATIONS[unit]
+        standing = means[np.abs(means / gravity - 1.0) < GRAVITY_SHARE]
+        if standing.size and level < gravity:
+            words = f"a mean of {number(float(standing[0]))} is gravity in {unit}"
+            return Finding(unit, words, False)
     if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False, supported=False)
     strays = {

@@ -42,15 +42,19 @@ class Series:
     together: bool = False
     shortened: bool = False
 
-    def with_table(self, table: Table, count: int = 1) -> Series:
-        """With a further file, of `count` that come; it replaces an earlier one of its name."""
+    def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
+        """With a further file, of `count` that come; it replaces an earlier one of its name.
+
+        It comes last, or `first`.
+        """
         rows, columns = table.columns.shape
         most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
         if rows > most:
             table = dataclasses.replace(table, columns=table.columns[:most].copy())
-        tables = [*(one for one in self.tables if one.name != table.name), table]
+        others = [one for one in self.tables if one.name != table.name]
+        tables = [table, *others] if first else [*others, table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
-            tables.pop(0)
+            tables.pop(int(first))
         shortened = self.shortened or rows > most
         return dataclasses.replace(self, tables=tuple(tables), shortened=shortened)
 

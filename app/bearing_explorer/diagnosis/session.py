@@ -128,6 +128,8 @@ _WITHOUT_SIZE = (
 NOT_SAID = "not said"
 """What is missing in a report."""
 
+NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."
+
 REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
 CHANGED = "Your answers have changed since."
 NOT_YET = "The signal is being analysed with the newest answers."
@@ -390,20 +392,30 @@ class Measurement:
     # Files
 
     def begin_upload(
-        self, name: str, size: int, number: int = 1, count: int = 1, chosen: int = 1
+        self,
+        name: str,
+        size: int,
+        number: int = 1,
+        count: int = 1,
+        chosen: int = 1,
+        baseline: bool = False,
     ) -> None:
         """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
 
-        The last of several that can be read is the one that is shown.
+        The last of several that can be read is the one that is shown. A `baseline` is put before
+        the others, and the one that is shown stays.
         """
         if self._ended:
+            return
+        if baseline and self._table is None:
+            self._refuse(NO_FILE_TO_COMPARE)
             return
         if number == 1:
             self._latest += 1
             # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
-            self._arrival = _Arrival(count if several else 1, chosen, series)
+            self._arrival = _Arrival(count if several else 1, chosen, series, baseline=baseline)
         arrival = self._arrival
         if arrival is None or number not in (1, arrival.number + 1):
             return  # of files that were given up
@@ -467,7 +479,7 @@ class Measurement:
 
     def _take_next(self, arrival: _Arrival, files: Sequence[tuple[str, _Read | str]]) -> None:
         """Take what came: each file, or a sentence on why it cannot be read."""
-        if len(files) > 1 and arrival.count == 1:  # in a zip
+        if len(files) > 1 and arrival.count == 1 and not arrival.baseline:  # in a zip
             arrival.series = Series(together=True)
         for name, found in files:
             arrival.take(name, found, len(files))
@@ -480,7 +492,19 @@ class Measurement:
             self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}")
             return
         self.series = arrival.series
-        self._take_read(arrival.newest)
+        if arrival.baseline:
+            self._take_baseline(arrival.newest.table.name)
+        else:
+            self._take_read(arrival.newest)
+
+    def _take_baseline(self, name: str) -> None:
+        """The files of the series are compared with the first one, which came now."""
+        self.series = replace(self.series, together=True)
+        words = (
+            f"{name} is what {'' if self._table is None else self._table.name} is compared with."
+        )
+        self._tell(words=f"{words} See the trend below.", bad=False, busy=False)
+        self._draw()
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """The recordings of the series; for any thread."""
@@ -839,6 +863,7 @@ class _Arrival:
     number: int = 1
     newest: _Read | None = None
     why: str = ""
+    baseline: bool = False
 
     @property
     def words(self) -> str:
@@ -855,7 +880,7 @@ class _Arrival:
             self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
             self.series, self.newest = (
-                self.series.with_table(found.table, self.count * inside),
+                self.series.with_table(found.table, self.count * inside, first=self.baseline),
                 found,
             )
 

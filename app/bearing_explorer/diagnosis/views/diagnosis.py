@@ -99,7 +99,7 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def build(self, packed: PackedSource) -> Any:
         self.machine = MachineForm(self._answer_form, self._forget_machine)
-        self.part = PartPanel(self._report_on)
+        self.part = PartPanel(self._report_on, self._search)
         self._shown_of: Recording | None = None  # of which the panel has an answer
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
@@ -221,11 +221,15 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""
-        if self.measurement is None or found is None or found.status not in UNEXPLAINED:
+        if self.measurement is None or found is None:
             self.candidates.show("")
             return
         listed = self.measurement.listed
         answer, wanted = listed.latest(about), listed.wanted
+        asked = isinstance(wanted, ListQuestion) and wanted.is_like(about)
+        if found.status not in UNEXPLAINED and not asked:
+            self.candidates.show("")
+            return
         if not isinstance(wanted, ListQuestion) or not wanted.is_like(about):
             wanted = self.measurement.listed_question(about)
             if answer is None:
@@ -245,7 +249,9 @@ class PartDiagnosis(LookView, MeasuredView):
             rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
             before = CANCELLED.format(**counted) if progress.cancelled else ""
             after = "" if progress.cancelled and not rows else NONE_IN_LIST
-            first = UNEXPLAINED_BY_IT if about.geometry else ""
+            found = self.answer()
+            unexplained = isinstance(found, Diagnosis) and found.status in UNEXPLAINED
+            first = UNEXPLAINED_BY_IT if about.geometry and unexplained else ""
             words = first + FOUND_IN_LIST if rows else after
             self.candidates.show(before + words, rows)
 

@@ -133,8 +133,9 @@ class MeasurementForm(pn.Column):
             return
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
-                message.name, message.size, message.number, message.count, message.chosen
-            )
+                message.name, message.size, message.number, message.count, message.chosen,
+                message.baseline,
+            )  # fmt: skip
         else:
             self._measurement.take_piece(message.content, message.of)
 

@@ -61,7 +61,7 @@ AXES = {
     "rms": RMS,
     "kurtosis": style.AxisQuantity("Kurtosis", "", ""),
     "lines": AMPLITUDE,
-    "extent": style.AxisQuantity("Extent", "Δφ", "°"),
+    "extent": style.AxisQuantity("Length of the defect", "Δφ", "°"),
 }
 MOST_NAMED = 3
 """Files that are left out which a sentence names."""

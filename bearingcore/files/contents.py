@@ -27,7 +27,7 @@ from bearingcore.files.channels import (
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
-from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, UNITS
+from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 USUAL_LEVEL = 5.0
@@ -233,11 +233,11 @@ def _columns(
         columns[index] = column
     if any(column.role == TIME for column in table.given.values()):
         time = next(index for index, column in table.given.items() if column.role == TIME)
-        unit = columns[time].unit
-        found = times_of(table.columns[:, time], unit)
-        return tuple(columns), dataclasses.replace(
-            found, stated=found.stated or (unit is not None and found.sample_rate is not None)
-        )
+        unit, values = columns[time].unit, table.columns[:, time]
+        if unit is None:
+            return tuple(columns), times_of(values)
+        found = sampling_of(values, TIMES[unit])
+        return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
     if stamped:
         return tuple(columns), times_of(table.columns[:, stamped[0]], "s")
     return _with_times(table, columns)

@@ -58,7 +58,7 @@ ROLES = (
     *((f"time {unit}", f"time in {unit}") for unit in TIMES),
     *((f"speed {unit}", f"shaft speed in {unit}") for unit in SPEEDS),
 )
-"""What a column may be, as the form has it and in words."""
+"""Possible roles of a column, as the form has them and in words."""
 APART = ";"
 """Between the roles of the columns in their field."""
 NOT_KNOWN = ""
@@ -78,7 +78,7 @@ MOST_SAID = 12
 """Numbers and words of a file that are shown."""
 
 _WORDS = {
-    "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
+    "sample_rate": ("The sample rate", "Hz", 1.0, 1e7),
     "full_scale": ("The value of a 1 in the file", "", 1e-12, 1e12),
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
 }

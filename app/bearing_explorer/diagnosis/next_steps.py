@@ -1,4 +1,4 @@
-"""What to do after a diagnosis, and how soon, in sentences for who plans the work.
+"""The next step after a diagnosis, and how soon, in sentences for planners.
 
 How soon rests on the zone of the vibration's velocity and on whether it grew; the intervals are
 usual practice, and say so.
@@ -23,7 +23,7 @@ ALIKE = "at the same point, speed and load"
 def next_steps(
     found: Diagnosis, question: Question, zone: str = "", trend: Trend | None = None
 ) -> str:
-    """What to do next, and how soon.
+    """The next step, and how soon, in sentences.
 
     Parameters
     ----------

@@ -84,9 +84,8 @@ def recordings_of(
     """The recordings of a series along a direction; without files the one that is shown.
 
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; `kept` are answers for those that say
-    nothing. In another unit, or one that is not known, it cannot be compared and is left
-    out.
+    that is `shown`; `kept` are answers on the machine for those that say nothing of it. In another
+    unit, or one that is not known, a file cannot be compared and is left out.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())

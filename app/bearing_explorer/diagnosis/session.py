@@ -126,7 +126,7 @@ _WITHOUT_SIZE = (
 )
 
 NOT_SAID = "not said"
-"""What is missing in a report."""
+"""In a report, where nothing is known."""
 
 NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."
 

@@ -69,7 +69,7 @@ class UploadPiece(msgspec.Struct, tag="piece"):
 
 
 class RoleOfColumn(msgspec.Struct):
-    """What a column of a file is, from 0, was chosen."""
+    """The role of a column of a file, from 0, was chosen."""
 
     column: int
     role: str

@@ -39,7 +39,7 @@ REPORTED = {
     "point": ("Measuring point", "drive end, vertical"),
     "date": ("Date of the recording", "26 November 2026"),
 }
-"""What a report says of the measurement: label and example."""
+"""Words on the measurement in a report: label and example."""
 
 
 class PartPanel(pn.Column):

@@ -39,8 +39,8 @@ LABELS = {
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, or a zip of "
-    "one of them; at most "
-    f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
+    f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
+    "become a trend; parts of one signal can be joined."
 )
 _MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -65,6 +65,7 @@ class MeasurementForm(pn.Column):
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", self._take_load, visible=False)
+        self._join = button("", self._join_parts, visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
@@ -76,7 +77,7 @@ class MeasurementForm(pn.Column):
             css_classes=["ways"],
         )
         self._in_full = pn.Column(
-            self._ways, self._about_file, row(self._facts, self._load), **_WIDE
+            self._ways, self._about_file, row(self._facts, self._load, self._join), **_WIDE
         )
         super().__init__(self._in_short, self._in_full, self._words, self._cancel, **_WIDE)
         self.show(MeasurementState())
@@ -132,14 +133,19 @@ class MeasurementForm(pn.Column):
             return
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
-                message.name, message.size, message.number, message.count, message.chosen
-            )
+                message.name, message.size, message.number, message.count, message.chosen,
+                message.baseline,
+            )  # fmt: skip
         else:
             self._measurement.take_piece(message.content, message.of)
 
     def _take_load(self) -> None:
         if self._measurement is not None:
             self._measurement.take_load()
+
+    def _join_parts(self) -> None:
+        if self._measurement is not None:
+            self._measurement.join_parts()
 
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
@@ -162,6 +168,9 @@ class MeasurementForm(pn.Column):
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
             visible=bool(load and self._measurement and self._measurement.change_scene),
+        )
+        self._join.param.update(
+            label=f"Join the {state.parts} files to one signal", visible=state.parts > 1
         )
         self._shown = state
 

@@ -65,9 +65,11 @@ function announce(name, detail) {
   window.dispatchEvent(new CustomEvent(`explorer-${name}`, { detail }))
 }
 function on_event(name, part, act) {
+  let was_there = false  // a part may hear of something before it is put into the page
   const heard = (event) => {
+    if (part.isConnected) was_there = true
     if (part.isConnected) act(event.detail)
-    else window.removeEventListener(`explorer-${name}`, heard)
+    else if (was_there) window.removeEventListener(`explorer-${name}`, heard)
   }
   window.addEventListener(`explorer-${name}`, heard)
 }

@@ -157,7 +157,7 @@ def assumptions(
     return [
         ("File", recording.name, "" if measured.origin else "Simulated"),
         ("Signal", f"{with_prefix(recording.duration, 's')} along "
-         f"{' and '.join(measured.directions)}", source("y") or source("x")),
+         f"{' and '.join(measured.directions)}", source("columns")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4), source("sample_rate")),
         ("Unit", measurement.state.values.get("unit", "m/s²") or "not known", source("unit")),
         ("Shaft", given["Shaft"], source("speed") if of_file["speed"] else ""),

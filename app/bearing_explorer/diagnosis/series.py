@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from bearing_explorer.diagnosis.form import guess, read_form
+from bearing_explorer.diagnosis.form import fill, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearingcore import CatalogueBearing, Recording, Table
@@ -82,9 +82,8 @@ def recordings_of(
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
     recordings, origins, left_out = [], [], list(series.left_out)
     for table in series.tables:
-        form = {**guess(table), **changed}
         try:
-            found = read_form(table, form, scene, find)
+            found = read_form(*fill(table, changed), scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")
             continue

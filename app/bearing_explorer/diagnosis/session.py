@@ -28,13 +28,15 @@ from bearing_explorer.diagnosis.diagnoses import (
 )
 from bearing_explorer.diagnosis.form import (
     LIKELY,
-    LONGEST_TEXT,
     SIGNAL_FIELDS,
     SIZES,
     FormResult,
+    ShownColumns,
+    as_texts,
     bearings_of,
     columns_of,
-    guess,
+    fill,
+    is_voltage,
     load_of,
     machine_of,
     proposed_unit,
@@ -129,7 +131,7 @@ class MeasurementState:
     words: str = FIRST_WORDS
     bad: bool = False
     busy: bool = False
-    columns: list[list[str]] = field(default_factory=list)
+    columns: ShownColumns | None = None
     values: dict[str, str] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
     #: why the fields are filled in as they are
@@ -143,6 +145,8 @@ class MeasurementState:
     #: [N] in the file, None where it has none
     load: float | None = None
     scaled: bool = False
+    #: whether the sensitivity of a sensor is needed
+    voltage: bool = False
     #: bearings to choose from, as [value, words, heading], and answers on the speed
     bearings: list[list[str]] = field(default_factory=list)
     speeds: list[list[str]] = field(default_factory=list)
@@ -215,8 +219,10 @@ class Measurement:
         self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
         self._scene = of_scene(scene())
         self._arrival: _Arrival | None = None
-        self._table: Table | None = None
+        self._table: Table | None = None  # with the roles of its columns as they are given
+        self._as_read: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
+        self._agreed: dict[str, str] = {}  # guesses that a person agreed to
         self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
         self._cut = ""
         self._upload: Upload | None = None
@@ -229,7 +235,7 @@ class Measurement:
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self._upload = self._table = self._arrival = None
+        self._upload = self._table = self._as_read = self._arrival = None
         self.series = Series()
         self.diagnoses.stop()
         self.extents.stop()
@@ -432,7 +438,8 @@ class Measurement:
         The figures of the one before leave with it, so that none is shown under another's name.
         """
         table = found.table
-        self._table, self._cut, self._first = table, found.cut, found.form
+        self._table = self._as_read = table
+        self._cut, self._first, self._agreed = found.cut, found.form, {}
         self._taken = found.form
         self.measured = self.sized = None
         if found.asked is not None:
@@ -452,6 +459,7 @@ class Measurement:
             refused={name: text for name, text in found.refused.items() if name not in found.asks},
             reasons={**reasons(table), **found.asks, **found.sizes},
             open=[*found.asks, *found.sizes],
+            voltage=is_voltage(table, found.form),
             proposed=proposed_unit(table),
             said=said(table),
             load=load_of(table),
@@ -477,45 +485,51 @@ class Measurement:
             if measured is not None and measured.origin is None:
                 self._take_simulated_form(measured, form.get("speed", SIMULATED))
             return
-        texts = {name: form.get(name, "")[:LONGEST_TEXT].strip() for name in self.state.values}
-        first = self._first
-        asks = [name for name in self.state.open if name not in SIZES]
-        left = [name for name in asks if not sure and texts.get(name) == first.get(name)]
-        if "y" in left and texts.get("x"):
-            left.remove("y")
+        texts = as_texts(form, tuple(self.state.values))
+        changed = {name: text for name, text in texts.items() if text != self._first[name]}
+        if sure:
+            self._agreed |= {name: texts[name] for name in self.state.open if name not in SIZES}
         self._latest += 1
         self._tell(values=texts, settling=True)
-        scene = self._scene
+        scene, as_read = self._scene, self._as_read
+        assert as_read is not None
         self._in_background(
-            lambda: _tried(table, texts, scene, self._bearings.find),
-            lambda found: self._take_tried(texts, found, left),
+            lambda: _answered(as_read, changed, scene, self._bearings.find),
+            lambda found: self._take_answers(texts, found),
             table.name,
         )
 
-    def _take_tried(
-        self, texts: dict[str, str], found: FormResult | FormError, left: list[str]
-    ) -> None:
-        before = self.measured
-        if isinstance(found, FormError):
-            stays = " The figures still show the signal as it was before." if before else ""
-            self._tell(
-                words=f"{found}{stays}", bad=True, values=texts, refused=found.sentences,
-                settling=False,
-            )  # fmt: skip
-            return
-        table = self._table
+    def _take_answers(self, texts: dict[str, str], answers: _Answers | FormError) -> None:
+        before, table = self.measured, self._table
         if table is None:
             return
+        found = answers if isinstance(answers, FormError) else answers.found
+        if isinstance(answers, _Answers):
+            # what follows from the roles of the columns follows from those of now
+            texts, table = answers.form, answers.table
+            self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
         asks, sizes = questions(table), size_questions(table, texts)
+        left = [
+            name for name in asks
+            if texts[name] == self._first[name] and texts[name] != self._agreed.get(name)
+        ]  # fmt: skip
+        refused = found.sentences if isinstance(found, FormError) else {}
         news = {
             "values": texts,
-            "refused": {},
+            "refused": {name: words for name, words in refused.items() if name not in left},
             "reasons": {**reasons(table), **asks, **sizes},
             "open": [*left, *sizes],
+            "proposed": proposed_unit(table),
+            "voltage": is_voltage(table, texts),
+            "speeds": speeds_of(table),
             "settling": False,
         }
+        if isinstance(found, FormError):
+            stays = " The figures still show the signal as it was before." if before else ""
+            self._tell(words=f"{found}{stays}", bad=True, **news)
+            return
         if left:
-            words = " ".join(asks.get(name, "") for name in left)
+            words = " ".join(asks[name] for name in left)
             self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
         same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
@@ -760,7 +774,7 @@ def read_file(
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
     table, cut = _shortened(table)
-    form, asks = guess(table), questions(table)
+    (_, form), asks = fill(table, {}), questions(table)
     sizes = size_questions(table, form)
     found, refused = _tried(table, form, scene, find), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
@@ -772,6 +786,32 @@ def read_file(
             raise ValueError(f"{name} cannot be used. {found}")
         return _Read(table, form, cut, None, {**refused, **found.sentences}, asks, sizes)
     return _Read(table, form, cut, None if asks else found, refused, asks, sizes)
+
+
+@dataclass(frozen=True)
+class _Answers:
+    """Answers as they were read: the recording, or why there is none.
+
+    `table` has the roles as they are given; `form` is as answered, `first` as the file alone says.
+    """
+
+    table: Table
+    form: dict[str, str]
+    first: dict[str, str]
+    found: FormResult | FormError
+
+
+def _answered(
+    table: Table,
+    changed: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> _Answers | FormError:
+    try:
+        told, form = fill(table, changed)
+    except FormError as refused:
+        return refused
+    return _Answers(told, form, fill(told, {})[1], _tried(told, form, scene, find))
 
 
 def _about_size(sizes: Mapping[str, str]) -> str:

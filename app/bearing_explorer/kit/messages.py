@@ -64,3 +64,10 @@ class UploadPiece(msgspec.Struct, tag="piece"):
 
     content: bytes
     of: int
+
+
+class RoleOfColumn(msgspec.Struct):
+    """What a column of a file is, from 0, was chosen."""
+
+    column: int
+    role: str

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import guess, read_form
+from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.session import (
     MOST_NUMBERS,
@@ -114,7 +114,7 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
     made = brought("rig.csv", ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode())
     assert not made.state.bad
-    assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
+    assert made.state.values["columns"] == "time s;x;y"
     measured = made.measured
     assert measured is not None
     assert measured.directions == ("x", "y")
@@ -134,8 +134,8 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     content = wav_of(columns, 51_200)
     assert len(content) > 3 * PIECE
     made = brought("long.wav", content)
-    assert "nothing says where" in made.state.reasons["y"]  # two channels may be of two places
-    answer(made, x="0", y="1")
+    assert "nothing says where" in made.state.reasons["columns"]  # they may be of two places
+    answer(made, columns="x;y")
     assert made.measured is not None
     np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
     assert made.state.scaled
@@ -181,8 +181,8 @@ def test_what_the_file_does_not_tell_is_asked_for():
     assert made.measured is None  # no old figure under a new name
     assert "sample rate is missing" in made.state.refused["sample_rate"]
     assert "sample rate is missing" in made.state.words
-    assert set(made.state.open) == {"y", "unit"}
-    answer(made, sample_rate="12 800", x="0", y="1")
+    assert set(made.state.open) == {"columns", "unit"}
+    answer(made, sample_rate="12 800", columns="x;y")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_800.0
     assert not made.state.bad
@@ -198,9 +198,10 @@ def test_what_the_file_does_not_tell_is_asked_for():
         ("shaft_speed", "rpm", "is missing"),
         ("full_scale", "0", "possible"),
         ("unit", "furlongs", "one of m/s², g, mg"),
-        ("x", "2", "same column"),
-        ("y", "99", "no such column"),
-        ("x", "3", "same number throughout"),
+        ("columns", "time;y;y;", "Two columns are the signal"),
+        ("columns", "time;x;y", "has other columns"),
+        ("columns", "time;x;y;furlong", "has other columns"),
+        ("columns", "time;x;;y", "same number throughout"),
     ],
 )
 def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
@@ -221,8 +222,8 @@ def test_shaft_speeds_are_read_with_their_units(text, hertz):
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
     asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
     assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-    with pytest.raises(FormError, match="at least one direction"):
-        read_form(table, {**guess(table), "x": "", "y": ""}, Machine())
+    with pytest.raises(FormError, match="Which column is the signal"):
+        read_form(table, {**guess(table), "columns": "time;;"}, Machine())
 
 
 def test_more_numbers_than_a_session_keeps_are_left_out():
@@ -233,7 +234,7 @@ def test_more_numbers_than_a_session_keeps_are_left_out():
     assert found.table.columns.size == MOST_NUMBERS
     assert "Only the first" in found.cut
     assert found.asked is None  # two channels: which are x and y is asked
-    asked = read_form(found.table, {**found.form, "x": "0", "y": "1"}, Machine())
+    asked = read_form(found.table, {**found.form, "columns": "x;y"}, Machine())
     assert asked.recording.sample_rate == 8000.0
 
 
@@ -271,19 +272,18 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
-    answer(made, x="1")
-    assert "two places (drive end and fan end)" in made.state.refused["x"]
-    assert made.state.line  # what is drawn stays
+    answer(made, columns="y;x;")  # the hand wins, and a note says what speaks against it
+    assert "two places (drive end and fan end)" in made.state.remarks
 
 
 def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
     made = brought("12k_105.mat", mat_of(**sides))
     assert made.measured is None
-    assert set(made.state.open) == {"y", "unit"}
-    assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
-    assert made.state.columns[1] == ["0", "DE (drive end)"]
-    answer(made, x="", y="0")
+    assert set(made.state.open) == {"columns", "unit"}
+    assert "several places (base, drive end, fan end)" in made.state.reasons["columns"]
+    assert made.state.columns.places == ["drive end", "fan end", "base"]
+    answer(made, columns="y;;")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_000.0
     assert "12 kHz?" in made.state.line
@@ -334,12 +334,13 @@ def test_voltages_need_their_sensor():
     assert "sensitivity" in made.state.refused
 
 
-def test_columns_in_two_units_are_not_read_in_one():
+def test_columns_in_two_units_are_each_read_in_their_own():
     made = brought("two.csv", csv_of(NOISE, "time,x [g],y [m/s²]"))
-    assert made.measured is None
-    assert "two units (g and m/s²)" in made.state.refused["x"]
-    answer(made, x="", unit="m/s²")
-    assert made.measured is not None
+    assert made.state.values["unit"] == AS_HEADED
+    read = made.measured.recording.acceleration
+    np.testing.assert_allclose(read, NOISE * [9.80665, 1.0], rtol=1e-5)
+    answer(made, unit="mm/s")  # which they are not
+    assert "says g; mm/s is taken, as given" in made.state.remarks
 
 
 # -- bad files -------------------------------------------------------------------------------------

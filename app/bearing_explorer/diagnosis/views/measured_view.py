@@ -38,7 +38,7 @@ def shown_unit(measured: Measured) -> tuple[str, float]:
     if not measured.in_si:
         return "units of the file", 1.0
     unit = "m/s²" if measured.origin is None else measured.origin.unit
-    unit = unit if unit in ACCELERATIONS else "g"
+    unit = unit if unit is not None and unit in ACCELERATIONS else "g"
     return unit, ACCELERATIONS[unit]
 
 
@@ -128,7 +128,7 @@ class MeasuredView(View[Model]):
         there = None if self.measurement is None else self.measurement.measured
         if there is None:
             return ""
-        knows_unit = there.origin is not None and there.origin.unit
+        knows_unit = there.origin is not None and there.origin.unit != ""
         return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
 
     @property
@@ -261,6 +261,7 @@ def recording_lines(measured: Measured) -> list[str]:
     name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
     return [
         f"table = read_table({name}, Path({name}).read_bytes())",
+        *([f"table = table.with_columns({dict(origin.given)!r})"] if origin.given else []),
         *([] if measured.in_si else ["# the unit of the file is not known"]),
         "recording = table.recording(",
         f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",

@@ -53,6 +53,9 @@ Sources = dict[str, dict[str, np.ndarray]]
 #: {range: (start, end)}
 Ranges = dict[str, tuple[float, float]]
 
+ANSWER = "answer"
+"""Tag of the parts of a figure that a veil hides, where it is to leave the others (page.js)."""
+
 
 class Caption(LiveComponent):
     """Head of a view: its title, its content in a line, and a menu for exports."""

@@ -10,7 +10,7 @@ import param
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.serve.live_component import LiveComponent
 from bearingcore.common import numbers
-from bearingcore.statics.validity import NO_OIL
+from bearingcore.statics.limit import NO_OIL
 
 if TYPE_CHECKING:
     from bearingcore import Limit

@@ -79,10 +79,11 @@ def stages(one: Mutant, tree: Path) -> Iterator[list[str]]:
     tests = tree / "tests"
     parts = one.file.relative_to(tree / "bearingcore").with_suffix("").parts
     names = re.compile(rf"\b{re.escape('.'.join(parts))}\b|\b{parts[0]} import .*\b{parts[-1]}\b")
+    areas = [parts[0], *(("dynamics", "statics") if parts[0] == "kernels" else ())]
     done: set[Path] = set()
     for group in (
         [f for f in tests.rglob("test_*.py") if names.search(f.read_text("utf-8"))],
-        (tests / "bearingcore" / parts[0]).rglob("test_*.py"),
+        [f for area in areas for f in (tests / "bearingcore" / area).rglob("test_*.py")],
         (tests / "outside").glob("test_*.py"),
         (tests / "bearingcore").rglob("test_*.py"),
         (tests / "bearing_explorer" / "explorer").rglob("test_*.py"),

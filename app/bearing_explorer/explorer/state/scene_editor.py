@@ -605,7 +605,9 @@ class SceneEditor:
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,
                 "floor": floor.kind,  # of a file that could not be read there is no floor
-                "dofs": " ".join(scene.dofs) if isinstance(scene.dofs, tuple) else scene.dofs or "auto",
+                "dofs": " ".join(scene.dofs)
+                if isinstance(scene.dofs, tuple)
+                else scene.dofs or "auto",
             },
             "defects": {
                 "names": [

@@ -78,7 +78,7 @@ def recorded() -> tuple[bytes, Measured]:
     wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
     read = read_file(RECORDED, file.getvalue(), at(presets["fan-rig"]))
     asked = read_form(
-        read.table, {**read.form, "x": "0", "y": "1", "unit": "m/s²"}, at(presets["fan-rig"])
+        read.table, {**read.form, "columns": "x;y", "unit": "m/s²"}, at(presets["fan-rig"])
     )
     machine = at(presets["fan-rig"])
     return file.getvalue(), Measured(asked.recording, machine, origin=asked.origin)

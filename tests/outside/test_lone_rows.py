@@ -39,6 +39,7 @@ from bearingcore.sweep import STATUSES, sweep
 from tests.helpers.contact_law import Balls
 from tests.helpers.judge import beyond_geometry
 from tests.helpers.random_rows import KINDS, random_scene
+from tests.outside.test_kinds import INCH, balls
 from tests.outside.witness import witness
 
 CONE = presets["30206-back-to-back"].bearing.replace(rows=())
@@ -243,3 +244,20 @@ def test_a_row_that_carries_thrust_one_way_says_so_when_it_is_pressed_the_other_
     pair = presets["30206-back-to-back"].healthy()
     for fz in (1000.0, -1000.0):
         assert not of(limits(pair.replace(fz=fz)), name).crossed
+
+
+def test_a_moment_presses_one_row_of_a_tandem_pair_the_wrong_way() -> None:
+    """ΣQ of each row along the shaft by `elements.py`; no load along the shaft, 100 N·m."""
+    force = (0, 0, 0, 100.0, 0)
+    pair = balls(
+        "7208-tandem", 14, 15 / 32 * INCH, 60e-3, math.radians(25), force, 0.0, (8.0, 1e-4),
+        [0, 1, 2, 3, 4], at=(-9e-3, 9e-3), facing=(1, 1),
+    )  # fmt: skip
+    rows = dataclasses.replace(pair.rows, defect=None)
+    scene = presets["7208-tandem"].healthy().replace(load=Load(mx=100.0), dofs=None)
+    q = rows.rest(np.array(force), 0.1, [0, 1, 2, 3, 4])
+    along = rows.directions(q, 0.1)[2] * rows.load(q, 0.1)
+    wrong = max(-along[:14].sum(), -along[14:].sum())
+    assert wrong > 500.0
+    said = of(limits(scene, equilibrium(scene, [0.1])), "thrust the wrong way")
+    assert said.value == pytest.approx(wrong, rel=1e-6)

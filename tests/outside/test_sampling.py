@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 from numba import njit
 from scipy.integrate import solve_ivp
-from scipy.signal import firwin, upfirdn, welch
+from scipy.signal import firwin, freqz, upfirdn, welch
 
 from bearingcore import orbit, presets, simulate
-from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.low_pass import low_passed
+from bearingcore.dynamics.speed_runs import speed_run
 from tests.outside.witness import witness
 
 RATE, FINE = 65_536.0, 524_288.0
@@ -121,6 +122,26 @@ def test_nothing_folds_back(step_rate: float | None) -> None:
     assert np.abs(off[known]).max() < 0.1
     # half as many steps as samples: less right above what is claimed, and still not folded back
     assert np.abs(off).max() < 0.7
+
+
+@pytest.mark.parametrize("ratio", [1, 4])
+def test_a_tone_keeps_its_phase_and_has_the_gain_of_a_windowed_sinc(ratio: int) -> None:
+    """SciPy's firwin of the same length and window, 64 times as dense."""
+    step = ratio * RATE
+    taps = firwin(2 * 19 * 64 + 1, 0.45 * RATE, window=("kaiser", 5.65326), fs=64.0 * RATE)
+    time = np.arange(400 * ratio) / step
+    for part in (0.02, 0.1):
+        w = 2.0 * math.pi * part * RATE
+        history = np.zeros((len(time), 6, 1))
+        waves = -np.sin(w * time) / w**2, -np.cos(w * time) / w, np.sin(w * time)
+        history[:, 3:, 0] = np.transpose(waves)
+        found = low_passed(history, 3, 200, RATE, step)[100:180, 0]
+        phase = w * np.arange(100, 180) / RATE
+        both = np.stack([np.sin(phase), np.cos(phase)], axis=1)
+        in_phase, late = np.linalg.lstsq(both, found, rcond=None)[0]
+        gain = abs(freqz(taps, worN=[part * RATE], fs=64.0 * RATE)[1][0])
+        assert in_phase == pytest.approx(gain, abs=5e-4)  # its gain at 0 Hz is made exactly 1
+        assert abs(late) < 1e-6
 
 
 @pytest.mark.proof

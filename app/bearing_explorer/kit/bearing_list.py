@@ -14,18 +14,19 @@ from itertools import islice
 from typing import Any
 
 from bearing_explorer.kit.sentences import words_of
-from bearingcore import Bearing, CatalogueBearing, catalogue, preset_notes, presets, read_catalogue
-from bearingcore.bearings.catalogue import MOST_BYTES
-from bearingcore.bearings.designation import (
+from bearingcore import (
+    Bearing,
+    CatalogueBearing,
     Designation,
-    designations,
-    is_known,
+    catalogue,
+    preset_notes,
+    presets,
+    read_catalogue,
     read_designation,
-    series_words,
 )
-from bearingcore.bearings.nearest import nearest_known
-from bearingcore.common.numbers import number
-from bearingcore.scene.presets import preset_labels
+from bearingcore.bearings import MOST_BYTES, designations, is_known, nearest_known, series_words
+from bearingcore.common import number
+from bearingcore.scene import preset_labels
 from bearingcore.units import read_number
 
 MOST_FOUND = 60

@@ -20,11 +20,8 @@ from bearingcore import (
     life,
 )
 from bearingcore import limits as limits_of
-from bearingcore.bearings.ball import USUAL_GROOVES
-from bearingcore.bearings.line_contact import STEEL_MODULUS, STEEL_POISSON
-from bearingcore.statics.life import GIVEN, OF_A_CATALOGUE
-from bearingcore.statics.limit import unknown
-from bearingcore.statics.validity import NO_DRAWING, state_of_limits
+from bearingcore.bearings import STEEL_MODULUS, STEEL_POISSON, USUAL_GROOVES
+from bearingcore.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "

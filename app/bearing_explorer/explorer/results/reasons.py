@@ -16,10 +16,9 @@ from bearing_explorer.explorer.results.chain import Peak, direction, loudest
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
-from bearingcore.scene.scene import DOF_SYMBOLS
-from bearingcore.statics.passes import drops_at
-from bearingcore.statics.ranges import BALL_LOAD
-from bearingcore.sweep.outputs import mode_symbol
+from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.statics import BALL_LOAD, drops_at
+from bearingcore.sweep import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.excerpt import Excerpt

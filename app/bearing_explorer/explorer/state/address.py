@@ -62,12 +62,10 @@ from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFE
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
-from bearingcore.bearings.rows import Row
-from bearingcore.common import checks
+from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
+from bearingcore.common import real_number
 from bearingcore.fields import SCENE_PARTS, Field, Range
-from bearingcore.scene.floor import MOST_ROWS
-from bearingcore.scene.scene import TILT_FREE, TILT_HELD
+from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
 VERSION = "1"
 LONGEST_LINK = 7_000
@@ -542,7 +540,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(checks.real_number, "rating")),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(real_number, "rating")),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

@@ -8,8 +8,8 @@ import math
 from bearing_explorer.explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
-from bearingcore.common.numbers import number
-from bearingcore.scene.scene import LOAD_ALONG, MASSLESS
+from bearingcore.common import number
+from bearingcore.scene import LOAD_ALONG, MASSLESS
 
 MOST_SHOWN_ROWS = 2
 

@@ -54,14 +54,16 @@ from bearingcore import (
     read_floor,
     scene_of,
 )
-from bearingcore.bearings.ball import USUAL_GROOVES, drawn
-from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
-from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.common import checks
-from bearingcore.common.numbers import number
+from bearingcore.bearings import (
+    BALL_MATERIAL,
+    BALL_MATERIALS,
+    OPTIONAL_FIELDS,
+    USUAL_GROOVES,
+    drawn,
+)
+from bearingcore.common import number, refuse
 from bearingcore.fields import Range
-from bearingcore.scene.presets import preset_labels
-from bearingcore.scene.scene import TILT_FREE
+from bearingcore.scene import TILT_FREE, preset_labels
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -177,12 +179,12 @@ class SceneEditor:
             preset = self.preset if self.preset in alike or not alike else alike[0]
         defects = [_turned(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
-            raise checks.refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
+            raise refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
         if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
             rows = len(scene.bearing.all_rows)
-            raise checks.refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
+            raise refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
         if not 0 <= selected < len(defects):
-            raise checks.refuse("selected defect", selected + 1, f"1 to {len(defects)}")
+            raise refuse("selected defect", selected + 1, f"1 to {len(defects)}")
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         limits = limits_of(presets[preset]) | groove_limits(scene)
         for index in range(len(defects)):
@@ -646,7 +648,7 @@ def _with_rows(
     if not second:
         return bearing
     if len(bearing.rows) != 2:
-        raise checks.refuse("rows of balls", len(bearing.all_rows), "two of them")
+        raise refuse("rows of balls", len(bearing.all_rows), "two of them")
     low, high = bearing.rows
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 

@@ -17,7 +17,7 @@ from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import facts_pane
 from bearing_explorer.kit.widgets.form import Fields, button
 from bearingcore import DOF_NAMES
-from bearingcore.scene.scene import DOF_SYMBOLS, FREE_TILT_WORDS, TILT_FREE
+from bearingcore.scene import DOF_SYMBOLS, FREE_TILT_WORDS, TILT_FREE
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

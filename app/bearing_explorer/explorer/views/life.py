@@ -17,8 +17,8 @@ from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row
-from bearingcore.common.numbers import percent
-from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
+from bearingcore.common import percent
+from bearingcore.statics import LEFT_OUT, hours_in_words, turns_in_words
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

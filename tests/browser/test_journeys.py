@@ -447,7 +447,7 @@ def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
     tilt.click()
     expect(tilt).to_be_checked()
     desk.steady()
-    desk.press("As the scene needs")
+    desk.press("A shaft on two bearings: tilt held")
     expect(tilt).not_to_be_checked()
     desk.go_to("Frequencies")
     expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no tension"))

@@ -9,8 +9,8 @@ be mended. Only the points of a measured floor are packed.
 
 The rules of version 1, which later versions go on reading:
 
-- `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left out where it is as in the
-  preset; so the numbers of a preset must not change (a test holds them).
+- `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
+  out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
 - A number is in the unit of its name, or in SI with ``SI`` behind it where no number in that unit
   stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
   read back to the last bit.

@@ -137,6 +137,8 @@ class Field:
         whether it is a whole number.
     sweep_range
         where maps over it begin and end if that shows more than its whole slider.
+    reverse_label
+        name of the number with the other sign, where people read that: "Load, downwards".
     """
 
     name: str
@@ -150,6 +152,17 @@ class Field:
     optional: bool = False
     whole: bool = False
     sweep_range: tuple[float, float] | None = None
+    reverse_label: str = ""
+
+    @property
+    def read_label(self) -> str:
+        """The name of the number that people read, which is `read_sign` times the field's."""
+        return self.reverse_label or self.label
+
+    @property
+    def read_sign(self) -> float:
+        """-1 where people read the number with the other sign, under `reverse_label`."""
+        return -1.0 if self.reverse_label else 1.0
 
     @property
     def key(self) -> str:
@@ -178,6 +191,11 @@ class Field:
         letter, _, below = self.symbol.partition("_")
         return f"{letter}<sub>{below}</sub>" if below else letter
 
+    @property
+    def read_symbol_html(self) -> str:
+        """The symbol of the number that people read, as HTML."""
+        return ("−" if self.reverse_label else "") + self.symbol_html
+
     def range_for(self, scene: Any, value: float) -> Range:
         """The range about a preset's scene, in which the field has `value` [shown unit]."""
         return self.range if isinstance(self.range, Range) else self.range(scene, value)
@@ -193,7 +211,8 @@ _FIRST = " Left empty it is that of the first row."
 
 # fmt: off
 _SCENE = (
-    Field("extent", "defect", "Extent", "Δφ_f", "°", "Defect", Range(0.0, 120.0, 0.1, 0.0, 360.0),
+    Field("extent", "defect", "Length of the defect", "Δφ_f", "°", "Defect",
+          Range(0.0, 120.0, 0.1, 0.0, 360.0),
           "Length of the defect along the race, as an angle.", sweep_range=(2.0, 62.0)),
     Field("depth", "defect", "Depth", "h", "µm", "Defect", Range(0.0, 500.0, 1.0, 0.0, 5000.0),
           "Depth of its floor. A ball reaches it only where the defect is long enough."),
@@ -213,13 +232,14 @@ _SCENE = (
           Range(1.0, 100.0, 0.1, 0.0, 1000.0),
           "Turns of the shaft a second. Static answers do not depend on it.",
           sweep_range=(4.0, 60.0)),
-    Field("cage_angle", "", "Cage angle", "φ_c", "°", "Turning", Range(0.0, 360.0, 0.1),
-          "Where the first ball is. Play turns the bearing."),
-    Field("fx", "load", "Force, sideways", "F_x", "N", "Load", _force,
+    Field("cage_angle", "", "Position of the balls (cage angle)", "φ_c", "°", "Turning",
+          Range(0.0, 360.0, 0.1), "Where the first ball is. Play turns the bearing."),
+    Field("fx", "load", "Load, sideways", "F_x", "N", "Load", _force,
           "Force on the inner ring towards 0°."),
-    Field("fy", "load", "Force, up", "F_y", "N", "Load", _force,
-          "Force on the inner ring towards 90°; negative is down, as a weight acts."),
-    Field("fz", "load", "Force, axial", "F_z", "N", "Load", _force,
+    Field("fy", "load", "Load, upwards", "F_y", "N", "Load", _force,
+          "Vertical force on the inner ring. Sliders show it downwards, as a weight acts; F_y of "
+          "links, tables and Python points up, towards 90°.", reverse_label="Load, downwards"),
+    Field("fz", "load", "Load, along the shaft", "F_z", "N", "Load", _force,
           "Force on the inner ring along the shaft."),
     Field("unbalance", "scene", "Unbalance", "U", "g·mm", "Load", Range(0.0, 2000.0, 5.0, 0.0, 1e6),
           "Mass of the rotor times the distance of its centre from the shaft's axis: a force U·ω² "

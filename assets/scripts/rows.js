@@ -136,9 +136,20 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     if (!waiting) pump()
   }
 
+  // What a row shows of its value and limits: with the other sign where people read that ("Load,
+  // downwards"). Values keep the sign of links.
+  const read = (name, value) => value === null || value === undefined ? value : rows[name].sign * value || 0
+  const limit_of = (name) => {
+    const { least, most, step } = limits[name]
+    return rows[name].sign > 0 ? limits[name] : { least: -most, most: -least, step }
+  }
+  const turned = (name, text) => rows[name].sign > 0 || !/^\s*[-+\u2212]?[\d.,]/.test(text) ? text
+    : /^\s*[-\u2212]/.test(text) ? text.replace(/[-\u2212]/, "") : `-${text.trim().replace("+", "")}`
+
   const paint = (name) => {
-    const row = rows[name], limit = limits[name], value = values[name]
-    if (!limit) return
+    const row = rows[name]
+    if (!limits[name]) return
+    const limit = limit_of(name), value = read(name, values[name])
     const share = (v) => 100 * (v - limit.least) / (limit.most - limit.least)
     const origin = limit.least < 0 && limit.most > 0 ? 0 : limit.least
     const ends = [share(origin), share(value ?? origin)].sort((a, b) => a - b)
@@ -147,7 +158,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     row.slider.setAttribute("aria-valuetext", value === null
       ? row.number.placeholder || "no value" : `${format(value, limit.step)} ${row.unit}`)
     show_second(name)
-    changed(name, value)
+    changed(name, values[name])
   }
   // The same number in its second unit, which can be typed too.
   const show_second = (name) => {
@@ -167,9 +178,9 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const put = (name, value, typed = false) => {
     const row = rows[name]
     values[name] = value
-    row.slider.value = value ?? limits[name].least
+    row.slider.value = read(name, value) ?? limit_of(name).least
     if (typed || row.root.querySelector("input:focus") !== row.number)
-      write_in(row.number, format(value, limits[name].step))
+      write_in(row.number, format(read(name, value), limits[name].step))
     paint(name)
   }
   const refuse = (name, sentence) => {
@@ -184,7 +195,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const restore = (name) => {
     const row = rows[name]
     if (row && row.number.getAttribute("aria-invalid") === "true" && !drafted.includes(name))
-      write_in(row.number, format(values[name] ?? null, limits[name].step))
+      write_in(row.number, format(read(name, values[name]) ?? null, limits[name].step))
   }
   const move = (name, value) => move_all({ [name]: value })
   const move_all = (set) => {
@@ -195,7 +206,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     push_all(set)
   }
 
-  const control = ({ name, label, symbol, unit, about }) => {
+  const control = ({ name, label, sign, symbol, unit, about }) => {
     const id = `control-${name}`
     const slider = element("input", {
       type: "range", id, "aria-describedby": `${id}-refusal ${id}-about`,
@@ -219,19 +230,19 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const root = element("div", { class: `control control-${name}`, "data-name": name },
       head, line, refusal, words)
     unfolds(help, words)
-    rows[name] = { asked: 0, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, second }
+    rows[name] = { asked: 0, sign, root, named: head.firstChild, slider, number, refusal, extra, unit, line, about, label, symbol, second }
 
-    slider.addEventListener("input", () => move(name, Number(slider.value)))
+    slider.addEventListener("input", () => move(name, read(name, Number(slider.value))))
     slider.addEventListener("change", () => { if (!held) release() })
     for (const input of [slider, number]) {
       input.addEventListener("keydown", (event) => holds(event, true))
       input.addEventListener("keyup", (event) => holds(event, false))
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
-    number.addEventListener("change", () => send({ typed: { [name]: number.value } }))
+    number.addEventListener("change", () => send({ typed: { [name]: turned(name, number.value) } }))
     number.addEventListener("blur", () => restore(name))
     number.addEventListener("input", () => {  // what is typed back is no error any more
-      const { least, most } = limits[name], given = number_in(number)
+      const { least, most } = limit_of(name), given = number_in(number)
       if (given >= least && given <= most) refuse(name, "")
     })
     second.number.addEventListener("blur", () => show_second(name))
@@ -239,13 +250,13 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     number.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         refuse(name, "")
-        write_in(number, format(values[name], limits[name].step))
+        write_in(number, format(read(name, values[name]), limits[name].step))
       } else if (/^(Arrow|Page)(Up|Down)$/.test(event.key)) {
         event.preventDefault()
-        const { least, most, step } = limits[name]
+        const { least, most, step } = limit_of(name)
         const far = (event.key.startsWith("Page") ? 10 : 1) * step
-        const moved = (values[name] ?? least) + (event.key.endsWith("Up") ? far : -far)
-        move(name, Number(Math.min(most, Math.max(least, moved)).toPrecision(12)))
+        const moved = (read(name, values[name]) ?? least) + (event.key.endsWith("Up") ? far : -far)
+        move(name, read(name, Number(Math.min(most, Math.max(least, moved)).toPrecision(12))))
       }
     })
     root.addEventListener("focusin", () => touched(name))
@@ -286,8 +297,9 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     for (const [name, limit] of Object.entries(state.limits ?? {})) {
       if (!rows[name]) continue
       limits[name] = limit
-      Object.assign(rows[name].slider, { min: limit.least, max: limit.most, step: limit.step })
-      rows[name].named.title = tip({ ...rows[name], limit })
+      const { least, most, step } = limit_of(name)
+      Object.assign(rows[name].slider, { min: least, max: most, step })
+      rows[name].named.title = tip({ ...rows[name], limit: { least, most } })
       if (values[name] !== undefined) put(name, values[name])
     }
     for (const [name, value] of Object.entries(state.values ?? {})) {

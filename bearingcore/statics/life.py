@@ -502,7 +502,9 @@ def turns_in_words(L: float) -> str:
     """A life [10⁶ turns], up to a million of millions; "unlimited" where it is infinite."""
     if math.isinf(L):
         return "unlimited"
-    return f"{long_number(L)} million turns" if L < 1e6 else "more than a million million turns"
+    return (
+        f"{long_number(L)} million turns" if L < 1e6 else "practically unlimited (over 10¹² turns)"
+    )
 
 
 def hours_in_words(hours: float) -> str:

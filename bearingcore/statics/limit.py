@@ -8,6 +8,11 @@ from dataclasses import dataclass
 
 from bearingcore.common.numbers import count
 
+NO_DRAWING = "the groove radii of this bearing are not known"
+NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
+_SHORTLY = {NO_DRAWING: "groove radii", NO_OIL: "oil"}
+"""Reasons for which a value is not known, and what is missing then."""
+
 
 @dataclass(frozen=True)
 class Limit:
@@ -49,13 +54,13 @@ def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
 
 
 def summary(found: Sequence[Limit]) -> str:
-    """The limits in a line: "1 limit exceeded, 4 passed, 2 not checked" or "6 checks passed"."""
-    not_known = sum(math.isnan(one.value) for one in found)
+    """The limits in a line: "No limit exceeded (4 cannot be checked: groove radii unknown)"."""
     crossed = sum(one.crossed for one in found)
-    kept = len(found) - crossed - not_known
-    words = [count(crossed, "limit") + " exceeded"] if crossed else []
-    if kept or not crossed:
-        words.append(f"{kept} passed" if crossed else f"{count(kept, 'check')} passed")
-    if not_known:
-        words.append(f"{not_known} not checked")
-    return ", ".join(words)
+    words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
+    open_ones = [one.sentence for one in found if math.isnan(one.value)]
+    if not open_ones:
+        return words
+    causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
+    known = all(any(why in one for why in causes) for one in open_ones)
+    because = f": {', '.join(causes.values())} unknown" if known else ""
+    return f"{words} ({len(open_ones)} cannot be checked{because})"

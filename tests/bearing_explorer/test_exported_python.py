@@ -78,7 +78,7 @@ def recorded() -> tuple[bytes, Measured]:
     wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
     read = read_file(RECORDED, file.getvalue(), at(presets["fan-rig"]))
     asked = read_form(
-        read.table, {**read.form, "x": "0", "y": "1", "unit": "m/s²"}, at(presets["fan-rig"])
+        read.table, {**read.form, "columns": "x;y", "unit": "m/s²"}, at(presets["fan-rig"])
     )
     machine = at(presets["fan-rig"])
     return file.getvalue(), Measured(asked.recording, machine, origin=asked.origin)
@@ -196,7 +196,9 @@ def test_before_anything_is_computed_the_lines_say_so(name: str) -> None:
         presets["6205"].replace(
             bearing=dataclasses.replace(presets["6205"].bearing, load_deflection_factor=9e9)
         ),
-        presets["7208-25deg"].replace(dofs=None, contact_law="no tension", contact_damping=None),
+        presets["7208-25deg"].replace(
+            dofs="tilt free", contact_law="no tension", contact_damping=None
+        ),
         presets["fan-rig"].replace(
             floor=MeasuredFloor((-1.0, 0.1, 1.0), (0.0, 1.0, 0.25)), extent=1 / 3
         ),

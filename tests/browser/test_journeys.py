@@ -57,6 +57,9 @@ def desk(_desk: Visitor, request: pytest.FixtureRequest) -> Iterator[Visitor]:
 # --- every tab ------------------------------------------------------------------------------------
 
 
+CAGE_ANGLE = "Position of the balls (cage angle)"
+
+
 def _passes(scene: Scene) -> np.ndarray:
     return np.linspace(0.0, 2.0 * math.pi / scene.bearing.n_balls, 361)
 
@@ -86,19 +89,19 @@ def _outer_race(scene: Scene) -> str:
 #: of each tab and part: cards, figures at least, a number of the core or words that it says, and
 #: what moves it
 TABS = {
-    "Overview": (4, 3, _frequency, "Extent"),
-    "Load": (3, 3, _most_loaded, "Extent"),
-    "Stiffness: Curves": (1, 1, _stiffest, "Extent"),
-    "Stiffness: Maps": (1, 1, _now_stiff, "Extent"),
-    "Frequencies": (1, 1, _frequency, "Extent"),
-    "Vibration": (5, 4, _outer_race, "Extent"),
+    "Overview": (4, 3, _frequency, "Length of the defect"),
+    "Load": (3, 3, _most_loaded, "Length of the defect"),
+    "Stiffness: Curves": (1, 1, _stiffest, "Length of the defect"),
+    "Stiffness: Maps": (1, 1, _now_stiff, "Length of the defect"),
+    "Frequencies": (1, 1, _frequency, "Length of the defect"),
+    "Vibration": (5, 4, _outer_race, "Length of the defect"),
     "Machine: Bearing": (1, 0, _outer_race, None),
     "Machine: Rotor and support": (2, 0, None, None),
     "Machine: Life": (1, 0, None, None),
     "Diagnosis": (2, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 10, None, None),
     "More: Explore": (1, 4, None, "Depth"),
-    "More: Over speed": (3, 2, None, "Extent"),
+    "More: Over speed": (3, 2, None, "Length of the defect"),
     "More: Paper": (1, 0, None, None),
 }
 LONG = ("More: Explore", "More: Over speed", "Diagnosis", "Accuracy", "More: Paper")
@@ -155,7 +158,7 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     if moved is not None:
         visitor.sees_change(lambda: visitor.slider(moved).press("PageUp"))
         visitor.press("Reset", visitor.scene)
-        expect(visitor.box("Extent")).to_have_value("12.9")
+        expect(visitor.box("Length of the defect")).to_have_value("12.9")
     hold_to_rules(visitor.page, theme, "html" if tab == "Overview" else "main")
     watching.assert_clean()
 
@@ -165,9 +168,9 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
 
 def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(desk: Visitor) -> None:
     desk.begin("Load")
-    drag(desk.page, desk.slider("Extent"), 0.12, 0.5)
+    drag(desk.page, desk.slider("Length of the defect"), 0.12, 0.5)
     desk.steady()
-    dragged = desk.number("Extent")
+    dragged = desk.number("Length of the defect")
     assert dragged > 40
     scene = FAN.replace(extent=math.radians(dragged))
     desk.reads(re.compile(re.escape(_most_loaded(scene))))
@@ -175,10 +178,10 @@ def test_numbers_follow_a_drag_a_step_back_and_a_step_forth(desk: Visitor) -> No
     desk.press("Undo")
     expect(desk.box("Depth")).to_have_value("50")
     desk.page.keyboard.press("Control+z")
-    expect(desk.box("Extent")).to_have_value("12.9")
+    expect(desk.box("Length of the defect")).to_have_value("12.9")
     desk.reads(re.compile(re.escape(_most_loaded(FAN))))
     desk.press("Redo")
-    expect(desk.box("Extent")).to_have_value(f"{dragged:g}")
+    expect(desk.box("Length of the defect")).to_have_value(f"{dragged:g}")
 
 
 def test_what_cannot_be_is_refused_and_what_is_drawn_stays(desk: Visitor) -> None:
@@ -186,15 +189,15 @@ def test_what_cannot_be_is_refused_and_what_is_drawn_stays(desk: Visitor) -> Non
     rest(desk.page)
     before = desk.figures()
     for text in ("400", "a lot"):
-        desk.type("Extent", text)
+        desk.type("Length of the defect", text)
         desk.reads(re.compile("from 0 to 360"), desk.scene)
-        desk.box("Extent").press("Escape")
+        desk.box("Length of the defect").press("Escape")
     rest(desk.page)
     assert desk.figures() == before
-    desk.type("Force, up", "0")  # nothing presses the balls
+    desk.type("Load, downwards", "0")  # nothing presses the balls
     desk.reads("No answer", desk.page.get_by_role("contentinfo"))
-    desk.type("Extent", "33,25")
-    expect(desk.box("Extent")).to_have_value("33.25")
+    desk.type("Length of the defect", "33,25")
+    expect(desk.box("Length of the defect")).to_have_value("33.25")
 
 
 @pytest.mark.proof
@@ -212,7 +215,7 @@ def test_another_kind_of_bearing_is_shown(visitor: Visitor) -> None:
 def test_dimensions_wait_for_each_other_and_a_crossed_limit_is_said(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=6205&tab=bearing")
     limits = visitor.page.get_by_role("region", name="Limits of the model")
-    visitor.type("Force, up", "-20000")
+    visitor.type("Load, downwards", "20000")
     visitor.reads(re.compile("GPa"), limits)
     limits.get_by_role("button").first.click()
     expect(limits.get_by_role("row").nth(7)).to_be_visible()
@@ -246,20 +249,24 @@ def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
 
 def test_a_map_is_read_and_clicked(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=liew-lim&tab=maps")
-    before = visitor.number("Extent"), visitor.number("Cage angle")
+    before = visitor.number("Length of the defect"), visitor.number(CAGE_ANGLE)
     visitor.point(0, 0.12, 0.12)
-    visitor.reads(re.compile("Extent.*°"), visitor.page.locator("body"))
+    visitor.reads(re.compile("Length of the defect.*°"), visitor.page.locator("body"))
     visitor.page.mouse.down()
     visitor.page.mouse.up()
-    visitor.wait(lambda: (visitor.number("Extent"), visitor.number("Cage angle")) != before)
+    visitor.wait(
+        lambda: (visitor.number("Length of the defect"), visitor.number(CAGE_ANGLE)) != before
+    )
     visitor.steady()
-    visitor.reads(re.compile(f"{visitor.number('Extent'):g}°"))
+    visitor.reads(re.compile(f"{visitor.number('Length of the defect'):g}°"))
     # the value under the pointer is that of the core
     visitor.point(0, 0.13, 0.13)
     tooltip = visitor.page.locator(".bk-Tooltip div:has(> b)").filter(visible=True)
     shown = tooltip.inner_text().replace("−", "-")
     found = re.search(r"(-?[\d.]+) ([kM])N/m", shown)
-    place = [re.search(rf"{name}\D*?([\d.]+)°", shown) for name in ("Extent", "Cage angle")]
+    place = [
+        re.search(rf"{name}\D*?([\d.]+)°", shown) for name in ("Length of the defect", "Cage angle")
+    ]
     assert found is not None
     assert None not in place, shown
     extent, angle = (float(number[1]) for number in place if number is not None)
@@ -289,12 +296,12 @@ def test_defects_are_added_chosen_and_removed(desk: Visitor) -> None:
 
 def test_the_bearing_turns_and_stops(desk: Visitor) -> None:
     desk.begin("Load")
-    desk.type("Cage angle", "0")
+    desk.type(CAGE_ANGLE, "0")
     desk.press("Turn the bearing")
-    desk.wait(lambda: desk.number("Cage angle") > 5)
+    desk.wait(lambda: desk.number(CAGE_ANGLE) > 5)
     desk.press("Stop turning")
     desk.steady()
-    stopped = desk.number("Cage angle")
+    stopped = desk.number(CAGE_ANGLE)
     found = equilibrium(FAN, [math.radians(stopped)])
     desk.reads(re.compile(rf"\b{found.loaded_balls[0]} of 14 balls"))
 
@@ -328,7 +335,7 @@ def test_a_plane_is_explored_and_a_click_goes_there(visitor: Visitor) -> None:
     visitor.wait(clearance_under_the_pointer)  # the figure comes after its sentence
     visitor.page.mouse.down()
     visitor.page.mouse.up()
-    visitor.wait(lambda: visitor.number("Extent") != 12.9)
+    visitor.wait(lambda: visitor.number("Length of the defect") != 12.9)
     visitor.steady()
     before = visitor.figures()
     visitor.point(-1, 0.5, 0.4)  # the histogram
@@ -440,7 +447,7 @@ def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
     tilt.click()
     expect(tilt).to_be_checked()
     desk.steady()
-    desk.press("As the scene needs")
+    desk.press("A shaft on two bearings: tilt held")
     expect(tilt).not_to_be_checked()
     desk.go_to("Frequencies")
     expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no tension"))
@@ -476,8 +483,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.bring(desk.main, "broken.csv", b"x,y\n1,2\nhello,3")
     desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
-    desk.press("Change")
-    desk.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    desk.main.get_by_label("Unit of the signal").select_option("m/s²")
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.choose("Support is", "as in the scene")
     desk.press("Find the size")
@@ -486,7 +492,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     assert len(desk.figures()) >= 3
     assert "blank" not in desk.figures()
     desk.press(re.compile(r"38\.\d° into the scene"))
-    desk.wait(lambda: abs(desk.number("Extent") - 38.6) < 0.3)
+    desk.wait(lambda: abs(desk.number("Length of the defect") - 38.6) < 0.3)
 
 
 @pytest.mark.proof
@@ -527,23 +533,68 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     page.close()
 
 
+def _as_text(heading: str, *columns: np.ndarray) -> bytes:
+    """A CSV file of the fan rig's signal along y, after other columns."""
+    _, data = wavfile.read(io.BytesIO(_recording(38.6, channels=1)))
+    rows = np.column_stack([*(column[: len(data)] for column in columns), data])
+    file = io.StringIO()
+    np.savetxt(file, rows, "%.8g", ",", header=heading, comments="")
+    return file.getvalue().encode()
+
+
 @pytest.mark.proof
-def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> None:
+@pytest.mark.parametrize(
+    "layout", ["three signals", "time in ms without a name", "taken for speed"]
+)
+def test_what_each_column_is_is_chosen_over_the_first_lines(visitor: Visitor, layout: str) -> None:
+    main = visitor.main
+
+    def choose(column: int, role: str) -> None:
+        main.get_by_label(re.compile(f"^Column {column}, .*is$")).select_option(role)
+
     visitor.open(FAN_RIG + "diagnosis")
-    visitor.bring(visitor.main, "three.wav", _recording(38.6, channels=3))
-    visitor.reads(re.compile("The file holds 3 signals"))
-    along = [visitor.main.get_by_label(re.compile(f"^Along {name}")) for name in "xy"]
-    along[1].select_option(index=1)
-    visitor.reads(re.compile("three.wav: 3 s along y"))
-    along[0].select_option(index=1)
-    visitor.reads(re.compile("cannot be the same column"))
-    along[1].select_option(index=2)
-    visitor.reads(re.compile("along x and y"))
-    visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    index = np.arange(200_000.0)
+    if layout == "three signals":
+        visitor.bring(main, "three.wav", _recording(38.6, channels=3))
+        visitor.reads(re.compile("The file holds 3 signals"))
+        choose(1, "y")
+        visitor.reads(re.compile("three.wav: 3 s along y"))
+        choose(1, "x")
+        choose(2, "x")  # which takes it from the first
+        visitor.reads(re.compile("along x at"))
+        expect(main.get_by_label(re.compile("^Column 1, .*is$"))).to_have_value("")
+        choose(2, "y")
+    elif layout == "time in ms without a name":
+        time = 1e3 * index / 48_000.0
+        visitor.bring(main, "plain.csv", _as_text("a,b", time))
+        visitor.reads(re.compile("plain.csv is read"))
+        choose(1, "time ms")
+        visitor.reads(re.compile(r"plain.csv: 3 s along y at 48\D000 Hz"))
+    else:
+        visitor.bring(main, "odd.csv", _as_text("t [s],speed [Hz]", index / 48_000.0))
+        visitor.reads(re.compile("odd.csv is read"))
+        choose(2, "y")
+        visitor.reads(re.compile(r"odd.csv: 3 s along y at 48\D000 Hz"))
+    main.get_by_label("Unit of the signal").select_option("m/s²")
     visitor.choose("Measured bearing", "that of the scene")
     visitor.choose("Measured speed", "given:")
     visitor.type("Hz or rpm", "420 rpm")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
+
+
+@pytest.mark.proof
+def test_a_file_brought_to_the_other_half_is_offered_there(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
+    scene_file = visitor.page.locator("#scene-file")
+    signal = {"name": "fan.wav", "mimeType": "audio/wav", "buffer": _recording(38.6, channels=1)}
+    scene_file.set_input_files(signal)  # type: ignore[arg-type]
+    visitor.press("Diagnose it")
+    visitor.is_at("Diagnosis")
+    visitor.reads(re.compile("fan.wav · 3 s"))
+    scene = presets["6205"].to_toml().encode()
+    visitor.bring(visitor.main, "motor.toml", scene)
+    visitor.press("Open the scene")
+    visitor.wait(lambda: abs(visitor.number("Shaft speed") - 29.95) < 0.1)
 
 
 @pytest.mark.proof
@@ -610,7 +661,7 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: 
     expect(answer).to_be_hidden()
     visitor.is_at("Load")
     lesson.get_by_role("button", name="500 N").click()
-    expect(visitor.box("Force, up")).to_have_value("−500")
+    expect(visitor.box("Load, downwards")).to_have_value("500")
     lesson.get_by_role("textbox").fill("7")
     lesson.get_by_role("button", name="Predict").click()
     visitor.reads("Not quite: 7 N. The answer is 39 N.", lesson)
@@ -648,7 +699,7 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
     visitor.open(FAN_RIG + "stiffness")
     other.open(FAN_RIG + "load")
     before = other.sentences(), other.figures()
-    visitor.sees_change(lambda: visitor.type("Extent", "38.6"))
+    visitor.sees_change(lambda: visitor.type("Length of the defect", "38.6"))
     other.steady()
     assert (other.sentences(), other.figures()) == before
     browser.grant_permissions(["clipboard-read", "clipboard-write"])
@@ -660,7 +711,7 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
     other_page.bring_to_front()
     other_page.goto(link)
     other.reads(re.compile(re.escape(_stiffest(FAN.replace(extent=math.radians(38.6))))))
-    assert other.number("Extent") == 38.6
+    assert other.number("Length of the defect") == 38.6
     other_page.close()
 
 
@@ -675,9 +726,9 @@ def test_a_scene_is_kept_and_opened_again(visitor: Visitor) -> None:
     menu.get_by_role("button", name="Keep", exact=True).click()
     visitor.reads(_NAME, menu)
     visitor.page.keyboard.press("Escape")
-    visitor.sees_change(lambda: visitor.type("Extent", "60"))
+    visitor.sees_change(lambda: visitor.type("Length of the defect", "60"))
     visitor.menu("Compare").get_by_role("button", name=_NAME, exact=True).click()
-    expect(visitor.box("Extent")).to_have_value("12.9")
+    expect(visitor.box("Length of the defect")).to_have_value("12.9")
 
 
 @pytest.mark.proof
@@ -687,7 +738,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     menu.get_by_role("button", name="Compare", exact=True).click()
     curves = visitor.scene.get_by_role("textbox", name="Name of curve")
     visitor.wait(lambda: "12.9°, 50 µm" in _keys(visitor))
-    visitor.type("Extent", "60")
+    visitor.type("Length of the defect", "60")
     menu = visitor.menu("Compare")
     menu.get_by_role("textbox", name="Name of this scene").fill(_NAME)
     menu.get_by_role("button", name="Compare", exact=True).click()
@@ -696,7 +747,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     curves.nth(1).fill("long")
     curves.nth(1).press("Tab")
     visitor.page.keyboard.press("Escape")
-    visitor.type("Extent", "30")
+    visitor.type("Length of the defect", "30")
     names = "12.9°, 50 µm, long"
     for tab in ("Load", "Stiffness", "Frequencies", "More: Over speed", "Vibration"):
         visitor.go_to(tab)
@@ -706,7 +757,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     again = Visitor(other, explorer)
     again.steady()
     again.wait(lambda: names in _keys(again))
-    assert again.number("Extent") == 30.0
+    assert again.number("Length of the defect") == 30.0
     menu = again.menu("Compare")
     for left in (1, 0):
         again.press(re.compile("^Remove curve"), menu)
@@ -723,10 +774,14 @@ def test_a_figure_of_the_paper_is_drawn_and_opened_live(visitor: Visitor) -> Non
     visitor.reads(re.compile("^Figure 4, "))
     visitor.reads("100 to 260 MN/m")
     visitor.reads(re.compile("^Errors in the paper"))
-    assert visitor.number("Extent") == 12.9, "the scene stays until a figure is opened"
+    assert visitor.number("Length of the defect") == 12.9, (
+        "the scene stays until a figure is opened"
+    )
     visitor.press(re.compile("^Open it on the tab Stiffness"))
     visitor.is_at("Stiffness: Curves")
-    visitor.wait(lambda: visitor.number("Extent") == 70.0 and "blank" not in visitor.figures())
+    visitor.wait(
+        lambda: visitor.number("Length of the defect") == 70.0 and "blank" not in visitor.figures()
+    )
     visitor.wait(lambda: _keys(visitor) == ["5°, 50 µm, 40°, 50 µm"])
 
 
@@ -766,12 +821,12 @@ def test_back_and_a_tab_lead_to_the_part_that_was_open(visitor: Visitor) -> None
 def test_back_goes_to_the_last_tab_and_lesson(visitor: Visitor) -> None:
     visitor.open()
     visitor.go_to("Load")
-    visitor.type("Extent", "20")
+    visitor.type("Length of the defect", "20")
     visitor.go_to("Stiffness")
     visitor.page.go_back()
     visitor.is_at("Load")
     visitor.steady()
-    assert visitor.number("Extent") == 20.0, "the scene is for Undo"
+    assert visitor.number("Length of the defect") == 20.0, "the scene is for Undo"
     visitor.page.go_back()
     visitor.is_at("Overview")
     visitor.page.go_forward()
@@ -801,10 +856,11 @@ def test_old_links_open(visitor: Visitor, explorer: Server) -> None:
         speed = scene["shaft_speed"] / (2.0 * math.pi)
         visitor.wait(lambda: any(visitor.sentences()))
         expect(visitor.box("Shaft speed")).to_have_value(f"{speed:.6g}")
-        assert visitor.number("Force, up") == pytest.approx(scene["load"]["fy"])
+        assert visitor.number("Load, downwards") == pytest.approx(-scene["load"]["fy"])
         extents = [math.degrees(defect["extent"]) for defect in defects]
         assert not extents or any(
-            visitor.number("Extent") == pytest.approx(extent, rel=1e-6) for extent in extents
+            visitor.number("Length of the defect") == pytest.approx(extent, rel=1e-6)
+            for extent in extents
         )
         assert not _NOTHING.search(" ".join(visitor.sentences()))
 
@@ -831,7 +887,7 @@ def test_old_links_open_the_tab_or_part_that_has_their_views_now(
 def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=%3Cscript%3Ealert(1)%3C/script%3E")
     visitor.reads(re.compile("no bearing “<script>alert"), visitor.page.locator("body"))
-    assert visitor.number("Extent") == 12.9
+    assert visitor.number("Length of the defect") == 12.9
 
 
 @pytest.mark.proof
@@ -843,12 +899,12 @@ def test_a_scene_is_saved_changed_opened_and_swept(visitor: Visitor, tmp_path: P
     assert Scene.from_toml(text.decode()) == FAN.replace(extent=math.radians(38.6))
     visitor.page.keyboard.press("Escape")
     visitor.press("Reset", visitor.scene)
-    expect(visitor.box("Extent")).to_have_value("12.9")
+    expect(visitor.box("Length of the defect")).to_have_value("12.9")
     dialog = visitor.menu("Download")
     visitor.bring(dialog, "bad.toml", b"extent = [")
     visitor.reads(re.compile("allowed: TOML"), visitor.scene)
     visitor.bring(visitor.scene, "mine.toml", text)
-    expect(visitor.box("Extent")).to_have_value("38.6")
+    expect(visitor.box("Length of the defect")).to_have_value("38.6")
 
     file, out = tmp_path / "sweep.toml", tmp_path / "out.zarr"
     wanted = '\n[sweep]\noutputs = ["k_yy_mean"]\n[sweep.over]\nfy = [-50.0, -100.0]\n'
@@ -873,7 +929,7 @@ def test_a_floor_is_brought_in_a_file(visitor: Visitor) -> None:
     defect = visitor.scene.get_by_role("group", name="Defect", exact=True)
     visitor.bring(defect, "wear.csv", f"angle, depth\n{rows}".encode())
     visitor.reads(re.compile("81 points"), visitor.scene)
-    expect(visitor.box("Extent")).to_have_value("20")
+    expect(visitor.box("Length of the defect")).to_have_value("20")
     visitor.wait(lambda: visitor.figures() != before)
     visitor.bring(defect, "bad.csv", b"1, 2\nthree, 4\nfive, 6\n")
     visitor.reads(re.compile("line 2"), visitor.scene)
@@ -951,9 +1007,9 @@ def test_first_visits_are_shown_in(visitor: Visitor) -> None:
     help_of_page.get_by_role("button", name=re.compile("^Introduction")).click()
     spacing = 360.0 / FAN.bearing.n_balls
     visitor.sees_change(lambda: visitor.press("Make the defect longer", welcome))
-    assert visitor.number("Extent") == pytest.approx(12.9 + spacing, abs=0.01)
+    assert visitor.number("Length of the defect") == pytest.approx(12.9 + spacing, abs=0.01)
     visitor.press("Undo")
-    expect(visitor.box("Extent")).to_have_value("12.9")
+    expect(visitor.box("Length of the defect")).to_have_value("12.9")
     visitor.press("Close this introduction")
     expect(welcome).to_be_hidden()
     what.click()

@@ -85,7 +85,7 @@ def test_panel_serve_shows_the_page_too(page: Page) -> None:
         page.wait_for_function("window.__asked > 0 && window.__mark === window.__asked")
         choose_tab(page, "stiffness")
         expect(page.locator(".view-stiffness canvas").first).to_be_visible()
-        page.locator(".control-fy_n .number").fill("-150")
+        page.locator(".control-fy_n .number").fill("150")
         page.locator(".control-fy_n .number").press("Enter")
         page.wait_for_function("window.__mark === window.__asked")
         expect(page.locator(".view-stiffness [role=status]").first).not_to_be_empty()

@@ -95,7 +95,7 @@ def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> N
     page.keyboard.up("Control")
     painted(page)
     left, below = page.evaluate(axes)
-    assert left[0] == "Extent Δφf (°)"
+    assert left[0] == "Length of the defect Δφf (°)"
     assert below[0] == "Loaded balls over cage angle φc (°)"
     for _, numbers in (left, below):
         degrees = [float(number) for number in numbers]

@@ -62,7 +62,7 @@ class Visitor:
         self.page.bring_to_front()
         self.page.keyboard.press("Escape")  # a menu may be open
         self.press("Reset", self.scene)
-        expect(self.box("Extent")).to_have_value("12.9")
+        expect(self.box("Length of the defect")).to_have_value("12.9")
         self.go_to(tab)
 
     def go_to(self, place: str) -> None:
@@ -102,7 +102,9 @@ class Visitor:
 
     def box(self, label: str) -> Locator:
         """The field in which the number of a quantity is typed."""
-        return self.page.get_by_role("textbox", name=re.compile(rf"^{label}( in |, type|$)")).first
+        return self.page.get_by_role(
+            "textbox", name=re.compile(rf"^{re.escape(label)}( in |, type|$)")
+        ).first
 
     def number(self, label: str) -> float:
         """The number in that field."""

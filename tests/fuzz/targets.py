@@ -213,10 +213,12 @@ def _table(content: bytes) -> object:
     for words in (*asked.values(), *given.values(), forms.said(table)):
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
-    y = form["y"] or next(value for value, _ in forms.columns_of(table)[::-1])
-    return forms.read_form(
-        table, {**form, "y": y, "sample_rate": form["sample_rate"] or "12000"}, Machine()
-    )
+    roles = form["columns"].split(forms.APART)
+    if not {"x", "y"} & set(roles):
+        roles[-1] = "y"
+    told, form = forms.fill(table, {"columns": forms.APART.join(roles)})
+    form["sample_rate"] = form["sample_rate"] or "12000"
+    return forms.read_form(told, form, Machine())
 
 
 def _addresses() -> list[str]:

@@ -1,7 +1,9 @@
 """The questions that make a table of numbers a measurement, and guesses at their answers.
 
-Which columns are the housing's acceleration along x and y, in what unit, how often it was sampled;
-which bearing and shaft speed it was, see `machine`. The form holds text, as a person types it.
+What each column is: the time, the housing's acceleration along x or y, the shaft speed, or nothing;
+in what unit, how often it was sampled; which bearing and shaft speed it was, see `machine`. The
+form holds text, as a person types it. What a person chooses goes before what the file says: where
+they differ a note of the recording says so.
 
 `questions` have to be answered before anything is drawn. `size_questions` are about the size of the
 numbers, which is never guessed; until they are answered the numbers are taken as they are, for what
@@ -20,29 +22,53 @@ import numpy as np
 from bearing_explorer.diagnosis import machine
 from bearing_explorer.diagnosis.machine import FormError, Machine, find_published
 from bearing_explorer.diagnosis.signal import Origin
+from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
-from bearingcore.common.numbers import with_prefix
+from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files.facts import Finding
-from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import (
+from bearingcore.files import (
+    OTHER,
+    SIGNAL,
+    SPEED,
+    SPEEDS,
     STANDARD_GRAVITY,
+    TIME,
+    TIMES,
     UNITS,
     VOLTAGES,
+    Column,
+    Finding,
     kind_of,
     level_doubt,
+    longest_run,
+    unit_in,
 )
-from bearingcore.signals.recording import FEWEST_SAMPLES
+from bearingcore.signals import FEWEST_SAMPLES
 
-SIGNAL_FIELDS = ("x", "y", "unit", "full_scale", "sensitivity", "sample_rate")
+SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
-NONE = ""
-"""The choice of no column."""
+LONGEST_ROLES = 1000
+"""[characters] of a field, and of that with the roles of all columns."""
+NOTHING = ""
+"""The role of a column that is not used."""
+ROLES = (
+    (NOTHING, "nothing"),
+    ("y", "signal along y, up"),
+    ("x", "signal along x, sideways"),
+    ("time", "time"),
+    *((f"time {unit}", f"time in {unit}") for unit in TIMES),
+    *((f"speed {unit}", f"shaft speed in {unit}") for unit in SPEEDS),
+)
+"""Possible roles of a column, as the form has them and in words."""
+APART = ";"
+"""Between the roles of the columns in their field."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
+AS_HEADED = "units as headed"
+"""The choice of a unit where the headings of two signals give two."""
 WAYS, LIKELY = "Say it", "Likely"
 """Headings in the list of bearings."""
 SIZES = ("unit", "sensitivity")
@@ -50,11 +76,13 @@ SIZES = ("unit", "sensitivity")
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
+SHOWN_LINES = 5
+
 MOST_SAID = 12
 """Numbers and words of a file that are shown."""
 
 _WORDS = {
-    "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
+    "sample_rate": ("The sample rate", "Hz", 1.0, 1e7),
     "full_scale": ("The value of a 1 in the file", "", 1e-12, 1e12),
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
 }
@@ -80,16 +108,83 @@ def guess(table: Table) -> dict[str, str]:
     """The first values of the form: what the file says, and good guesses."""
     contents = table.contents
     rate = contents.sample_rate
-    chosen = contents.choice.columns
     return {
-        "x": str(chosen.get("x", NONE)),
-        "y": str(chosen.get("y", NONE)),
-        "unit": contents.unit.value if contents.unit.taken else NOT_KNOWN,
+        "columns": APART.join(roles_of(table)),
+        "unit": _unit(table),
         "full_scale": "1",
         "sensitivity": NOT_KNOWN,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
+
+
+def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str]]:
+    """The table with the roles that a person gave its columns, and its form.
+
+    What was `changed` by a person stays; everything else follows from the roles.
+
+    Raises
+    ------
+    FormError
+        for roles that cannot be.
+    """
+    if "columns" in changed:
+        table = with_roles(table, changed["columns"])
+    return table, {**guess(table), **changed}
+
+
+def roles_of(table: Table) -> list[str]:
+    """The role of each column, out of `ROLES`: as given, or guessed."""
+    contents, roles = table.contents, []
+    by_hand = any(column.role == SIGNAL for column in table.given.values())
+    chosen = {} if by_hand else {i: axis for axis, i in contents.choice.columns.items()}
+    for index, column in enumerate(contents.columns):
+        role = chosen.get(index, NOTHING)
+        if column.role == SIGNAL and index in table.given:
+            role = column.direction
+        elif column.role in (TIME, SPEED):
+            role = f"{column.role} {column.unit or ''}".strip()
+        roles.append(role)
+    return roles
+
+
+def with_roles(table: Table, text: str) -> Table:
+    """The table with other roles of its columns; `FormError` for roles that cannot be."""
+    roles, guessed = text.split(APART), roles_of(table)
+    if roles == guessed:
+        return table
+    if len(roles) != len(guessed) or not set(roles) <= {role for role, _ in ROLES}:
+        raise FormError({"columns": f"{table.name} has other columns."})
+    given: dict[int | str, Column] = {}
+    for index, (role, was) in enumerate(zip(roles, guessed, strict=True)):
+        known, (kind, _, unit) = table.contents.columns[index], role.partition(" ")
+        if kind in ("x", "y"):
+            own = known.unit if known.unit in UNITS else None
+            given[index] = Column("", SIGNAL, own, kind, known.place)
+        elif role != was:
+            given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
+    try:
+        return table.with_columns(given)
+    except FieldError as error:
+        raise FormError({"columns": sentence_of(error)}) from None
+
+
+def one_of_each(roles: Sequence[str], index: int, role: str) -> str:
+    """The roles with another one for a column, which no other column has then."""
+    kind = role.partition(" ")[0]
+    left = [NOTHING if kind and one.partition(" ")[0] == kind else one for one in roles]
+    left[index] = role
+    return APART.join(left)
+
+
+def _unit(table: Table) -> str:
+    """The unit of the signals as the file says it, or `NOT_KNOWN`."""
+    contents = table.contents
+    roles = zip(roles_of(table), contents.columns, strict=True)
+    units = {column.unit for role, column in roles if role in ("x", "y")}
+    if len(units) > 1 and None not in units:
+        return AS_HEADED
+    return contents.unit.value if contents.unit.taken else NOT_KNOWN
 
 
 def bearings_of(
@@ -133,7 +228,7 @@ def reasons(table: Table) -> dict[str, str]:
     """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
-    found = dict.fromkeys(choice.columns, choice.reason)
+    found = {"columns": choice.reason} if choice.reason else {}
     found["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
@@ -156,15 +251,22 @@ def questions(table: Table) -> dict[str, str]:
     """Questions to answer before the signal can be drawn, by field."""
     contents = table.contents
     asked: dict[str, str] = {}
-    choice = contents.choice
-    if choice.question:
-        asked["y"] = choice.question
+    if not {"x", "y"} & set(roles_of(table)):
+        asked["columns"] = _which_column(table)
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
         trouble = contents.sampling.trouble if contents.sampling is not None else ""
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
     return asked
+
+
+NO_SIGNAL = "Which column is the signal? Say it above the column."
+
+
+def _which_column(table: Table) -> str:
+    asked = "" if table.given else table.contents.choice.question
+    return f"{asked} Say it above the columns." if asked.endswith("?") else asked or NO_SIGNAL
 
 
 def proposed_unit(table: Table) -> str | None:
@@ -181,12 +283,20 @@ def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
         likely = proposed_unit(table)
         why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
         return {"unit": f"In what unit is it? The file does not say.{why}"}
-    if form["unit"] in VOLTAGES and not form["sensitivity"].strip():
+    if is_voltage(table, form) and not form["sensitivity"].strip():
         return {
             "sensitivity": "What is the sensitivity of the sensor? See its label; "
             f"{USUAL_SENSITIVITY} mV/g is usual."
         }
     return {}
+
+
+def is_voltage(table: Table, form: Mapping[str, str]) -> bool:
+    """Whether any of the signals that a form names is in volts."""
+    if form["unit"] != AS_HEADED:
+        return form["unit"] in VOLTAGES
+    roles = zip(form["columns"].split(APART), table.contents.columns, strict=False)
+    return any(role in ("x", "y") and column.unit in VOLTAGES for role, column in roles)
 
 
 def said(table: Table) -> str:
@@ -208,26 +318,41 @@ def load_of(table: Table) -> float | None:
     return load.value if load is not None and load.value > 0.0 else None
 
 
-def columns_of(table: Table) -> list[list[str]]:
-    """[value, words] of the columns to choose from; none first, no times."""
-    offered = {NONE: "not measured"}
-    for index, column in enumerate(table.contents.columns):
-        if column.role == "time":
-            continue
-        words = _short(column.name) + (f" ({column.place})" if column.place else "")
-        taken = words in offered.values()
-        offered[str(index)] = f"{words}, column {index + 1}" if taken else words
-    return [[value, words] for value, words in offered.items()]
+@dataclass(frozen=True)
+class ShownColumns:
+    """The first lines of a file under the names and places of its columns, to choose their roles.
+
+    `rows` is how many lines the file has.
+    """
+
+    names: list[str]
+    places: list[str]
+    lines: list[list[str]]
+    rows: int
+
+
+def columns_of(table: Table) -> ShownColumns:
+    """The columns of a file as they are shown."""
+    return ShownColumns(
+        [_short(name) for name in table.names],
+        [column.place for column in table.contents.columns],
+        [[_cell(value) for value in line] for line in table.first_rows[:SHOWN_LINES]],
+        len(table.columns),
+    )
+
+
+def _cell(value: float) -> str:
+    return f"{value:.10g}" if np.isfinite(value) else "–"
 
 
 def usable(table: Table) -> bool:
     """True where any of the columns could be a signal."""
-    for index, column in enumerate(table.contents.columns):
-        signal = table.columns[:, index]
-        if column.role != "time":
-            first, last = longest_run(np.isfinite(signal))
-            if last - first >= FEWEST_SAMPLES and np.ptp(signal[first:last]) > 0.0:
-                return True
+    for column, signal in zip(table.contents.columns, table.columns.T, strict=True):
+        first, last = longest_run(np.isfinite(signal))
+        if column.role == TIME and len(table.names) > 1:
+            continue
+        if last - first >= FEWEST_SAMPLES and np.ptp(signal[first:last]) > 0.0:
+            return True
     return False
 
 
@@ -242,31 +367,26 @@ def read_form(
     `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
     so; `find` gives the bearing of a name.
     """
-    texts = {name: str(form.get(name, ""))[:LONGEST_TEXT].strip() for name in FIELDS}
+    texts = as_texts(form, FIELDS)
+    table = with_roles(table, texts["columns"])
     refused: dict[str, str] = {}
     numbers: dict[str, float] = {}
-    voltage = texts["unit"] in VOLTAGES
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
     for name in _WORDS:
-        if name == "sensitivity" and not (voltage and in_si):
+        if name == "sensitivity" and not (in_si and is_voltage(table, texts)):
             continue
         try:
             numbers[name] = _read(name, texts)
         except ValueError as error:
             refused[name] = str(error)
-    chosen = {name: texts[name] for name in ("x", "y") if texts[name] != NONE}
+    roles = texts["columns"].split(APART)
+    chosen = {role: index for index, role in enumerate(roles) if role in ("x", "y")}
     if not chosen:
-        refused["y"] = (
-            table.contents.choice.question or "Choose the column of at least one direction."
-        )
-    elif len(set(chosen.values())) < len(chosen):
-        refused["x"] = "x and y cannot be the same column."
-    elif not all(_is_index(text, len(table.names)) for text in chosen.values()):
-        refused["y"] = "There is no such column."
-    else:
-        refused |= _unfit(table, {name: int(text) for name, text in chosen.items()}, texts["unit"])
-    if texts["unit"] not in UNITS and in_si:
+        refused["columns"] = _which_column(table)
+    elif len(chosen) < sum(role in ("x", "y") for role in roles):
+        refused["columns"] = "Two columns are the signal along one direction: choose one of them."
+    if texts["unit"] not in (*UNITS, AS_HEADED) and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     try:
         found_machine = machine_of(table, texts, scene, find)
@@ -274,25 +394,36 @@ def read_form(
         refused |= error.sentences
     if refused:
         raise FormError(refused)
-    columns = tuple(int(text) for text in chosen.values())
+    directions = sorted(chosen)
+    columns = tuple(chosen[direction] for direction in directions)
+    unit = None if texts["unit"] == AS_HEADED else texts["unit"]
     # [V/(m/s²)], of a number in mV/g
-    sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY if voltage and in_si else None
+    sensitivity = None
+    if "sensitivity" in numbers:
+        sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY
     try:
         recording = table.recording(
             columns,
-            list(chosen),
-            texts["unit"] if in_si else "m/s²",  # as they are
+            directions,
+            unit if in_si else "m/s²",  # as they are
             numbers["sample_rate"],
             numbers["full_scale"],
             sensitivity=sensitivity,
         )
     except ValueError as error:
-        raise FormError(
-            {next(iter(chosen)): f"These columns are no signal: {_said_by(error)}."}
-        ) from None
-    origin = Origin(table.name, columns, texts["unit"], numbers["full_scale"], sensitivity)
-    sized = dataclasses.replace(recording, shaft_speed=None)
+        raise FormError({"columns": f"These columns are no signal: {_said_by(error)}."}) from None
+    origin = Origin(
+        table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given)
+    )
+    notes = (*recording.notes, *_doubts(table, columns, unit))
+    sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)
     return FormResult(sized if in_si else _without_size(sized), origin, found_machine, in_si)
+
+
+def as_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:
+    """The fields of a form as texts of a bounded length."""
+    longest = dict.fromkeys(names, LONGEST_TEXT) | {"columns": LONGEST_ROLES}
+    return {name: str(form.get(name, ""))[: longest[name]].strip() for name in names}
 
 
 def machine_of(
@@ -314,30 +445,21 @@ def _without_size(recording: Recording) -> Recording:
     return dataclasses.replace(recording, notes=notes)
 
 
-def _unfit(table: Table, chosen: Mapping[str, int], unit: str) -> dict[str, str]:
-    """Sentences on columns that cannot be directions of one bearing's acceleration."""
-    refused: dict[str, str] = {}
-    columns = {name: table.contents.columns[index] for name, index in chosen.items()}
-    places = {column.place for column in columns.values()} - {""}
+def _doubts(table: Table, chosen: Sequence[int], unit: str | None) -> list[str]:
+    """Notes where the headings say otherwise than the answers."""
+    columns = [table.contents.columns[index] for index in chosen]
+    places = sorted({column.place for column in columns} - {""})
+    doubts = []
     if len(places) > 1:
-        refused["x"] = (
-            f"These are sensors at two places ({' and '.join(sorted(places))}), not two directions "
-            "of one bearing: choose one place."
+        doubts.append(
+            f"By their names these are sensors at two places ({' and '.join(places)}); as you "
+            "chose them they count as two directions of one bearing."
         )
-    units = {column.unit for column in columns.values()} - {None}
-    if len(units) > 1:
-        refused["x"] = (
-            f"The headings give two units ({' and '.join(sorted(map(str, units)))}): choose one of "
-            "these columns."
-        )
-    for name, column in columns.items():
-        if column.unit is not None and column.unit not in UNITS:
-            refused[name] = f"“{_short(column.name)}” is in {column.unit}: no acceleration."
-        elif column.unit is not None and unit in UNITS and kind_of(column.unit) != kind_of(unit):
-            refused["unit"] = (
-                f"“{_short(column.name)}” says {column.unit}, which is no {kind_of(unit)}."
-            )
-    return refused
+    for name in (table.names[index] for index in chosen):
+        headed = unit_in(name)
+        if headed and unit and kind_of(headed) != kind_of(unit):
+            doubts.append(f"The heading “{_short(name)}” says {headed}; {unit} is taken, as given.")
+    return doubts
 
 
 def _said_by(error: ValueError) -> str:
@@ -350,10 +472,6 @@ def _said_by(error: ValueError) -> str:
 def _read(name: str, texts: Mapping[str, str]) -> float:
     words, unit, least, most = _WORDS[name]
     return number_of(texts[name], words, unit, least, most)
-
-
-def _is_index(text: str, count: int) -> bool:
-    return text.isascii() and text.isdecimal() and len(text) < 5 and int(text) < count
 
 
 def _short(name: str) -> str:

@@ -168,10 +168,10 @@ def _numbers(scene: Scene) -> Iterable[str]:
 
 
 def _row(field: Field, value: float) -> list[str]:
-    shown = f"{value:.9g}".replace("-", "−")
+    shown = f"{field.read_sign * value:.9g}".replace("-", "−")
     return [
-        html_text(field.label),
-        field.symbol_html,
+        html_text(field.read_label),
+        field.read_symbol_html,
         html_text(shown),
         html_text(field.shown_unit),
     ]

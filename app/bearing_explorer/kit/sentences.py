@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bearingcore.common.numbers import number
+from bearingcore.common import number
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, Field
 from bearingcore.units import UNITS
@@ -62,8 +62,8 @@ def name_of(name: str) -> str:
 
 def label_inside(field: Field) -> str:
     """The label of a field inside a sentence: small, unless it is a person's name."""
-    label = field.label
-    return label if label[:2] in ("Yo", "Po") else label[0].lower() + label[1:]
+    label = field.read_label
+    return label if label.startswith(("Young", "Poisson")) else label[0].lower() + label[1:]
 
 
 def one_line(text: str, longest: int) -> str:
@@ -83,4 +83,5 @@ def _amount(value: float, si: str, field: Field | None) -> str:
     if field is not None and field.unit == si:
         unit = field.shown_unit
     unit = "" if unit == "1" else unit
+    value *= field.read_sign if field is not None else 1.0
     return with_unit(value / UNITS[unit].factor if unit in UNITS else value, unit, 5)

@@ -68,7 +68,7 @@ def damaged(own: PartEvidence) -> str:
 
 def perhaps_a_ball() -> str:
     """Another cause of a race's lines."""
-    return " A damaged ball may have marked the race."
+    return " The cause may be a damaged ball: inspect the balls too."
 
 
 def magnetic(own: PartEvidence) -> str:

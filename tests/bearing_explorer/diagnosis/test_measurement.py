@@ -6,12 +6,13 @@ import asyncio
 import io
 import math
 import struct
+import zipfile
 import zlib
 from collections.abc import Callable
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import guess, read_form
+from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.session import (
     MOST_NUMBERS,
@@ -114,7 +115,7 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
     rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
     made = brought("rig.csv", ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode())
     assert not made.state.bad
-    assert (made.state.values["x"], made.state.values["y"]) == ("1", "2")
+    assert made.state.values["columns"] == "time s;x;y"
     measured = made.measured
     assert measured is not None
     assert measured.directions == ("x", "y")
@@ -134,8 +135,8 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
     content = wav_of(columns, 51_200)
     assert len(content) > 3 * PIECE
     made = brought("long.wav", content)
-    assert "nothing says where" in made.state.reasons["y"]  # two channels may be of two places
-    answer(made, x="0", y="1")
+    assert "nothing says where" in made.state.reasons["columns"]  # they may be of two places
+    answer(made, columns="x;y")
     assert made.measured is not None
     np.testing.assert_allclose(made.measured.recording.acceleration, columns, rtol=1e-6)
     assert made.state.scaled
@@ -181,8 +182,8 @@ def test_what_the_file_does_not_tell_is_asked_for():
     assert made.measured is None  # no old figure under a new name
     assert "sample rate is missing" in made.state.refused["sample_rate"]
     assert "sample rate is missing" in made.state.words
-    assert set(made.state.open) == {"y", "unit"}
-    answer(made, sample_rate="12 800", x="0", y="1")
+    assert set(made.state.open) == {"columns", "unit"}
+    answer(made, sample_rate="12 800", columns="x;y")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_800.0
     assert not made.state.bad
@@ -193,14 +194,15 @@ def test_what_the_file_does_not_tell_is_asked_for():
     ("field", "text", "told"),
     [
         ("sample_rate", "fast", "must be a number, not “fast”"),
-        ("sample_rate", "-5", "possible: 10 to 1·10⁷ Hz"),
+        ("sample_rate", "-5", "possible: 1 to 1·10⁷ Hz"),
         ("shaft_speed", "0", "possible:"),
         ("shaft_speed", "rpm", "is missing"),
         ("full_scale", "0", "possible"),
         ("unit", "furlongs", "one of m/s², g, mg"),
-        ("x", "2", "same column"),
-        ("y", "99", "no such column"),
-        ("x", "3", "same number throughout"),
+        ("columns", "time;y;y;", "Two columns are the signal"),
+        ("columns", "time;x;y", "has other columns"),
+        ("columns", "time;x;y;furlong", "has other columns"),
+        ("columns", "time;x;;y", "same number throughout"),
     ],
 )
 def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
@@ -221,8 +223,8 @@ def test_shaft_speeds_are_read_with_their_units(text, hertz):
     table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
     asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
     assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-    with pytest.raises(FormError, match="at least one direction"):
-        read_form(table, {**guess(table), "x": "", "y": ""}, Machine())
+    with pytest.raises(FormError, match="Which column is the signal"):
+        read_form(table, {**guess(table), "columns": "time;;"}, Machine())
 
 
 def test_more_numbers_than_a_session_keeps_are_left_out():
@@ -233,7 +235,7 @@ def test_more_numbers_than_a_session_keeps_are_left_out():
     assert found.table.columns.size == MOST_NUMBERS
     assert "Only the first" in found.cut
     assert found.asked is None  # two channels: which are x and y is asked
-    asked = read_form(found.table, {**found.form, "x": "0", "y": "1"}, Machine())
+    asked = read_form(found.table, {**found.form, "columns": "x;y"}, Machine())
     assert asked.recording.sample_rate == 8000.0
 
 
@@ -271,19 +273,18 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
     assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
-    answer(made, x="1")
-    assert "two places (drive end and fan end)" in made.state.refused["x"]
-    assert made.state.line  # what is drawn stays
+    answer(made, columns="y;x;")  # the hand wins, and a note says what speaks against it
+    assert "two places (drive end and fan end)" in made.state.remarks
 
 
 def test_sensors_at_several_places_are_asked_about_and_never_mixed():
     sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
     made = brought("12k_105.mat", mat_of(**sides))
     assert made.measured is None
-    assert set(made.state.open) == {"y", "unit"}
-    assert "several places (base, drive end, fan end)" in made.state.reasons["y"]
-    assert made.state.columns[1] == ["0", "DE (drive end)"]
-    answer(made, x="", y="0")
+    assert set(made.state.open) == {"columns", "unit"}
+    assert "several places (base, drive end, fan end)" in made.state.reasons["columns"]
+    assert made.state.columns.places == ["drive end", "fan end", "base"]
+    answer(made, columns="y;;")
     assert made.measured is not None
     assert made.measured.recording.sample_rate == 12_000.0
     assert "12 kHz?" in made.state.line
@@ -334,12 +335,128 @@ def test_voltages_need_their_sensor():
     assert "sensitivity" in made.state.refused
 
 
-def test_columns_in_two_units_are_not_read_in_one():
+def test_columns_in_two_units_are_each_read_in_their_own():
     made = brought("two.csv", csv_of(NOISE, "time,x [g],y [m/s²]"))
+    assert made.state.values["unit"] == AS_HEADED
+    read = made.measured.recording.acceleration
+    np.testing.assert_allclose(read, NOISE * [9.80665, 1.0], rtol=1e-5)
+    answer(made, unit="mm/s")  # which they are not
+    assert "says g; mm/s is taken, as given" in made.state.remarks
+
+
+@pytest.mark.parametrize(
+    ("heading", "scale", "roles", "says"),
+    [
+        ("row,sensor", 1e3, "time ms;y", "10 kHz · speed? · unit?"),
+        ("t [s],speed [Hz]", 1.0, "time s;y", "10 kHz · speed? · unit?"),
+        ("count,a [g]", 1e9, "time ns;x", "10 kHz · speed? · g "),
+    ],
+)  # fmt: skip
+def test_the_roles_that_a_person_gives_go_before_all_guesses(heading, scale, roles, says):
+    """Rate, unit and speed follow from them; a rate that was typed stays."""
+    rows = np.column_stack([scale * np.arange(2000) / 1e4, NOISE[:, 0]])
+    content = (heading + "\n" + "\n".join(f"{t:.8g},{a:.6g}" for t, a in rows)).encode()
+    made = brought("a.csv", content)
+    assert not made.state.bad or made.state.columns is not None
+    answer(made, columns=roles)
+    assert says in made.state.line
+    assert made.state.values["sample_rate"] == "10000"
+    np.testing.assert_allclose(made.measured.recording.acceleration[:, 0] / (
+        9.80665 if "[g]" in heading else 1.0), NOISE[:, 0], rtol=1e-4)  # fmt: skip
+    answer(made, sample_rate="5000")
+    answer(made, columns=f"time µs;{roles[-1]}")
+    assert made.state.values["sample_rate"] == "5000"
+    answer(made, columns=f"speed rpm;{roles[-1]}")  # which varies: it is not taken unsaid
+    assert any(words.startswith("a guess from the file:") for _, words in made.state.speeds)
+
+
+def test_a_rate_that_could_not_be_is_a_question_and_agreeing_settles_it():
+    rows = "\n".join(f"{k / 8},{a:.6g}" for k, a in enumerate(NOISE[:, 0]))
+    made = brought("a.csv", f"time,a [g]\n{rows}".encode())
+    assert made.state.open == ["sample_rate"]
+    assert "Is 8000 Hz the sample rate?" in made.state.reasons["sample_rate"]
     assert made.measured is None
-    assert "two units (g and m/s²)" in made.state.refused["x"]
-    answer(made, x="", unit="m/s²")
-    assert made.measured is not None
+    answer(made, sure="yes")
+    assert made.measured.recording.sample_rate == 8000.0
+    answer(made, unit="m/s²")  # which does not ask again
+    assert not made.state.open
+    answer(made, columns="time s;y")  # the hand wins, even so
+    assert made.measured.recording.sample_rate == 8.0
+
+
+def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise():
+    async def steps() -> None:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
+                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
+        await settled(made)
+        assert made.state.kept_from == ""
+        await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
+        assert made.measured.machine.kept == {"bearing", "speed"}
+        assert made.measured.machine.source_of("speed") == "given, for the file before"
+        assert made.source_of("designation") == "Given for the file before, first.csv"
+        content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
+        await bring(made, "third.csv", content)
+        assert made.measured.machine.kept == {"bearing"}
+        assert made.measured.machine.source_of("speed") == "from the file"
+        made.forget_machine()
+        await settled(made)
+        assert (made.measured.bearing, made.state.kept_from) == (None, "")
+
+    run(steps())
+
+
+def zip_of(**files: bytes) -> bytes:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as file:
+        for name, content in files.items():
+            file.writestr(f"{name}.csv", content)
+    return packed.getvalue()
+
+
+def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
+    parts = {
+        f"run{k}": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
+        for k in range(6)
+    }
+    made = brought("rig.zip", zip_of(**parts, readme=b"no numbers"))
+    assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
+    assert len(made.series.left_out) == 1
+    assert made.measured.recording.name == "rig.zip/run5.csv"
+    assert made.state.parts == 6
+
+    async def join() -> None:
+        made.join_parts()
+        await settled(made)
+
+    run(join())
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration / 9.80665, NOISE[::-1][:1800], rtol=1e-4
+    )
+    assert "6 files are joined" in made.state.remarks
+    assert len(made.measured.origin.parts) == 6
+    assert len(made.series.tables) == 1
+
+
+def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
+    async def steps() -> None:
+        made = measuring()
+        made.begin_upload("sound.csv", 100, baseline=True)
+        assert made.state.bad
+        await bring(made, "now.csv", csv_of(3.0 * NOISE, "time [s],x [g],y [g]"))
+        before, content = made.measured, csv_of(NOISE, "time [s],x [g],y [g]")
+        wanted: list[int] = []
+        made.want = lambda begin, of: wanted.append(of)
+        made.begin_upload("sound.csv", len(content), baseline=True)
+        made.take_piece(content, wanted[-1])
+        await settled(made)
+        assert made.measured is before
+        assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
+        found = made.recordings(before, "y").recordings
+        assert found[1].acceleration.std() == pytest.approx(3.0 * found[0].acceleration.std())
+
+    run(steps())
 
 
 # -- bad files -------------------------------------------------------------------------------------

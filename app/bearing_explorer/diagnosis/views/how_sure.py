@@ -20,8 +20,8 @@ from bearing_explorer.kit.widgets.form import row
 
 STATED = style.AxisQuantity("Stated probability", "", "%")
 FOUND = style.AxisQuantity("Found to be right", "", "%")
-TRUE = style.AxisQuantity("True extent", "", "°")
-MEASURED = style.AxisQuantity("Measured extent", "", "°")
+TRUE = style.AxisQuantity("True length", "", "°")
+MEASURED = style.AxisQuantity("Measured length", "", "°")
 SIZES = (340, 340)  # [px] heights
 
 RELIABILITY = (

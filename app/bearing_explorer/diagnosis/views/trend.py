@@ -40,8 +40,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.trend import LINES
+from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
 
 if TYPE_CHECKING:
@@ -61,7 +60,7 @@ AXES = {
     "rms": RMS,
     "kurtosis": style.AxisQuantity("Kurtosis", "", ""),
     "lines": AMPLITUDE,
-    "extent": style.AxisQuantity("Extent", "Δφ", "°"),
+    "extent": style.AxisQuantity("Length of the defect", "Δφ", "°"),
 }
 MOST_NAMED = 3
 """Files that are left out which a sentence names."""
@@ -349,23 +348,25 @@ def python_lines(found: FoundTrend, model: Model) -> str:
         unit = origin.unit if found.measured.in_si else "m/s²"
         given = [
             code_of(origin.file), str(list(origin.columns)), code_of(list(recording.directions)),
-            code_of(unit), short(recording.sample_rate), short(origin.full_scale),
+            repr(dict(origin.given)), code_of(unit), short(recording.sample_rate),
+            short(origin.full_scale),
             "None" if origin.sensitivity is None else short(origin.sensitivity),
             "None" if recording.shaft_speed is None else short(recording.shaft_speed),
         ]  # fmt: skip
         files.append(f"    ({', '.join(given)}),")
     return "\n".join([
         "from pathlib import Path\n",
-        "from bearingcore import Recording, Scene, presets, read_table, trend\n",
+        "from bearingcore import Recording, Scene, presets, read_table, trend",
+        "from bearingcore.files import Column, path_in\n",
         f"scene = {scene_code(scene)}",
-        "files = [  # columns, directions, unit, sample rate, value of a 1, V/(m/s²), rad/s",
+        "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s",
         *files,
         "]",
         "recordings = []",
-        "for name, columns, along, unit, rate, one, sensor, speed in files:",
-        "    made = read_table(name, Path(name).read_bytes()).recording(",
-        "        columns, along, unit, rate, one, sensitivity=sensor",
-        "    )",
+        "for name, columns, along, given, unit, rate, one, sensor, speed in files:",
+        "    table = read_table(name, Path(path_in(name)).read_bytes())",
+        "    table = table.with_columns(given)",
+        "    made = table.recording(columns, along, unit, rate, one, sensitivity=sensor)",
         "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
         "found = trend(",
         f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",

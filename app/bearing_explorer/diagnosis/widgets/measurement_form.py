@@ -5,35 +5,42 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from typing import Any
 
 import panel as pn
 
-from bearing_explorer.diagnosis.form import SIZES, USUAL_SENSITIVITY
+from bearing_explorer.diagnosis.form import (
+    APART,
+    AS_HEADED,
+    ROLES,
+    USUAL_SENSITIVITY,
+    one_of_each,
+)
 from bearing_explorer.diagnosis.series import MOST_FILES
 from bearing_explorer.diagnosis.session import Measurement, MeasurementState
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.common.numbers import number
-from bearingcore.files.units import UNITS, VOLTAGES
+from bearingcore.common import number
+from bearingcore.files import UNITS
 
 LABELS = {
-    "x": "Along x, sideways",
-    "y": "Along y, up",
-    "unit": "Unit",
+    "columns": "Columns",
+    "unit": "Unit of the signal",
     "full_scale": "1 in the file is",
     "sensitivity": "Sensor (mV/g)",
     "sample_rate": "Sample rate (Hz)",
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, or a zip of "
-    "one of them; at most "
-    f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
+    f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
+    "become a trend; parts of one signal can be joined."
 )
 _MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -42,8 +49,8 @@ _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
-    Once there is a signal it folds to a line, and unfolds again by a button. The fields about a
-    file are made when there is the first one.
+    Once there is a signal and no question it folds to a line, and unfolds again by a button. The
+    fields about a file are made when there is the first one.
     """
 
     def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
@@ -58,11 +65,12 @@ class MeasurementForm(pn.Column):
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", self._take_load, visible=False)
+        self._join = button("", self._join_parts, visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
         self._cancel = button("Cancel", self._give_up, visible=False, align="start")
-        self._in_short = row(self._line, self._change, visible=False)
+        self._in_short = row(self._line, self._join, self._change, visible=False)
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
@@ -125,14 +133,19 @@ class MeasurementForm(pn.Column):
             return
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
-                message.name, message.size, message.number, message.count, message.chosen
-            )
+                message.name, message.size, message.number, message.count, message.chosen,
+                message.baseline,
+            )  # fmt: skip
         else:
             self._measurement.take_piece(message.content, message.of)
 
     def _take_load(self) -> None:
         if self._measurement is not None:
             self._measurement.take_load()
+
+    def _join_parts(self) -> None:
+        if self._measurement is not None:
+            self._measurement.join_parts()
 
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
@@ -145,16 +158,19 @@ class MeasurementForm(pn.Column):
     def show(self, state: MeasurementState) -> None:
         """Show the state of the measurement."""
         if state.arrival != self._shown.arrival or (self._agreed and not state.bad):
-            self.folded, self._agreed = bool(state.line), False
+            self.folded, self._agreed = bool(state.line) and not state.open, False
         self._fold(state)
-        self._about_file.visible = bool(state.columns)
-        if state.columns:
+        self._about_file.visible = state.columns is not None
+        if state.columns is not None:
             self._show_fields(state)
         self._facts.param.update(object=html.escape(state.said), visible=bool(state.said))
         load = state.load
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
             visible=bool(load and self._measurement and self._measurement.change_scene),
+        )
+        self._join.param.update(
+            label=f"Join the {state.parts} files to one signal", visible=state.parts > 1
         )
         self._shown = state
 
@@ -181,37 +197,51 @@ class MeasurementForm(pn.Column):
         if self._measurement is not None:
             self._measurement.cancel()
 
+    def _role(self, index: int, role: str) -> None:
+        """Take another role of a column."""
+        if self._fields is not None:
+            roles = self._fields.values["columns"].split(APART)
+            if index < len(roles):
+                self._fields.values["columns"] = one_of_each(roles, index, role)
+                self._answer(False)
+
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
+        fields.values["columns"] = ""
+        self._table = ColumnTable(self._role, roles=[list(role) for role in ROLES])
         for name in LABELS:
-            if name in ("x", "y", "unit"):
+            if name == "unit":
                 fields.add(name, select(LABELS[name], [["", ""]]))
-            else:
+            elif name != "columns":
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
                 fields.add(name, entry(LABELS[name], placeholder=hint))
         self._agree = button("Use these answers", lambda: self._answer(True))
         self._notes = _text("")
-        self._about_file[:] = [row(*fields.widgets.values(), self._agree), self._notes]
+        self._about_file[:] = [
+            self._table, row(*fields.widgets.values(), self._agree), self._notes
+        ]  # fmt: skip
         return fields
 
     def _show_fields(self, state: MeasurementState) -> None:
+        assert state.columns is not None
         first = self._fields is None
         fields = self._fields = self._fields or self._make_fields()
         values = {name: state.values.get(name, "") for name in LABELS}
         fields.values.update(values)
-        for name in ("x", "y"):
-            if first or state.columns != self._shown.columns:
-                fields.widgets[name].param.update(**choices(state.columns), value=values[name])
-        if first or state.proposed != self._shown.proposed:
-            fields.widgets["unit"].param.update(**choices(units(state)), value=values["unit"])
-        fields.put(values)
+        mark = "refused" if "columns" in state.refused else ""
+        mark = mark or ("open" if "columns" in state.open else "")
+        self._table.show(asdict(state.columns), values["columns"].split(APART), mark)
+        units_now = units(state)
+        if first or units_now != units(self._shown):
+            fields.widgets["unit"].param.update(**choices(units_now), value=values["unit"])
+        fields.put({name: values[name] for name in fields.widgets})
         for name, widget in fields.widgets.items():
             marks = {"refused": name in state.refused, "open": name in state.open}
             widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
         fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
-        fields.widgets["sensitivity"].visible = values["unit"] in VOLTAGES
-        self._agree.visible = not set(state.open) <= set(SIZES)
-        shown = [name for name, widget in fields.widgets.items() if widget.visible]
+        fields.widgets["sensitivity"].visible = state.voltage
+        self._agree.visible = "sample_rate" in state.open
+        shown = ["columns", *(name for name, widget in fields.widgets.items() if widget.visible)]
         labels = {name: label.partition(" (")[0] for name, label in LABELS.items()}
         self._notes.object = notes_html(state, shown, labels)
 
@@ -223,7 +253,9 @@ def _text(words: str, **params: Any) -> pn.pane.HTML:
 def units(state: MeasurementState) -> list[list[str]]:
     """Options of the unit; one that the file does not state has to be chosen."""
     known = [[unit, unit] for unit in UNITS]
-    if state.proposed is None:
+    if state.values.get("unit") == AS_HEADED:
+        known.append([AS_HEADED, "as the headings say"])
+    if state.proposed is None and state.values.get("unit"):
         return known
     words = f"choose ({state.proposed} is likely)" if state.proposed else "choose"
     return [["", words], *known]

@@ -102,7 +102,8 @@ class Choice:
 
     def sentence(self, owner: Any) -> str:
         """The sentence of a report about a scene or a defect; empty without one."""
-        return self.said.format(self.name_of(owner)) if self.said else ""
+        own = {option.name: option.label for option in self.options}[self.name_of(owner)]
+        return self.said.format(own) if self.said else ""
 
 
 RACE = Choice(
@@ -164,7 +165,7 @@ EDGE = Choice(
     of="defect",
     field="edge",
     all_alike=True,  # defects that run into one another need one edge model
-    said="edge model “{}”",
+    said="balls roll over its edges “{}”",
     lesson_control=True,
 )
 

@@ -58,9 +58,10 @@ def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, floa
 def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
     unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
     digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
-    numbers = f"({_number(before, digits)} → {_number(now, digits)}{unit})"
+    read = [_number(field.read_sign * value, digits) for value in (before, now)]
+    numbers = f"({' → '.join(read)}{unit})"
     if field.name != "extent":
-        return f"{field.label} {numbers}"
+        return f"{field.read_label} {numbers}"
     spacings = (now - before) * field.factor / scene.bearing.ball_spacing
     count = round(abs(spacings))
     if count and abs(abs(spacings) - count) < WHOLE:

@@ -129,12 +129,13 @@ def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
         value = given if isinstance(given, float) else read_number(text, field.shown_unit)
     except ValueError:
         value = math.nan
-    span = f"{with_unit(least, '')} to {with_unit(most, field.shown_unit)}"
+    low, high = sorted((field.read_sign * least, field.read_sign * most))
+    span = f"{with_unit(low, '')} to {with_unit(high, field.shown_unit)}"
     if not math.isfinite(value):
         shown = f"“{text}” is not a number" if text else "A number is missing"
         raise ValueError(f"{shown}: {label_inside(field)} goes from {span}.")
     if not least <= value <= most:
-        shown = with_unit(value, field.shown_unit)
+        shown = with_unit(field.read_sign * value, field.shown_unit)
         raise ValueError(f"{shown} is out of range: {label_inside(field)} goes from {span}.")
     return value
 

@@ -50,7 +50,7 @@ TERMS = (
 def terms() -> Iterator[Term]:
     """All terms by their names: those above, and the fields of a scene."""
     fields = (
-        Term(field.label, field.symbol_html, field.shown_unit, html.escape(field.meaning))
+        Term(field.read_label, field.read_symbol_html, field.shown_unit, html.escape(field.meaning))
         for field in SHOWN_FIELDS
         if field.group in GROUPS
     )

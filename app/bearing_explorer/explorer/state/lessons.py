@@ -17,6 +17,7 @@ A lesson is a text file in Markdown with a head in TOML::
     ask = "Which ball carries most?"
     choose = ["the first", "the lowest", "all the same"]
     right = 2                          # counted from 1
+    veil = ["load-distribution"]       # figures that have the answer; if left out, all of `watch`
     +++
     ## Question
     Which ball carries most?
@@ -128,7 +129,8 @@ class Prediction(msgspec.Struct, frozen=True):
     """A question before the answer is shown, as the head of a lesson has it.
 
     Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
-    number of `unit`, right from `right` − `within` to `right` + `within`.
+    number of `unit`, right from `right` − `within` to `right` + `within`. Figures on `veil` have
+    the answer and are veiled until then; None: all that the lesson marks.
     """
 
     ask: Text
@@ -136,6 +138,7 @@ class Prediction(msgspec.Struct, frozen=True):
     choose: Annotated[tuple[Text, ...], Meta(min_length=2, max_length=6)] = ()
     unit: Annotated[str, Meta(max_length=20)] = ""
     within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
+    veil: tuple[str, ...] | None = None
 
 
 class _Head(msgspec.Struct):
@@ -385,6 +388,7 @@ class _Checks:
         given = self._entries(self.head.predict, Prediction)
         if given.choose and given.right not in range(1, len(given.choose) + 1):
             raise self.error("right", "right counts the choices from 1")
+        self._on_list("veil", given.veil or (), self.tabs[self.head.tab], "a figure of this tab")
         return given
 
     @cached_property
@@ -524,7 +528,8 @@ def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
         if word not in known:
             raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
     scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
-    return {**scene, "simulate": wish}
+    shown = {"show": "diagnosis"} if "diagnosis" in checks.tabs else {}
+    return {**scene, **shown, "simulate": wish}
 
 
 def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:

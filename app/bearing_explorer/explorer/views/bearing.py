@@ -20,10 +20,10 @@ from bearing_explorer.kit.plots.heat_map import color_bar
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources, View
 from bearingcore import Bearing, Load, Scene
-from bearingcore.common.table import table_of
-from bearingcore.scene.packing import ball_angles
+from bearingcore.common import table_of
+from bearingcore.scene import ball_angles
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
@@ -227,7 +227,10 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        draw(plot, packed, layers(self.prefix, colors, inks, short=self.short))
+        drawn = layers(self.prefix, colors, inks, short=self.short)
+        for layer, renderer in zip(drawn, draw(plot, packed, drawn), strict=True):
+            if layer.source in (f"{self.prefix}_bars", f"{self.prefix}_healthy_loads"):
+                renderer.tags = [ANSWER]
         if self.grabbed:
             let_grab(plot, packed, f"{self.prefix}_handles")
         self._add_scale(plot, colors, load)
@@ -250,6 +253,7 @@ class BearingDrawing(View):
             padding=2,
             title_standoff=4,
             bar_line_color=style.STEEL_EDGE,
+            tags=[ANSWER],
         )
         style.write_units(bar, style.BALL_LOAD, load)
         plot.add_layout(bar, "below")

@@ -17,9 +17,9 @@ from bearing_explorer.kit.views.base import Ranges, Sources, View
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 EDGE_WORDS = {
-    "published": "the published edge model",
-    "chord": "the chord edge model",
-    "exact": "the exact edge model",
+    "published": "an edge as in the paper",
+    "chord": "a chord over the whole arc",
+    "exact": "the exact, curved edge",
 }
 
 

@@ -36,7 +36,7 @@ from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix, wo
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
-from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.statics import TERM_UNITS
 
 #: kinds of colour scales, as the browser knows them
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
@@ -85,7 +85,7 @@ const words = data.of_shaft[0] ? 'Shaft angle φs' : 'Cage angle φc'
 const ends = (side) => ({first: data[side + '_first'][0], last: data[side + '_last'][0]})
 return {
   x: {...ends('x'), factor: 1, unit: '°', words},
-  y: {...ends('y'), factor: 1, unit: '°', words: 'Extent Δφf'},
+  y: {...ends('y'), factor: 1, unit: '°', words: 'Length of the defect Δφf'},
 }
 """
 
@@ -265,7 +265,7 @@ _HEAD = 20  # numbers in front of the points
 _GRID = ("across", "up", "x_first", "x_last", "y_first", "y_last", "turn", "start", "of_shaft")
 _SIDES_OF = (
     Side(CAGE_ANGLE, "Cage angle", "", "°"),
-    Side("extent_deg", "Extent", "", "°"),
+    Side("extent_deg", "Length of the defect", "", "°"),
     Side(CAGE_ANGLE, "Shaft angle", "", "°"),
 )
 _ACROSS, _UP = (0, 2), 1
@@ -403,7 +403,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     matrix_cells.write_names(plot, _CELLS)
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
-    extent = {"value": "Extent Δφf (°)"}
+    extent = {"value": "Length of the defect Δφf (°)"}
     write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
     words = words_of(grid, "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'")
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}

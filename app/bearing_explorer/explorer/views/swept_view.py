@@ -14,7 +14,7 @@ from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import JobState, Work
 from bearing_explorer.kit.widgets.facts import sentence_html
 from bearingcore import Scene
-from bearingcore.common.progress import Progress
+from bearingcore.common import Progress
 
 FAINT = 0.35
 """Opacity of a result of another scene."""

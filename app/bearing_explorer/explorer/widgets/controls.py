@@ -32,8 +32,9 @@ def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
                 "controls": [
                     {
                         "name": field.key,
-                        "label": field.label,
-                        "symbol": field.symbol_html,
+                        "label": field.read_label,
+                        "sign": field.read_sign,
+                        "symbol": field.read_symbol_html,
                         "unit": field.shown_unit,
                         "about": field.meaning,
                     }

@@ -30,7 +30,8 @@ from bearing_explorer.kit.plots.heat_map import (
 )
 from bearing_explorer.kit.plots.layers import Glyph, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearingcore.common.numbers import PREFIXES, prefix_power
+from bearingcore.common import PREFIXES, prefix_power
+from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:
     from xarray import DataArray
@@ -119,7 +120,8 @@ class Field:
 def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
     """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
     unit = str(given.attrs.get("units", ""))
-    words = str(given.name).replace("_", " ")
+    name = str(given.name)
+    words = FIELD_OF[name].label if name in FIELD_OF else name.replace("_", " ")
     words = words[0].upper() + words[1:]
     values = np.asarray(given, dtype=float)
     if unit == "rad":

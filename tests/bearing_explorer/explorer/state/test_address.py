@@ -185,7 +185,7 @@ def test_every_preset_is_among_the_frozen_links() -> None:
         ("v=too-long", "far too long"),
         ("v=1&preset=<script>alert(1)</script>", "no bearing"),
         ("v=1&extent_deg=nan", "not a number"),
-        ("v=1&extent_deg=360.1", "extent"),
+        ("v=1&extent_deg=360.1", "length of the defect"),
         ("v=1&extent_deg=" + "1" * 5000, "not a number"),
         ("v=1&extent_deg=٣", "not a number"),
         ("v=1&fy_n=1e7", "out of range"),

@@ -35,14 +35,14 @@ def test_numbers_are_read_as_people_write_them(given: object, value: float) -> N
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ("-1", "−1° is out of range: extent goes from 0 to 360°."),
-        (math.inf, "“inf” is not a number: extent goes from 0 to 360°."),
-        ("", "A number is missing: extent goes from 0 to 360°."),
-        ([1, 2], "“[1, 2]” is not a number: extent goes from 0 to 360°."),
+        ("-1", "−1° is out of range: length of the defect goes from 0 to 360°."),
+        (math.inf, "“inf” is not a number: length of the defect goes from 0 to 360°."),
+        ("", "A number is missing: length of the defect goes from 0 to 360°."),
+        ([1, 2], "“[1, 2]” is not a number: length of the defect goes from 0 to 360°."),
     ],
 )
 def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
-    with pytest.raises(ValueError, match=r"extent goes from") as found:
+    with pytest.raises(ValueError, match=r"length of the defect goes from") as found:
         read("extent_deg", given, limits_of(presets["fan-rig"]))
     assert str(found.value) == sentence
 
@@ -52,7 +52,7 @@ def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
     [
         ({"shaft_speed": -1.0}, ("shaft speed is −0.15915 Hz", "0 Hz")),
         ({"depth": 0.01}, ("depth is 10000 µm", "µm", "the ball radius")),
-        ({"extent": 7.0}, ("extent is 401.07°", "360°")),
+        ({"extent": 7.0}, ("length of the defect is 401.07°", "360°")),
         ({"pitch_diameter": 1e-3}, ("pitch diameter", "mm")),
     ],
 )

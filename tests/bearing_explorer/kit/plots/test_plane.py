@@ -13,7 +13,10 @@ from bearing_explorer.kit.plots.plane import Field, PlaneFigures, color_limits
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bokeh.models import LayoutDOM
 
-X, Y = Side("extent_deg", "Extent", "Δφf", "°"), Side("fy_n", "Force, up", "Fy", "N")
+X, Y = (
+    Side("extent_deg", "Length of the defect", "Δφf", "°"),
+    Side("fy_n", "Load, upwards", "Fy", "N"),
+)
 FIELD = Field(
     (X, np.array([10.0, 20.0, 30.0])),
     (Y, np.array([-200.0, -100.0])),
@@ -38,8 +41,8 @@ def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None
     plane.write(FIELD)
     labels = [(p.xaxis[0].axis_label, p.yaxis[0].axis_label) for p in plane.plots[1:]]
     assert labels == [
-        ("Force, up Fy (N)", "(MN/m)"),
-        ("Extent Δφf (°)", "(MN/m)"),
+        ("Load, upwards Fy (N)", "(MN/m)"),
+        ("Length of the defect Δφf (°)", "(MN/m)"),
         ("kyy, mean (MN/m)", "Points"),
     ]
 
@@ -57,7 +60,7 @@ def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
         name="acceleration_rms_y",
     )
     field = Field.of_sweep(swept)
-    assert field.x[0].label == "Extent (°)"
+    assert field.x[0].label == "Length of the defect (°)"
     assert field.x[1] == pytest.approx([10.0, 20.0, 30.0])
     drawn = figures.of_sweep(swept)
     assert isinstance(hv.render(drawn, backend="bokeh"), LayoutDOM)

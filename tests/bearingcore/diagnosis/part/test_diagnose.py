@@ -141,7 +141,7 @@ def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_the
     assert "A damaged ball or a healthy bearing may make them" in found.sentence
     stronger = answer(made("outer race", -14.0, 3))
     assert stronger.perhaps_a_ball
-    assert "ball may have marked" in stronger.sentence
+    assert "inspect the balls too" in stronger.sentence
 
 
 def test_a_healthy_machine_is_told_so_in_words(healthy):

@@ -1,0 +1,46 @@
+"""The first lines of a file as a table, with what each column is to choose over it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar
+
+import param
+from panel.custom import JSComponent
+
+from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.messages import RoleOfColumn, read
+
+
+class ColumnTable(JSComponent):
+    """A table of a file's first lines; over each column a list of what it may be.
+
+    Parameters
+    ----------
+    chosen
+        called with the number of a column and its new role.
+    """
+
+    roles = param.List(doc="What a column may be: [value, words].")
+    shown = param.Dict({}, doc="Names, places, first lines, roles, and whether they are asked for.")
+
+    _esm = scripts("element.js", "column_table.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("column_table.css")]
+
+    def __init__(self, chosen: Callable[[int, str], None], **params: Any) -> None:
+        super().__init__(margin=(8, 0, 8, 0), sizing_mode="stretch_width", **params)
+        self._chosen = chosen
+        self.on_msg(lambda event: self._take(event.data))
+
+    def show(self, columns: Mapping[str, Any], roles: Sequence[str], mark: str = "") -> None:
+        """Show columns: their names, places of sensors, first lines, and how many rows there are.
+
+        `mark`: "open" where an answer is wanted, "refused" where it cannot be.
+        """
+        self.shown = {**columns, "roles": list(roles), "mark": mark}
+
+    def _take(self, data: Any) -> None:
+        message = read(RoleOfColumn, data)
+        known = {value for value, _ in self.roles}
+        if message is not None and message.role in known and message.column >= 0:
+            self._chosen(message.column, message.role)

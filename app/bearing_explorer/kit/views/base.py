@@ -262,13 +262,14 @@ class View(Generic[C]):
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None:
-            bearing = results.scene.bearing
-            about = self.caption(results.grey.name)
-            line, rest = parts_of(with_elements_of(bearing, about))
-            title = with_elements_of(bearing, self.title)
-            self._caption.put(title=title, line=line, rest=rest)
             for key in self._keys:
                 key.show([one.name for one in results.compared])
+
+    def put_head(self, content: C) -> None:
+        """Title and caption in the words of the bearing: its balls may be rollers."""
+        bearing = content.scene.bearing
+        line, rest = parts_of(with_elements_of(bearing, self.caption(content.grey.name)))
+        self._caption.put(title=with_elements_of(bearing, self.title), line=line, rest=rest)
 
     @classmethod
     def caption(cls, grey: str = WITHOUT_DEFECT) -> str:

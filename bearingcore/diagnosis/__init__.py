@@ -9,7 +9,7 @@ from bearingcore.diagnosis.part.say import perhaps_a_ball
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.diagnosis.size.sizing_error import extent_error
 from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.diagnosis.trend import LINES
+from bearingcore.diagnosis.trend import LINES, time_in
 
 __all__ = [
     "CANNOT_TELL",
@@ -28,5 +28,6 @@ __all__ = [
     "explaining_bearings",
     "extent_error",
     "perhaps_a_ball",
+    "time_in",
     "variant",
 ]

@@ -4,6 +4,7 @@ from bearingcore.files.channels import OTHER, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.contents import FileContents
 from bearingcore.files.facts import Finding
 from bearingcore.files.sampling import longest_run
+from bearingcore.files.table import files_inside, path_in
 from bearingcore.files.units import (
     ACCELERATIONS,
     SPEEDS,
@@ -30,8 +31,10 @@ __all__ = [
     "Column",
     "FileContents",
     "Finding",
+    "files_inside",
     "kind_of",
     "level_doubt",
     "longest_run",
+    "path_in",
     "unit_in",
 ]

@@ -8,7 +8,13 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     has_long_period,
 )
-from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
+from bearingcore.statics.life import (
+    GIVEN,
+    LEFT_OUT,
+    OF_A_CATALOGUE,
+    hours_in_words,
+    turns_in_words,
+)
 from bearingcore.statics.limit import NO_OIL, summary, unknown
 from bearingcore.statics.passes import (
     Crossing,
@@ -26,9 +32,11 @@ from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 __all__ = [
     "ANGLES_A_PERIOD",
     "BALL_LOAD",
+    "GIVEN",
     "LEFT_OUT",
     "NO_DRAWING",
     "NO_OIL",
+    "OF_A_CATALOGUE",
     "ROUNDS",
     "TERM_SYMBOLS",
     "TERM_UNITS",

@@ -1,22 +1,26 @@
 """How many small wrong changes of the physics the quick tests notice.
 
-    python -m tests.benchmarks.mutants --count 60 --seed 1
+    python -m tests.benchmarks.mutants --count 60 --seed 1 --work build/mutants --minutes 8
 
-Each mutant is one change, drawn at random over the lines of the core's physics, in a copy of the
-tree: a sign, a factor, an exponent or a constant. Tests from outside run first, then those of the
-folder that was changed, until one fails.
+Each mutant is one change, drawn at random over the lines of the core's physics: a sign, a factor,
+an exponent or a constant. It is put into a copy of the tree that stays as it is while mutants are
+judged, with its own compiled code (made anew where a kernel changes, `kernels/compiling.py`).
+Tests run until one fails, those likeliest to fail first: those that name the module, those of its
+folder, those from outside, then all others that plain `pytest` runs without a browser. What is
+found is kept, and the next call goes on from there.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -60,71 +64,105 @@ def mutants_of(file: Path) -> Iterator[Mutant]:
             yield Mutant(file, node.lineno, node.col_offset, node.end_col_offset or 0, new)
 
 
-def drawn(count: int, seed: int) -> list[Mutant]:
-    """So many mutants, drawn evenly over all changes."""
+def drawn(count: int, seed: int, tree: Path = ROOT) -> list[Mutant]:
+    """So many mutants, drawn evenly over all changes of a tree."""
     found: list[Mutant] = []
     for folder in FOLDERS:
-        for file in sorted((ROOT / "bearingcore" / folder).rglob("*.py")):
+        for file in sorted((tree / "bearingcore" / folder).rglob("*.py")):
             if file.stem not in WORDS:
                 found += mutants_of(file)
     return random.Random(seed).sample(found, count)
 
 
-TOO_LONG = "not known: took too long"
+def stages(one: Mutant, tree: Path) -> Iterator[list[str]]:
+    """Tests to run, the likeliest to fail first, each file once."""
+    tests = tree / "tests"
+    parts = one.file.relative_to(tree / "bearingcore").with_suffix("").parts
+    names = re.compile(rf"\b{re.escape('.'.join(parts))}\b|\b{parts[0]} import .*\b{parts[-1]}\b")
+    areas = [parts[0], *(("dynamics", "statics") if parts[0] == "kernels" else ())]
+    done: set[Path] = set()
+    for group in (
+        [f for f in tests.rglob("test_*.py") if names.search(f.read_text("utf-8"))],
+        [f for area in areas for f in (tests / "bearingcore" / area).rglob("test_*.py")],
+        (tests / "outside").glob("test_*.py"),
+        (tests / "bearingcore").rglob("test_*.py"),
+        (tests / "bearing_explorer" / "explorer").rglob("test_*.py"),
+        (tests / "bearing_explorer").rglob("test_*.py"),
+        tests.glob("test_*.py"),
+    ):
+        new = {file for file in group if "browser" not in file.parts} - done
+        done |= new
+        if new:
+            yield [str(file.relative_to(tree)) for file in sorted(new)]
 
 
-def noticed(one: Mutant, copy: Path, most_seconds: float, first: list[str]) -> str:
-    """The first test that fails; "" where none does, TOO_LONG where that is not known."""
-    place = copy / one.file.relative_to(ROOT)
-    whole = place.read_bytes()
+def failing(one: Mutant, tree: Path, tests: list[str], most_seconds: float) -> str:
+    """The first of these tests that fails with a mutant in place; "" where none does.
+
+    Raises `subprocess.TimeoutExpired` where that takes longer.
+    """
+    whole = one.file.read_bytes()
     lines = whole.split(b"\n")
     line = lines[one.line - 1]
     lines[one.line - 1] = line[: one.begin] + one.new.encode() + line[one.end :]
-    place.write_bytes(b"\n".join(lines))
-    folder = one.file.relative_to(ROOT / "bearingcore").parts[0]
-    environment = {**os.environ, "PYTHONPATH": f"{copy}:{copy / 'app'}"}
+    one.file.write_bytes(b"\n".join(lines))
+    environment = {**os.environ, "PYTHONPATH": f"{tree}:{tree / 'app'}"}
+    environment["NUMBA_CACHE_DIR"] = str(tree.parent / "numba")
+    command = [sys.executable, "-m", "pytest", "-n", "0", "-x", "-q", "--no-header", *tests]
     try:
-        for tests in (first, [f"tests/bearingcore/{folder}"]):
-            run = subprocess.run(
-                [sys.executable, "-m", "pytest", "-n", "0", "-x", "-q", "--no-header", *tests],
-                cwd=copy, env=environment, capture_output=True, text=True, timeout=most_seconds,
-                check=False,
-            )  # fmt: skip
-            failed = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
-            if run.returncode not in (0, 5):
-                return failed[0] if failed else "did not start"
-    except subprocess.TimeoutExpired:
-        return TOO_LONG
+        run = subprocess.run(
+            command, cwd=tree, env=environment, capture_output=True, text=True,
+            timeout=most_seconds, check=False,
+        )  # fmt: skip
     finally:
-        place.write_bytes(whole)
-    return ""
+        one.file.write_bytes(whole)
+    rows = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
+    return "" if run.returncode in (0, 5) else rows[0] if rows else "did not start"
+
+
+def said(one: Mutant, tree: Path) -> str:
+    """Where a mutant is and what it changes."""
+    old = one.file.read_bytes().split(b"\n")[one.line - 1][one.begin : one.end].decode()
+    return f"{one.file.relative_to(tree)}:{one.line}:{one.begin} {old} → {one.new}"
 
 
 def main() -> None:
-    """Print a row a mutant, and how many were noticed."""
+    """Judge mutants until the time is over; print what is known of each."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--count", type=int, default=60)
     asked.add_argument("--seed", type=int, default=1)
-    asked.add_argument("--most-seconds", type=float, default=600.0)
-    asked.add_argument("--first", nargs="+", default=["tests/outside"])
+    asked.add_argument("--work", type=Path, default=ROOT / "build" / "mutants")
+    asked.add_argument("--minutes", type=float, default=1e3)
+    asked.add_argument("--stages", type=int, default=7, help="so many groups of tests at most")
     given = asked.parse_args()
-    right = unknown = 0
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "tree"
-        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", "__pycache__"))
-        for i, one in enumerate(drawn(given.count, given.seed), 1):
-            began = time.perf_counter()
-            by = noticed(one, copy, given.most_seconds, given.first)
-            unknown += by == TOO_LONG
-            right += bool(by) and by != TOO_LONG
-            text = one.file.read_text(encoding="utf-8").splitlines()[one.line - 1]
-            old = text.encode()[one.begin : one.end].decode()
-            where = f"{one.file.relative_to(ROOT)}:{one.line}"
-            took = time.perf_counter() - began
-            print(
-                f"{i:3} {where} {old} → {one.new} {took:.0f} s: {by or 'NOT NOTICED'}", flush=True
-            )
-    print(f"{right} of {given.count} noticed, {unknown} not known")
+    tree, results = given.work / "tree", given.work / "results.json"
+    if not tree.exists():
+        left_out = shutil.ignore_patterns(".git", "__pycache__", "build")
+        shutil.copytree(ROOT, tree, ignore=left_out)
+    known = json.loads(results.read_text("utf-8")) if results.exists() else {}
+    mutants = {said(one, tree): one for one in drawn(given.count, given.seed, tree)}
+    end = time.monotonic() + 60.0 * given.minutes
+    for stage in range(given.stages):
+        for name, one in mutants.items():
+            all_tests = list(stages(one, tree))
+            kept = known.setdefault(name, {"passed": 0, "by": ""})
+            if kept["by"] or kept["passed"] != stage or stage >= len(all_tests):
+                continue
+            left = end - time.monotonic()
+            if left < 20.0:
+                break
+            try:
+                kept["by"] = failing(one, tree, all_tests[stage], left)
+            except subprocess.TimeoutExpired:
+                break
+            kept["passed"] += not kept["by"]
+            kept["all"] = kept["passed"] == len(all_tests)
+            results.write_text(json.dumps(known, indent=1, ensure_ascii=False), "utf-8")
+    for i, name in enumerate(mutants, 1):
+        kept = known[name]
+        so_far = "NOT NOTICED" if kept.get("all") else f"{kept['passed']} groups of tests pass"
+        print(f"{i:3} {name}: {kept['by'] or so_far}")
+    print(f"{sum(bool(known[name]['by']) for name in mutants)} of {len(mutants)} noticed")
 
 
 if __name__ == "__main__":

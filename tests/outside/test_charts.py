@@ -2,26 +2,33 @@
 
 import json
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
-from numba import njit
-from scipy.integrate import solve_ivp
-from scipy.signal import welch
 
-from bearingcore import equilibrium, orbit, presets
+from bearingcore import DOF_NAMES, contact_damping, equilibrium, orbit, presets, simulate
 from tests.outside.capabilities import ROOT
+from tests.outside.elements import Defect, Rows
+from tests.outside.march import Problem, by_runge_kutta
 from tests.outside.plane import Plane, damped
-from tests.outside.test_sampling import CAGE, EXTENT, rates
+from tests.outside.test_kinds import CASES
 from tests.outside.witness import witness
 
-RATE, DURATION = 65_536.0, 0.1
+RATE = 65_536.0
 C = 121.96
 """[N·s/m] of the rig: 1e-5 s times the mean stiffness of the healthy bearing a loaded ball."""
 PLANE = Plane(14, 8e-3, 45e-3, 5453e6, 3e-6)
-HURT = EXTENT, 50e-6, "outer", "published"
+HURT = math.radians(12.9), 50e-6, "outer", "published"
 """The defect for `plane.py`: extent, depth, race, edge."""
+
+
+every_preset = pytest.mark.parametrize(
+    "preset",
+    [pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig")) for name in presets],
+)
+"""One of them in the quick tests."""
 
 
 @cache
@@ -31,84 +38,95 @@ def chart(name: str, preset: str = "fan-rig") -> dict:
     return whole["experiments"][name] if name in whole["experiments"] else whole[name]
 
 
-@cache
-def at_rest(extent: float = EXTENT) -> np.ndarray:
-    """State [µm, mm/s] at cage angle 0: inner ring, then the outer one on its spring."""
-    hurt = extent, *HURT[1:]
-    loads, _, _ = PLANE.solve(100.0, np.zeros(1), 1.5 * math.pi, hurt)
-    down = -100.0 / 212.2
-    free = np.array([0.0, down, 0.0, down, 0.0, 0.0, 0.0, 0.0])
-    phi = 2.0 * math.pi / 14 * np.arange(14)
-    # the displacement that the loads say: two balls that carry, in the plane
-    carries = np.argsort(loads[0])[-2:]
-    gap = 3e-6 + PLANE.drop(
-        0.5 * extent - np.abs((phi - 1.5 * math.pi + math.pi) % (2 * math.pi) - math.pi),
-        "outer", "published", 50e-6,
-    )  # fmt: skip
-    e = np.stack([np.cos(phi), np.sin(phi)], axis=1)[carries]
-    delta = (loads[0, carries] / 5453e6) ** (2.0 / 3.0) + gap[carries]
-    free[:2] += 1e6 * np.linalg.solve(e, delta)
-    return free
-
-
-@njit
-def marched(y: np.ndarray, h: float, steps: int, keep: int, extent: float, c: float) -> np.ndarray:
-    """Accelerations (steps // keep + 1, 2) [m/s²] of the housing by the classical Runge-Kutta."""
-    out = np.empty((steps // keep + 1, 2))
-    for i in range(steps + 1):
-        t = i * h
-        k1 = rates(t, y, extent, CAGE, c)
-        if i % keep == 0:
-            out[i // keep] = 1e-3 * k1[6:]
-        k2 = rates(t + 0.5 * h, y + 0.5 * h * k1, extent, CAGE, c)
-        k3 = rates(t + 0.5 * h, y + 0.5 * h * k2, extent, CAGE, c)
-        k4 = rates(t + h, y + h * k3, extent, CAGE, c)
-        y = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return out
+SOLVED_THERE = {"1208": "self-aligning", "nu208": "roller", "30206-back-to-back": "tapered"}
+"""Presets whose rows `test_kinds.py` has written down already."""
 
 
 @cache
-def exact(corner: float = 0.5, duration: float = DURATION, extent: float = EXTENT) -> np.ndarray:
-    """The same by DOP853."""
-    time = np.arange(round(duration * RATE)) / RATE
-    made = solve_ivp(
-        rates, (0.0, time[-1]), at_rest(extent), "DOP853", time, args=(extent, CAGE, C, corner),
-        rtol=1e-9, atol=1e-9, max_step=1e-4,
+def problem(preset: str, edge: str = "", shaft: float = math.nan) -> Problem:
+    """A preset's scene for `march.py`: of the scene are its numbers, and the damping c.
+
+    `edge` in place of its own, `shaft` [rad/s] in place of its speed.
+    """
+    scene = presets[preset]
+    bearing, hurt, held, load = scene.bearing, scene.defect, scene.support, scene.load
+    angle, facing = bearing.contact_angle, [row.facing for row in bearing.all_rows]
+    if preset in SOLVED_THERE:
+        rows = CASES[SOLVED_THERE[preset]].rows
+    else:
+        inner = (bearing.inner_groove_radius or 0.0) - 0.5 * bearing.ball_diameter
+        single = len(facing) == 1
+        places = [row.place + row.facing * inner * math.sin(angle) for row in bearing.all_rows]
+        rows = Rows(
+            bearing.n_balls, bearing.ball_diameter, angle, bearing.groove_center_radius,
+            bearing.groove_center_distance, bearing.radial_clearance,
+            (bearing.load_deflection_factor, 1.5), (0.0,) if single else tuple(places),
+            tuple(facing), bearing.all_rows[0].facing * bearing.all_rows[0].offset,
+        )  # fmt: skip
+    race = rows.defect.race if rows.defect else bearing.outer_raceway_radius
+    defect = Defect(hurt.extent, hurt.depth, race, edge or hurt.edge)
+    gamma = bearing.ball_diameter * math.cos(angle) / bearing.pitch_diameter
+    cage = 0.5 * (1.0 - gamma) * (scene.shaft_speed if math.isnan(shaft) else shaft)
+    free = [DOF_NAMES.index(name) for name in scene.active_dofs]
+    mass, stiffness, damping = (
+        np.array([getattr(held, f"{what}_{name}") for name in names])[free]
+        for what, names in (
+            ("inner", ["mass"] * 3 + ["inertia"] * 2), ("stiffness", DOF_NAMES),
+            ("damping", DOF_NAMES),
+        )
     )  # fmt: skip
-    return np.array(
-        [1e-3 * rates(t, y, extent, CAGE, C, corner)[6:]
-         for t, y in zip(time, made.y.T, strict=True)]
+    force = np.array([load.fx, load.fy, load.fz, load.mx, load.my])
+    return Problem(
+        replace(rows, defect=defect), force, tuple(free), mass, stiffness, damping, cage,
+        contact_damping(scene),
     )  # fmt: skip
 
 
-def spectra_apart(found: np.ndarray, true: np.ndarray, highest: float = 1841.0) -> float:
-    """[dB], up to 1.25 times the highest frequency, within 40 dB of a direction's best line."""
-    length = round(RATE / 32.0)
-    f, mine = welch(found, RATE, nperseg=length, axis=0)
-    _, own = welch(true, RATE, nperseg=length, axis=0)
-    counts = ((f > 80.0) & (f <= 1.25 * highest))[:, None] & (own > 1e-4 * own.max(axis=0))
-    return float(np.abs(10.0 * np.log10(mine[counts] / own[counts])).max())
+@cache
+def exact(preset: str, duration: float, edge: str = "", extent: float = math.nan) -> np.ndarray:
+    """Accelerations of the housing at 65,536 Hz from rest, by DOP853.
+
+    `extent` [rad] in place of the defect's own.
+    """
+    times, one = np.arange(round(duration * RATE) + 1) / RATE, problem(preset, edge)
+    if math.isfinite(extent):
+        hurt = replace(one.rows.defect, extent=extent)
+        one = replace(one, rows=replace(one.rows, defect=hurt))
+    return one.accelerations(times, one.solved(one.start(), times))
+
+
+def test_the_march_meets_the_stored_reference() -> None:
+    """Two families at 1e-12 that stop at every event, c = 122 N·s/m: tests/reference/README.md."""
+    stored = np.load(ROOT / "tests/reference/motion_reference.npz")["12.9deg/displacement"][:100]
+    one = replace(problem("fan-rig"), c=122.0)
+    times = np.arange(len(stored)) * 64.0 / RATE
+    found = 1e-6 * one.solved(one.start(), times)[:, :4]
+    swing = np.abs(stored - stored.mean(axis=0)).max()
+    assert np.abs(found - stored).max() < 1e-6 * swing
 
 
 @witness(
     "chart: motion",
-    by="classical Runge-Kutta against SciPy's DOP853, both on Eqs. 6, 18 and 19 written here",
-    compared="three points of the fan rig's chart: RK4 in velocities at 65, 131, 262 kHz, L2 error",
-    within=0.02,
+    by="classical Runge-Kutta against SciPy's DOP853, both on equations written out in `march.py`",
+    compared="three points of every preset's chart: RK4 in velocities from 65,536 Hz on, L2 error",
+    within=2e-3,
 )  # fmt: skip
-@pytest.mark.proof
-def test_points_of_the_motion_chart() -> None:
-    true = exact()
-    for point in chart("motion")["points"]:
-        if point["method"] != "RK4 in velocities" or point["value"] < RATE:
-            continue
+@every_preset
+def test_points_of_the_motion_charts(preset: str) -> None:
+    true, one = exact(preset, 0.1), problem(preset)
+    lever = presets[preset].bearing.groove_center_radius  # a rotation counts as a length
+    size = np.array([1.0, 1.0, 1.0, lever, lever])[list(one.free)]
+    motion = simulate(presets[preset], 0.1, RATE, step_rate=4.0 * RATE)
+    off = size * (motion.instant_acceleration("outer") - true[: len(motion.time)])
+    assert math.sqrt(np.sum(off**2) / np.sum((size * true) ** 2)) < 5e-3
+    points = [p for p in chart("motion", preset)["points"] if p["method"] == "RK4 in velocities"]
+    for point in [p for p in points if p["value"] >= RATE][:3]:
         keep = round(point["value"] / RATE)
         steps = (len(true) - 1) * keep
-        found = marched(at_rest(), 1.0 / point["value"], steps, keep, EXTENT, C)
-        error = math.sqrt(np.sum((found - true) ** 2) / np.sum(true**2))
-        assert error == pytest.approx(point["errors"]["series L2"], rel=0.02), point["setting"]
-        apart = spectra_apart(found, true)
-        assert apart == pytest.approx(point["errors"]["spectrum"], rel=0.05), point["setting"]
+        found = by_runge_kutta(one.start(), 1.0 / point["value"], steps, keep, *one.packed())
+        off = np.sum((size * (found - true)) ** 2)
+        error = math.sqrt(off / np.sum((size * true) ** 2))
+        assert error == pytest.approx(point["errors"]["series L2"], rel=2e-3), point["setting"]
 
 
 @witness(
@@ -187,48 +205,33 @@ def test_points_of_the_angles_chart() -> None:
 
 
 @witness(
-    "chart: models", "edge: exact", "edge: chord",
-    by="SciPy's DOP853 with three edge models, 0.2 s from rest",
-    compared="level of published and chord edges against exact ones [dB]", within="0.01 dB",
+    "chart: models", "edge: exact", "edge: chord", "edge: published",
+    by="SciPy's DOP853 on the equations of `march.py` with three edge models, 0.2 s from rest",
+    compared="levels of two edge models against exact ones, every preset [dB]", within="0.01 dB",
 )  # fmt: skip
-@pytest.mark.proof
-def test_points_of_the_models_chart() -> None:
-    levels = {}
-    for edge, corner in (("published", 0.5), ("chord", 1.0), ("exact", 0.0)):
-        levels[edge] = 10.0 * math.log10(np.mean(exact(corner, 0.2) ** 2))
-    for point in chart("models")["points"]:
-        name = point["method"].removesuffix(" edges")
-        if name in ("published", "chord"):
-            apart = abs(levels[name] - levels["exact"])
-            assert point["errors"]["level"] == pytest.approx(apart, abs=0.01), name
+@every_preset
+def test_points_of_the_models_charts(preset: str) -> None:
+    def level(edge: str) -> float:
+        return 10.0 * math.log10(np.mean(exact(preset, 0.2, edge)[:, :2] ** 2))
+
+    for point in chart("models", preset)["points"]:
+        edge = point["method"].removesuffix(" edges")
+        if edge in ("published", "chord"):
+            apart = abs(level(edge) - level("exact"))
+            assert point["errors"]["level"] == pytest.approx(apart, abs=0.01), edge
 
 
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
-    by="differences of one ball pass integrated by SciPy's DOP853",
-    compared="largest Floquet multiplier at four shaft speeds, two of them of the chart; closure",
-    within=5e-3,
+    by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
+    compared="largest Floquet multiplier at three speeds of every preset's chart", within=5e-3,
 )  # fmt: skip
-@pytest.mark.parametrize("shaft", [21.99, 25.0 * 2.0 * math.pi, 30.0 * 2.0 * math.pi, 300.0])
-def test_multipliers(shaft: float) -> None:
-    scene = presets["fan-rig"].replace(shaft_speed=shaft)
-    found = orbit(scene, step_rate=4.0 * RATE)
-    cage = 0.5 * shaft * (1.0 - 8.0 / 45.0)
-    period = 2.0 * math.pi / 14 / cage
-
-    def passed(y: np.ndarray) -> np.ndarray:
-        made = solve_ivp(
-            rates, (0.0, period), y, "DOP853", args=(EXTENT, cage, C), rtol=1e-11, atol=1e-11,
-            max_step=period / 200.0,
-        )  # fmt: skip
-        return made.y[:, -1]
-
-    start = np.concatenate(
-        [1e6 * found.history[0, [0, 3]].ravel(), 1e3 * found.history[0, [1, 4]].ravel()]
-    )
-    after = passed(start)
-    assert np.abs(after - start).max() < 1e-3 * np.abs(start).max()
-    steps = 1e-4 * np.eye(8)
-    monodromy = np.stack([(passed(start + h) - passed(start - h)) / 2e-4 for h in steps], axis=1)
-    largest = np.abs(np.linalg.eigvals(monodromy)).max()
-    assert found.largest_multiplier == pytest.approx(largest, rel=5e-3, abs=1e-3)
+@every_preset
+def test_points_of_the_orbits_charts(preset: str) -> None:
+    known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
+    for point in known[:: max(len(known) // 3, 1)][:3]:
+        found = problem(preset, shaft=point["shaft_speed"]).multipliers()
+        here = orbit(presets[preset].replace(shaft_speed=point["shaft_speed"]))
+        assert here.largest_multiplier == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3)
+        shown = np.abs([complex(*one) for one in point["multipliers"]]).max()
+        assert shown == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3), point["shaft_speed"]

@@ -66,6 +66,7 @@ def test_loads_and_share_by_brute_force() -> None:
     found = life(SCENE, 14e3)
     assert (found.inner_load, found.outer_load) == pytest.approx((294.76, 308.19), rel=2e-4)
     assert found.share_of_healthy == pytest.approx(0.92893, rel=2e-4)
+    assert "That is 92.9 % of the healthy bearing's life." in found.sentence
     Q_ei, Q_ee = tiring(damaged=True)
     assert (found.inner_load, found.outer_load) == pytest.approx((Q_ei, Q_ee), rel=2e-3)
     sound = tiring(damaged=False)

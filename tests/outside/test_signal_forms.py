@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 import pytest
 from scipy.io import savemat, wavfile
+from scipy.signal import freqs
 
 from bearingcore import (
     Recording,
@@ -22,6 +23,7 @@ from bearingcore import (
     trend_point,
 )
 from bearingcore.diagnosis.trend import LINES
+from bearingcore.dynamics.record import TWO_RESONANCES, Resonance
 from bearingcore.signals.averaging import average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.shaft_tones import without_shaft_tones
@@ -205,3 +207,12 @@ def test_the_bearing_that_ross_is_given(monkeypatch: pytest.MonkeyPatch) -> None
     found = to_ross(case.scene.healthy(), [0.0])
     assert found.kyy[0] == pytest.approx(stiffness[:, 1, 1].mean(), rel=5e-3)
     assert found.kxx[0] == pytest.approx(stiffness[:, 0, 0].mean(), rel=5e-3)
+
+
+@pytest.mark.parametrize("one", TWO_RESONANCES)
+def test_resonances_of_the_path_of_a_simulated_record(one: Resonance) -> None:
+    """SciPy's freqs of an oscillator with one degree of freedom, in its damper's force."""
+    frequency = np.array([0.1, 0.5, 0.98, 1.0, 1.02, 3.0]) * one.frequency
+    w, damper = 2.0 * math.pi * one.frequency, 4.0 * math.pi * one.frequency * one.damping
+    _, known = freqs([damper, 0.0], [1.0, damper, w * w], worN=2.0 * math.pi * frequency)
+    assert one.transfer(frequency) == pytest.approx(known, rel=1e-9)

@@ -38,6 +38,9 @@ SPEEDS = (1e-3, 1e4)
 FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed")
 """Of the form that says it."""
 
+GROUPS = {"bearing": ("bearing", "designation", *FREQUENCIES), "speed": ("speed", "shaft_speed")}
+"""The fields that answer one question, by the first of them."""
+
 KNOWN = (GIVEN, ROUGH)
 SPEED_SOURCES = {
     FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
@@ -79,6 +82,8 @@ class Machine:
         as the page has it; empty of the scene's.
     guessed
         names of "bearing" and "speed" which a file only suggests.
+    kept
+        names of "bearing" and "speed" which a person gave for the file before.
     by_frequencies
         whether the bearing is known by the frequencies of its parts alone: it has no size then.
     """
@@ -89,6 +94,7 @@ class Machine:
     bearing_source: str = GIVEN
     bearing_name: str = ""
     guessed: frozenset[str] = frozenset()
+    kept: frozenset[str] = frozenset()
     by_frequencies: bool = False
 
     def __post_init__(self) -> None:
@@ -104,6 +110,14 @@ class Machine:
         if isinstance(speed, str):
             return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
         return dataclasses.replace(self, shaft_speed=speed)
+
+    def source_of(self, name: str) -> str:
+        """Where "bearing" or "speed" is from, in words; empty where it is not known."""
+        if name in self.guessed:
+            return "assumed, a guess from the file"
+        found = self.bearing_source if name == "bearing" else self.speed_source
+        words = (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(found, "")
+        return f"{words}, for the file before" if name in self.kept else words
 
     @property
     def range(self) -> float | tuple[float, float] | None:
@@ -140,6 +154,26 @@ def guess(contents: FileContents) -> dict[str, str]:
         "designation": "",
         **_bearing(contents),
     }
+
+
+def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
+    """Answers `given` for the file before, where this one, as it was filled in `first`, has none.
+
+    >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
+    {}
+    """
+    silent = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
+    return {field: given[field] for name in silent for field in GROUPS[name]}
+
+
+def answers_of(values: Mapping[str, str], first: Mapping[str, str]) -> dict[str, str]:
+    """The fields of the questions that a person answered otherwise than `first`."""
+    answered = [
+        name
+        for name, fields in GROUPS.items()
+        if values[name] not in (NOT_KNOWN, FILE) and any(values[f] != first[f] for f in fields)
+    ]
+    return {field: values[field] for name in answered for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
@@ -239,8 +273,9 @@ def read_machine(
         if not contents.frequencies:  # known from the collection the file seems to be of
             guessed.add("bearing")
     return Machine(
-        speed, bearing, source, by, name, frozenset(guessed), texts["bearing"] == BY_FREQUENCIES
-    )
+        speed, bearing, source, by, name, frozenset(guessed),
+        by_frequencies=texts["bearing"] == BY_FREQUENCIES,
+    )  # fmt: skip
 
 
 def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:

@@ -44,7 +44,7 @@ class Origin:
 
     `unit` is None where the columns have units of their own, empty where it is not known.
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave.
+    meaning of columns that a person gave, `parts` are the files that were joined to this one.
     """
 
     file: str
@@ -53,6 +53,7 @@ class Origin:
     full_scale: float
     sensitivity: float | None = None
     given: Mapping[int, Column] = field(default_factory=dict)
+    parts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

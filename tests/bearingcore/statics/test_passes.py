@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from bearingcore import presets
-from bearingcore.statics.passes import ball_drop, crossings
+from bearingcore.statics.passes import ball_drop, crossings, path_kinks
+from tests.outside.elements import Defect
 
 FAN_RIG = presets["fan-rig"]
 TURN = 2.0 * math.pi
@@ -34,6 +36,27 @@ def test_between_entry_and_exit_a_ball_sinks_and_nowhere_else(race: str, center_
         outside, inside = (before, after) if crossing.enters else (after, before)
         assert outside == 0.0
         assert inside > 0.0
+
+
+@pytest.mark.parametrize("edge", ["published", "exact"])
+def test_a_path_has_its_corners_where_edge_and_floor_begin(edge: str) -> None:
+    """Four a ball: roots by SciPy of the drop that `elements.py` has of the geometry."""
+    scene = FAN_RIG.replace(edge=edge)
+    hurt = scene.defect
+    own = Defect(hurt.extent, hurt.depth, scene.bearing.outer_raceway_radius, edge)
+
+    def short_of_floor(s: float) -> float:
+        phi = np.array([own.center - 0.5 * own.extent + s])
+        return float(own.drop(phi, scene.bearing.ball_radius)[0]) - own.depth * (1.0 - 1e-12)
+
+    s_floor = brentq(short_of_floor, 0.0, 0.5 * own.extent, xtol=1e-15)
+    corners = (-0.5 * own.extent, s_floor - 0.5 * own.extent)
+    balls = own.center - scene.bearing.ball_spacing * np.arange(14)
+    known = [balls + side * corner for corner in corners for side in (1.0, -1.0)]
+    found = path_kinks(scene, 0.0, scene.bearing.ball_spacing)
+    inside = np.sort(np.concatenate(known) % TURN)
+    inside = inside[inside < scene.bearing.ball_spacing]
+    assert found == pytest.approx(inside, abs=1e-6)
 
 
 def test_a_healthy_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:

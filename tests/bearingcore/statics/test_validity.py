@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Limit, Scene, equilibrium, film, limits, presets, simulate
-from bearingcore.statics.ball_positions import centrifugal_effect
+from bearingcore.statics.ball_positions import ball_positions, centrifugal_effect
 from bearingcore.statics.positions import over_all_positions
 from bearingcore.statics.validity import state_of_limits
 
@@ -77,8 +77,21 @@ def test_what_centrifugal_force_changes_is_measured() -> None:
         effect = centrifugal_effect(scene, angles)
         assert value == pytest.approx(max(effect.load, effect.stiffness), rel=0.3)
     assert values[0] < 0.01 < 0.04 < values[1]
-    assert "separates the contact angles" in found(fast, CHANGE).sentence
+    assert "separates the contact angles" not in found(fast, CHANGE).sentence  # radial: by 0°
+    assert "separates the contact angles" in found(presets["7208-25deg"], CHANGE).sentence
     assert "of a ball, 224 mN," in found(HEALTHY_6205, CHANGE).sentence
+
+
+def test_contact_angles_part_by_those_of_balls_that_carry_a_twentieth_of_the_heaviest_load() -> (
+    None
+):
+    fast = presets["liew-lim"].healthy().replace(shaft_speed=1000.0)
+    angles = np.linspace(0.0, fast.bearing.ball_spacing, 601)
+    loads = ball_positions(fast, angles)
+    heaviest = ball_positions(fast, angles, centrifugal_load=0.0).load.max()
+    counts = (loads.load > 0.05 * heaviest).all(axis=0)
+    parted = np.abs(loads.contact_angle[0] - loads.contact_angle[1])[counts].max()
+    assert centrifugal_effect(fast, angles).contact_angle == pytest.approx(parted, rel=1e-9)
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from bearing_explorer.diagnosis.diagnoses import SLIP, Question
-from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SPEED_SOURCES, Machine
+from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
@@ -116,8 +116,7 @@ def speed_alone(machine: Machine) -> str:
     """The shaft speed, in a sentence, while the bearing is not known."""
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
-    words = "assumed" if "speed" in machine.guessed else SPEED_SOURCES[machine.speed_source]
-    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {words}."
+    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {machine.source_of('speed')}."
 
 
 def assumed(question: Question) -> str:
@@ -140,9 +139,7 @@ def _rpm(speed: float) -> str:
 
 def speed_source(found: Diagnosis, machine: Machine) -> str:
     """Where the shaft speed of an answer is from, in words."""
-    own = SPEED_SOURCES.get(machine.speed_source, "")
-    if "speed" in machine.guessed:
-        own = "assumed, a guess from the file"
+    own = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if found.speed_source.startswith(given):
             return own + found.speed_source.removeprefix(given)
@@ -206,9 +203,7 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
 def _origin(question: Question) -> str:
     """Where the bearing of an answer is from, after a comma."""
     machine, estimated = question.measured.machine, question.bearing.estimated
-    source = "assumed, a guess from the file"
-    if "bearing" not in machine.guessed:
-        source = BEARING_SOURCES[machine.bearing_source]
+    source = machine.source_of("bearing")
     if machine.by_frequencies:
         return f", from its {machine.bearing_name} ({source}); sizes are in proportion only"
     known = "".join(f", {words}" for words in (machine.bearing_name, source) if words)

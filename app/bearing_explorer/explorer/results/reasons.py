@@ -209,6 +209,8 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     if not held:
         return ""
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
+    if scene.holds_tilt_unasked:
+        return f"{names} are held, as by the shaft's other bearing."
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:

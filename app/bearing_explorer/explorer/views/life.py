@@ -46,7 +46,8 @@ FIELDS = (
         1e3,
         1e-3,
         1e5,
-        "Of the whole bearing, with all its rows. Left empty it is computed by ISO 281.",
+        "Of the whole bearing, with all its rows. Left empty it is that of a bearing chosen by its "
+        "number, else computed by ISO 281.",
     ),
     Field(
         "viscosity",
@@ -97,7 +98,7 @@ class LifeOfBearing(View):
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
         self._fields = Fields(self.take)
-        hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
+        hints = {"dynamic_load_rating": "by number, or ISO 281", "viscosity": "not given"}
         self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
         for field in FIELDS:

@@ -36,7 +36,8 @@ def lines_of(view: View[C], content: C) -> str:
         if view.figures or view.computes:
             body.append("drawn.show()  # in the browser")
     text = "\n".join(body)
-    core = [name for name in ("Recording", "Scene", "presets", "read_table", "simulate")
+    known = ("Recording", "Scene", "join_tables", "presets", "read_table", "simulate")
+    core = [name for name in known
             if f"{name}(" in text or f"{name}[" in text or f"{name}." in text]  # fmt: skip
     imports = [
         "import math\n" if "math." in text else "",

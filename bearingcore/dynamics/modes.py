@@ -229,9 +229,7 @@ class BandSearch:
         return found
 
 
-def modes_at(
-    state: Equilibrium, template: Array | None = None, *, nearly: bool = False
-) -> Modes:
+def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
     """The modes at static states that are already known.
 
     They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
@@ -502,8 +500,8 @@ def _nearly_damped(
     """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
 
     In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
-    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix by
-    more than MIXED, or one hardly swings, as `_damped` has it.
+    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
+    by more than MIXED, or one hardly swings, as `_damped` has it.
     """
     c = shape @ C @ np.swapaxes(shape, 1, 2)
     own = np.diagonal(c, axis1=1, axis2=2)

@@ -46,7 +46,7 @@ def test_damping_nearly_is_damping_where_modes_meet_and_balls_come_in(extent: fl
     scene = ANGULAR.replace(extent=extent)
     state = equilibrium(scene, np.linspace(0.0, scene.bearing.period, 1001))
     exact, nearly = modes_at(state), modes_at(state, nearly=True)
-    assert 1e-3 < np.abs(exact.frequency / exact.undamped_frequency - 1.0).max()
+    assert np.abs(exact.frequency / exact.undamped_frequency - 1.0).max() > 1e-3
     np.testing.assert_allclose(nearly.frequency, exact.frequency, rtol=1e-4)
     np.testing.assert_allclose(nearly.damping_ratio, exact.damping_ratio, atol=2e-3)
 

@@ -74,25 +74,26 @@ def test_a_7208_at_speed(angle: int, rpm: int) -> None:
     "ball bearing: limits", "function: limits",
     by="Jones's equations with the gyroscopic moment held at the outer race (λ_o = 2)",
     compared="by how much it turns the outer contact of the five spindles of OpenJones",
-    within=0.4,
+    within=0.05,
 )  # fmt: skip
 @spindles
 def test_the_limit_says_by_how_much_the_gyroscopic_moment_turns_the_contacts(name: str) -> None:
-    """0.7 to 3.6°: said is at least what it is, and at most 1.4 times as much."""
+    """0.7 to 3.6°, and at half the speed 0.2 to 2.1°, off by up to 12 %."""
     case, thrust, radial, rpm = CASES[name]
-    speed = rpm * math.pi / 30.0
-    without, with_moment = (
-        case.solve(thrust, radial, speed, gyroscopic=one) for one in (False, True)
-    )
-    heavy = without[0][1] > 0.5 * without[0][1].max()
-    turned = float(np.abs(with_moment[1][1] - without[1][1])[heavy].max())
-    scene = scene_of(case, thrust, radial, speed)
-    (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
-    assert turned <= said.value <= (1.0 + 0.4) * turned
-    assert said.crossed == (said.value > 0.02)
+    full = rpm * math.pi / 30.0
+    for speed, within in ((full, 0.05), (0.5 * full, 0.12)):
+        without, with_moment = (
+            case.solve(thrust, radial, speed, gyroscopic=one) for one in (False, True)
+        )
+        heavy = without[0][1] > 0.5 * without[0][1].max()
+        turned = float(np.abs(with_moment[1][1] - without[1][1])[heavy].max())
+        scene = scene_of(case, thrust, radial, speed)
+        (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+        assert said.value == pytest.approx(turned, rel=within)
+        assert said.crossed == (said.value > 0.02)
     slow = [
         one
-        for one in limits(scene.replace(shaft_speed=0.05 * speed))
+        for one in limits(scene.replace(shaft_speed=0.05 * full))
         if one.name == GYROSCOPIC_MOMENT
     ]
     assert not slow[0].crossed

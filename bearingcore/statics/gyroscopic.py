@@ -19,13 +19,15 @@ A ball rolls about an axis that the cage carries round, for which it takes the m
     ω_c = ω_s (1 − γ' cos α_i)/(1 + cos(α_o − α_i)),
 
 where the ball does not spin on the outer race. Friction at that race gives it as a force
-T = 2 M_g/D across the groove: T/Q_o is the friction that it takes. It is more than the angle by
-which the outer contact turns: as that turns, the ball rises or sinks between the grooves, and the
+T = 2 M_g/D across the groove: T/Q_o is the friction that it takes, and at most the angle by which
+the outer contact turns. It is less under thrust: as that turns, the ball rises or sinks between the grooves, and the
 inner contact turns the other way, dα_i = −(l_o sin α_o)/(l_i sin α_i) dα_o. What a ball carries
 along the shaft stays, so that its radial part at the inner race changes, and with it the direction
 of its load at the outer one:
 
     dα_o = T/Q_o / (1 + (l_o/l_i) (sin α_o/sin α_i)³).
+
+Beside a radial load as large as the thrust, in which the ring moves too, it is up to twice this.
 
 Source: A. B. Jones, J. Basic Engineering 82 (1960) 309-322; Harris, Rolling Bearing Analysis,
 chapter "Bearing deflections, preloading": "Race control".
@@ -48,7 +50,8 @@ from bearingcore.statics.limit import Limit, unknown, upper_limit
 GYROSCOPIC_MOMENT = "gyroscopic moment"
 
 LIMIT = 0.02
-"""[rad] by which the outer contact turns, a degree."""
+"""Of the load: friction between ball and race holds so much (Harris), and the outer contact turns
+by a degree at the most."""
 
 HEAVY = 0.5
 """Part of the heaviest load from which a ball counts: what others carry matters little."""
@@ -57,12 +60,14 @@ _ANGLES, _ROUNDS = 13, 3
 
 
 class _Gyroscopic(NamedTuple):
-    """The greatest turn [rad] of heavily loaded balls, T/Q_o, M_g [N·m] and Q_o [N] of that one."""
+    """The greatest T/Q_o of heavily loaded balls, M_g [N·m] and Q_o [N] of that one, and the
+    greatest turn [rad] under thrust.
+    """
 
-    turn: float
     share: float
     moment: float
     load: float
+    turn: float
 
 
 def gyroscopic_limit(scene: Scene) -> Limit | None:
@@ -80,34 +85,35 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
         return unknown(
             GYROSCOPIC_MOMENT, LIMIT, "", "no cage angle has a static state with centrifugal load"
         )
-    if found.turn < 1e-9:
+    if found.share < 1e-9:
         return None
     fact = (
         "The gyroscopic moment of a heavily loaded ball, "
         f"{with_prefix(found.moment, 'N·m')}, takes a force across the groove of "
         f"{percent(found.share, 3)} of its load of {with_prefix(found.load, 'N')}; left out, it "
-        f"would turn the outer contact by up to about {number(math.degrees(found.turn), 2)}°"
+        f"would turn the outer contact by {number(math.degrees(found.turn), 3)}° under thrust "
+        f"alone, at most by {number(math.degrees(found.share), 2)}°"
     )
-    speed = _speed_of_limit(scene, found.turn)
-    if found.turn <= LIMIT and math.isfinite(speed):
+    speed = _speed_of_limit(scene, found.share)
+    if found.share <= LIMIT and math.isfinite(speed):
         fact += f", and from about {thousands(speed * 30.0 / math.pi)} rpm on by a degree"
     beyond = ", more than the degree up to which it may be left out."
-    return upper_limit(GYROSCOPIC_MOMENT, found.turn, LIMIT, "", fact, beyond, ".")
+    return upper_limit(GYROSCOPIC_MOMENT, found.share, LIMIT, "", fact, beyond, ".")
 
 
-def _speed_of_limit(scene: Scene, turn: float) -> float:
-    """Shaft speed [rad/s] at which the turn reaches the limit; NaN where none is found nearby."""
+def _speed_of_limit(scene: Scene, share: float) -> float:
+    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is found nearby."""
     speed = scene.shaft_speed
     for _ in range(_ROUNDS):
-        speed *= math.sqrt(LIMIT / turn)
+        speed *= math.sqrt(LIMIT / share)
         try:
             found = _greatest(scene.replace(shaft_speed=speed))
         except ValueError:
             return math.nan
-        if found is None or not found.turn > 0.0:
+        if found is None or not found.share > 0.0:
             return math.nan
-        turn = found.turn
-    return speed if abs(turn / LIMIT - 1.0) < 0.2 else math.nan
+        share = found.share
+    return speed if abs(share / LIMIT - 1.0) < 0.2 else math.nan
 
 
 def _greatest(scene: Scene) -> _Gyroscopic | None:
@@ -142,6 +148,6 @@ def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic
     l_i, l_o = bearing.kind.race_distances(bearing)
     risen = l_i * np.sin(inner) ** 3
     back = np.divide(l_o * np.sin(outer) ** 3, risen, out=np.zeros_like(risen), where=risen > 0.0)
-    found = share / (1.0 + back), share, moment, load[carries]
-    worst = int(np.argmax(found[0]))
-    return _Gyroscopic(*(float(values[worst]) for values in found))
+    worst = int(np.argmax(share))
+    own = (float(values[worst]) for values in (share, moment, load[carries]))
+    return _Gyroscopic(*own, float((share / (1.0 + back)).max()))

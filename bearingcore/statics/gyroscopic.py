@@ -20,10 +20,10 @@ A ball rolls about an axis that the cage carries round, for which it takes the m
 
 where the ball does not spin on the outer race. Friction at that race gives it as a force
 T = 2 M_g/D across the groove: T/Q_o is the friction that it takes, and at most the angle by which
-the outer contact turns. It is less under thrust: as that turns, the ball rises or sinks between the grooves, and the
-inner contact turns the other way, dα_i = −(l_o sin α_o)/(l_i sin α_i) dα_o. What a ball carries
-along the shaft stays, so that its radial part at the inner race changes, and with it the direction
-of its load at the outer one:
+the outer contact turns. Under thrust that is less: as it turns, the ball rises or sinks between the
+grooves, and the inner contact turns the other way, by (l_o sin α_o)/(l_i sin α_i) times as much.
+What a ball carries along the shaft stays, so that its radial part at the inner race changes, and
+with it the direction of its load at the outer one:
 
     dα_o = T/Q_o / (1 + (l_o/l_i) (sin α_o/sin α_i)³).
 
@@ -149,5 +149,9 @@ def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic
     risen = l_i * np.sin(inner) ** 3
     back = np.divide(l_o * np.sin(outer) ** 3, risen, out=np.zeros_like(risen), where=risen > 0.0)
     worst = int(np.argmax(share))
-    own = (float(values[worst]) for values in (share, moment, load[carries]))
-    return _Gyroscopic(*own, float((share / (1.0 + back)).max()))
+    return _Gyroscopic(
+        float(share[worst]),
+        float(moment[worst]),
+        float(load[carries][worst]),
+        float((share / (1.0 + back)).max()),
+    )

@@ -4,8 +4,8 @@
 
 FOLDER is a checkout of github.com/minzhun/ISO16281. ROSS (`ross-rotordynamics`) and EXUDYN
 (`exudyn`) come from PyPI, best into an environment of their own; none of them is needed by anything
-else. Equations of motion are those written down for `tests/outside/test_sampling.py`: EXUDYN and
-SciPy integrate them as they stand, compiled by numba.
+else. Equations of motion are those of `tests/outside/march.py`: EXUDYN and SciPy integrate them as
+they stand, compiled by numba.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ from bearingcore import Load, Scene, equilibrium, life, presets, simulate
 from bearingcore.common.numbers import number, scientific, with_prefix
 from bearingcore.experiments.points import least_time
 from tests.benchmarks.charts import DOCUMENT, put
-from tests.outside.test_sampling import CAGE, DAMPING, EXTENT, rates
+from tests.outside.march import rates
+from tests.outside.test_charts import problem
 
 MARK = "peers"
 DURATION, RATE = 0.1, 65_536.0
@@ -138,15 +139,13 @@ def by_integrators() -> Iterator[Row]:
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
 
-    rig = presets["fan-rig"].replace(contact_damping=DAMPING)
+    rig, one = presets["fan-rig"], problem("fan-rig")
     motion, own_seconds, _ = least_time(lambda: simulate(rig, DURATION, RATE).outer_displacement)
-    first = simulate(rig, 1e-3)
-    start = 1e6 * np.concatenate([first.inner_displacement[0], first.outer_displacement[0]])
-    start = np.concatenate([start, np.zeros(4)])
+    start, packed = one.start(), one.packed()
 
     def solved(method: str, tolerance: float) -> NDArray[np.float64]:
         made = solve_ivp(
-            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS, args=(EXTENT, CAGE, DAMPING),
+            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS, args=packed,
             rtol=tolerance, atol=tolerance, max_step=1e-4,
         )  # fmt: skip
         return made.y[2:4].T
@@ -163,8 +162,7 @@ def by_integrators() -> Iterator[Row]:
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        state = np.concatenate([np.asarray(q), 1e-3 * np.asarray(v)])
-        return 1e3 * rates(t, state, EXTENT, CAGE, DAMPING)[4:]
+        return rates(t, np.concatenate([np.asarray(q), np.asarray(v)]), *packed)[4:]
 
     def multibody(solver: Any, steps: int) -> NDArray[np.float64]:
         system = exudyn.SystemContainer()
@@ -208,12 +206,12 @@ def by_integrators() -> Iterator[Row]:
 def by_root_finder() -> Iterator[Row]:
     """31 cage angles of the fan rig with its defect, forces of numpy, each from the last."""
     cage = np.linspace(0.0, 2.0 * math.pi / 14, 31)
-    spacing = 2.0 * math.pi / 14 * np.arange(14)
+    hurt, spacing = math.radians(12.9), 2.0 * math.pi / 14 * np.arange(14)
 
     def gaps(turned: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         phi = turned + spacing
         away = (phi - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
-        inside = np.maximum(0.5 * EXTENT - np.abs(away), 0.0)
+        inside = np.maximum(0.5 * hurt - np.abs(away), 0.0)
         half = np.minimum(0.5 * 26.5e-3 * inside, 4e-3)
         drop = np.minimum(4e-3 - np.sqrt(16e-6 - half**2), 50e-6)
         return np.stack([np.cos(phi), np.sin(phi)]), 3e-6 + drop

@@ -506,7 +506,7 @@ class Measurement:
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """The recordings of the series; for any thread."""
         given = self.state.values
-        kept = {name: text for name, text in self._kept.items() if given[name] == text}
+        kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
         changed = {
             name: text for name, text in given.items()
             if text != self._first.get(name) and name not in kept

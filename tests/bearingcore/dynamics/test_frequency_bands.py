@@ -141,6 +141,14 @@ def test_bands_do_not_depend_on_the_samples() -> None:
     assert abs(samples[1] - fine[1]) > 5.0 * abs(coarse[1] - fine[1])
 
 
+@pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205", "nu208"])
+def test_coarse_bands_of_a_turning_defect_are_within_a_hundredth(name: str) -> None:
+    scene = presets[name].replace(race="inner")
+    coarse, fine = (frequency_bands(scene, coarse=coarse) for coarse in (True, False))
+    for label, ends in fine.items():
+        assert coarse[label] == pytest.approx(ends, rel=0.01), label
+
+
 def test_without_an_answer_there_is_no_band() -> None:
     found = frequency_bands(RIG.replace(fy=0.0))
     assert list(found) == list(frequency_bands(RIG))

@@ -35,7 +35,7 @@ _MOST_BALLS = 60
 
 
 REPORTED = {
-    "machine": ("Machine", "fan 3, motor side"),
+    "machine": ("Name of the machine", "fan 3, motor side"),
     "point": ("Measuring point", "drive end, vertical"),
     "date": ("Date of the recording", "26 November 2026"),
 }

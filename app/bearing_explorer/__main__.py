@@ -118,17 +118,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
-    import bearingcore
+    from bearingcore import warm
+    from bearingcore.kernels import kept_on_disk
 
     gc.freeze()
     gc.enable()
     lessons_of(chosen.lessons)  # kept: the first page need not read them
-    if not bearingcore.kernels.kept_on_disk():
+    if not kept_on_disk():
         _say(NOT_KEPT)
     if not compiling.all_on_disk():
         _say("Compiling the kernels, once; pages show the default scene meanwhile ...")
     if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
-        bearingcore.warm(report=_say)
+        warm(report=_say)
 
     # With several processes this one only waits for them, inside `serve`.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))

@@ -146,6 +146,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
         "figures_script": "" if PLAIN else asset_text("fast_figures.js"),
         "python_install": PYTHON_INSTALL,
         "scene": scene is not None,
+        "signal": signal is not None,
         "page_script": scripts("element.js", "page.js"),
         **{name: helps.get(name, "") for name in ("glossary", "bearing_picture", "python_lines")},
     }.items():

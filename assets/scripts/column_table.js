@@ -2,9 +2,9 @@
 // roles of all: a role that only one column can have leaves the one that had it.
 export function render({ model }) {
   const head = element("tr"), named = element("tr"), body = element("tbody")
-  const caption = element("caption")
-  const table = element("table", {}, caption, element("thead", {}, head, named), body)
-  const root = element("div", { class: "columns", role: "region", tabindex: "0", "aria-label": "First lines of the file" }, table)
+  const caption = element("p")
+  const table = element("table", {}, element("thead", {}, head, named), body)
+  const root = element("div", { class: "columns", role: "region", tabindex: "0", "aria-label": "First lines of the file" }, caption, table)
   let names = ""
   const make = () => {
     const { names: all, places, lines, rows } = model.shown

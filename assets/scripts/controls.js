@@ -5,7 +5,8 @@ const TURN_RATE = 18      // degrees of cage angle a second while playing
 const IDLE_RATE = 6       // the same by itself, but not while a hand is at work ...
 const IDLE_TIME = 60e3    // ms, and so long after the last touch
 const HAND_TIME = 2500    // ms after a touch in which what it changed is seen, and read out, at rest
-const IDLE_PAUSE = 10     // times what a picture takes the server, which many pages may share
+const IDLE_STEP = 80      // ms between two angles then, half a degree ...
+const IDLE_PAUSE = 10     // ... and times what a picture takes the server, which many pages may share
 const TOUCHES = ["pointerdown", "pointerup", "pointercancel", "keydown", "wheel"]
 const LENGTHENING = 1200  // ms in which the defect grows by a ball spacing
 const LARGEST_FILE = 1e6  // bytes of a measured floor
@@ -31,22 +32,28 @@ export function render({ model }) {
       toggle.innerHTML = `<svg viewBox="0 0 12 12" aria-hidden="true"><path d="${playing ? PAUSE : PLAY}"/></svg>`
       announce("turning", idle)
       last = performance.now()
-      if (playing) requestAnimationFrame(turn)
+      if (playing) next()
+    }
+    // By itself it turns a few times a second, and asks for no frames in between.
+    const pause = () => idle ? Math.max(IDLE_STEP, 1000 * IDLE_PAUSE * window.__worked) : 30
+    const next = () => {
+      const frame = () => requestAnimationFrame(turn)
+      idle ? setTimeout(frame, last + pause() - performance.now()) : frame()
     }
     const toggle = button("", () => set_playing(!playing), { class: "play" })
     const turn = (now) => {
       if (!playing || !toggle.isConnected) return
       if (idle && now < at_work) {
         last = now
-        return requestAnimationFrame(turn)
+        return next()
       }
       if (idle && at_work) {
         at_work = 0
         announce("turning", true)
       }
-      const passed = now - last, pause = idle ? Math.max(60, 1000 * IDLE_PAUSE * window.__worked) : 30
+      const passed = now - last
       // The next angle is asked for when the last one is drawn: turning never outruns drawing.
-      if (panel.drawn() && passed >= pause) {
+      if (panel.drawn() && passed >= pause()) {
         last = now
         const by = (idle ? IDLE_RATE : TURN_RATE) * Math.min(passed, 250) / 1000
         const angle = Number(((values[name] + by) % 360).toFixed(3))
@@ -54,7 +61,7 @@ export function render({ model }) {
         rows[name].number.value = format(Number(angle.toFixed(1)), panel.limits[name].step)
         idle ? send({ set: { [name]: angle }, turning: true }) : panel.push(name, angle)
       }
-      requestAnimationFrame(turn)
+      next()
     }
     const wait = (event) => {  // space and the button stop it themselves
       if (!idle || event.key === " " || event.composedPath().includes(toggle)) return

@@ -92,19 +92,29 @@ function unfit(text, largest) {
   return ""
 }
 
-// Reads the text file that is chosen in `input` and sends its name and text.
-function sends_text(input, largest, say, send) {
-  input.addEventListener("change", async () => {
-    const [chosen] = input.files
-    if (!chosen) return
-    if (chosen.size > largest) say(`${chosen.name} is larger than ${largest / 1e6} MB.`, true)
+// Whether the name of a file is that of a scene.
+const is_scene_name = (name) => name.toLowerCase().endsWith(".toml")
+
+const SCENE_LINE = /^\s*(\[[\w.[\]]+\]|\w+\s*=)/m
+
+// Reads the text file that is chosen in `input` and sends its name and text; returns a function that
+// does so with another file. `other`, if any, takes files that hold no lines of a scene.
+function sends_text(input, largest, say, send, other) {
+  const take = async (chosen) => {
+    const named = !other || is_scene_name(chosen.name)
+    if (chosen.size > largest) named ? say(`${chosen.name} is larger than ${largest / 1e6} MB.`, true) : other(chosen)
     else {
       say(`Reading ${chosen.name} …`)
       const text = await chosen.text()
       const why = unfit(text, largest)
-      if (why) say(`${chosen.name} ${why}. Nothing has changed.`, true)
+      if (!named && (why || !SCENE_LINE.test(text))) other(chosen)
+      else if (why) say(`${chosen.name} ${why}. Nothing has changed.`, true)
       else send({ name: chosen.name, text })
     }
+  }
+  input.addEventListener("change", async () => {
+    if (input.files[0]) await take(input.files[0])
     input.value = ""  // so that the same file can be chosen again
   })
+  return take
 }

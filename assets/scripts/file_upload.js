@@ -4,15 +4,16 @@ export function render({ model }) {
   const input = (id, more) => element("input", { type: "file", id, "aria-describedby": "measurement-note", ...more })
   const files = input("measurement-file", { multiple: "" })
   const folder = input("measurement-folder", { webkitdirectory: "" })
+  const sound = input("measurement-baseline", { tabindex: "-1", "aria-hidden": "true" })
   const bar = element("progress", { "aria-label": "Upload", max: "1", value: "0" })
   const root = element("div", { class: "upload" },
     element("div", { class: "line" },
       files, element("label", { for: files.id }, "Choose a file …"),
-      folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), bar),
+      folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), sound, bar),
     element("p", { id: "measurement-note" }, model.note))
   const { compare } = new Intl.Collator(undefined, { numeric: true })
   const place = (file) => file.webkitRelativePath || file.name
-  let queue = [], count = 0, chosen = 0, source = null, upload = 0
+  let queue = [], count = 0, chosen = 0, source = null, upload = 0, baseline = false
   const show = (share) => {
     bar.hidden = !source && !queue.length
     bar.value = count ? (count - queue.length - 1 + share) / count : 0
@@ -22,10 +23,12 @@ export function render({ model }) {
     if (!file) return
     source = file.size <= model.largest ? file : null
     show(0)
-    model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen })
+    model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen, baseline })
   }
-  const begin = (list) => {
+  const begin = (list, is_baseline = false) => {
+    baseline = is_baseline
     const all = [...list ?? []].filter((file) => !file.name.startsWith("."))
+    if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
     all.sort((one, other) => compare(place(one), place(other)))
     chosen = all.length
     count = Math.min(chosen, model.most)
@@ -50,8 +53,9 @@ export function render({ model }) {
     show(last / sent.size)
     model.send_msg({ type: "piece", content: piece, of })
   })
-  for (const one of [files, folder]) one.addEventListener("change", () => {
-    begin(one.files)
+  on_event("choose-files", root, (which) => ({ baseline: sound, several: files })[which]?.click())
+  for (const one of [files, folder, sound]) one.addEventListener("change", () => {
+    begin(one.files, one === sound)
     one.value = ""  // so that the same can be chosen again
   })
   for (const kind of ["dragover", "dragleave", "drop"]) root.addEventListener(kind, (event) => {
@@ -59,6 +63,11 @@ export function render({ model }) {
     root.classList.toggle("over", kind === "dragover")
     if (kind === "drop") begin(event.dataTransfer?.files)
   })
+  on_event("signal-file", root, ({ file, taken }) => {
+    taken()
+    begin([file])
+  })
   show(0)
+  setTimeout(() => announce("upload-ready"), 0)  // once it is on the page
   return root
 }

@@ -136,6 +136,40 @@
   for (const event of ["tab", "drawn", "lesson"]) on_event(event, root, enlarge_soon)
   on_event("projector", root, enlarge_words)
 
+  // A file that was brought to the place of another kind, or dropped anywhere: a scene goes to the bar
+  // above the controls, everything else may be a signal.
+  const brought = part("other-file")
+  let kept_file = null
+  const offer = (file, is) => {
+    const [words, act] = brought.querySelectorAll("p, .main")
+    const scene = is === "scene"
+    words.textContent = scene ? `“${file.name}” may be a scene.` : `“${file.name}” may be a measured signal.`
+    act.textContent = scene ? "Open the scene" : "Diagnose it"
+    act.onclick = () => {
+      brought.hidden = true
+      if (scene) return announce("scene-file", file)
+      kept_file = file
+      announce("show", "diagnosis")
+      hand_over()
+    }
+    brought.hidden = false
+    brought.scrollIntoView({ block: "nearest" })
+    room()
+  }
+  const hand_over = () => announce("signal-file", { file: kept_file, taken: () => { kept_file = null } })
+  if (brought) {
+    on_event("other-file", root, ({ file, is }) => offer(file, is))
+    on_event("upload-ready", root, () => { if (kept_file) hand_over() })
+    brought.querySelector(".close").addEventListener("click", () => { brought.hidden = true; room() })
+    for (const kind of ["dragover", "drop"]) window.addEventListener(kind, (event) => {
+      const dropped = event.dataTransfer?.types.includes("Files") && !event.defaultPrevented
+      if (!dropped) return
+      event.preventDefault()  // the browser would leave the page for the file
+      const [file] = event.dataTransfer.files
+      if (kind === "drop" && file) offer(file, is_scene_name(file.name) ? "scene" : "signal")
+    })
+  }
+
   // While the bearing turns by itself nothing is read out.
   on_event("turning", main, (idle) => main.setAttribute("aria-busy", String(idle)))
 

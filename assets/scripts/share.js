@@ -48,7 +48,12 @@ export function render({ model }) {
     if (sentence) root.querySelector(":popover-open")?.hidePopover()
   }
   link.addEventListener("focus", () => link.select())
-  sends_text(part("scene-file"), LARGEST_FILE, say, (file) => ask(model, { file }))
+  const take_scene = sends_text(part("scene-file"), LARGEST_FILE, say, (file) => ask(model, { file }),
+    (file) => {
+      say("")
+      announce("other-file", { file, is: "signal" })
+    })
+  on_event("scene-file", root, take_scene)
 
   // Scenes with names that are drawn too, and those that are kept
   part("compare-form").addEventListener("submit", (event) => {

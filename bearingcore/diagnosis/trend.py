@@ -142,7 +142,7 @@ class Trend:
     @property
     def hours(self) -> NDArray[np.float64]:
         """Time (k,) since the first recording [h], by dates in all names; NaN without."""
-        times = [_time_in(point.name) for point in self.points]
+        times = [time_in(point.name) for point in self.points]
         first = times[0] if times else None
         if first is None:
             return np.full(len(times), math.nan)
@@ -273,7 +273,7 @@ def trend_point(
     )
 
 
-def _time_in(name: str) -> datetime | None:
+def time_in(name: str) -> datetime | None:
     """Date and time in a name, if there is exactly one."""
     found = _TIME.findall(name)
     if len(found) != 1:

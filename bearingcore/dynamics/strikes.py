@@ -47,7 +47,7 @@ def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
     )
 
 
-def strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
+def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
     """All strikes of balls with such loads, in the order of time.
 
     A contact that is closed at the first time has not been seen to strike.

@@ -3,42 +3,51 @@
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """
 
+from bearingcore.experiments.balls import ERRORS
+from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.measurements import (
-    Machine,
+    NAMES,
+    ORBITS,
+    STABILITY,
     Measurements,
     measure,
     measurements_from,
 )
-from bearingcore.experiments.models import models_experiment
+from bearingcore.experiments.models import EXACT, FULL, MODEL_ERRORS, SETTLED
 from bearingcore.experiments.motions import motion_experiment
-from bearingcore.experiments.points import Experiment, Point, Reference, Watch
-from bearingcore.experiments.stability import (
-    OrbitAtSpeed,
-    StabilityChart,
-    Trial,
-    linear_limits,
-    orbits_over_speed,
-    stability_chart,
-)
-from bearingcore.experiments.statics import angles_experiment, statics_experiment
+from bearingcore.experiments.points import Experiment, Point, Reference
+from bearingcore.experiments.references import MOTION_ERRORS
+from bearingcore.experiments.simpler_models import SPECTRUM, Alternative, Alternatives, alternatives
+from bearingcore.experiments.stability import FIXED_STEP, VERDICTS, OrbitAtSpeed, StabilityChart
+from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
 
 __all__ = [
+    "ANGLE_ERRORS",
+    "CASES",
+    "ERRORS",
+    "EXACT",
+    "FIXED_STEP",
+    "FULL",
+    "METHODS",
+    "MODEL_ERRORS",
+    "MOTION_ERRORS",
+    "NAMES",
+    "ORBITS",
+    "SETTLED",
+    "SPECTRUM",
+    "STABILITY",
+    "STATIC_ERRORS",
+    "VERDICTS",
+    "Alternative",
+    "Alternatives",
     "Experiment",
-    "Machine",
     "Measurements",
     "OrbitAtSpeed",
     "Point",
     "Reference",
     "StabilityChart",
-    "Trial",
-    "Watch",
-    "angles_experiment",
-    "linear_limits",
+    "alternatives",
     "measure",
     "measurements_from",
-    "models_experiment",
     "motion_experiment",
-    "orbits_over_speed",
-    "stability_chart",
-    "statics_experiment",
 ]

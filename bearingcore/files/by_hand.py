@@ -9,7 +9,7 @@ from typing import Any
 
 from bearingcore.common import checks
 from bearingcore.files.channels import OTHER, SIGNAL, SPEED, TIME, Column
-from bearingcore.files.table import Table, read_table
+from bearingcore.files.table import Table, path_in, read_table
 from bearingcore.files.units import SPEEDS
 from bearingcore.signals.recording import Recording
 
@@ -69,7 +69,7 @@ def read_recording(
     """
     if content is None:
         try:
-            content = Path(file).read_bytes()
+            content = Path(path_in(os.fspath(file))).read_bytes()
         except OSError as error:
             raise checks.refuse(
                 "file", os.fspath(file), f"one to read ({error.strerror})"

@@ -29,11 +29,14 @@ def limit(seconds: int, memory: int) -> None:
             resource.setrlimit(kind, soft_and_hard)
 
 
-def without_front() -> None:
-    """Let modules of the package be imported without its front, which would load all solvers."""
-    package = ModuleType("bearingcore")
-    package.__path__ = [str(Path(__file__).parents[1])]
-    sys.modules["bearingcore"] = package
+def without_fronts() -> None:
+    """Let modules be imported without the fronts of their packages, which load all solvers."""
+    front = Path(__file__).parents[1]
+    for folder in (front, *(path.parent for path in front.glob("*/__init__.py"))):
+        name = ".".join(folder.relative_to(front.parent).parts)
+        package = ModuleType(name)
+        package.__path__ = [str(folder)]
+        sys.modules[name] = package
 
 
 def main() -> None:
@@ -42,7 +45,7 @@ def main() -> None:
         sys.stdin.buffer.readline()
     )
     limit(seconds, memory)
-    without_front()
+    without_fronts()
     from bearingcore.errors import FieldError
     from bearingcore.files.formats import read
 

@@ -27,7 +27,7 @@ from bearingcore.files.channels import (
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
-from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, UNITS
+from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 USUAL_LEVEL = 5.0
@@ -233,11 +233,11 @@ def _columns(
         columns[index] = column
     if any(column.role == TIME for column in table.given.values()):
         time = next(index for index, column in table.given.items() if column.role == TIME)
-        unit = columns[time].unit
-        found = times_of(table.columns[:, time], unit)
-        return tuple(columns), dataclasses.replace(
-            found, stated=found.stated or (unit is not None and found.sample_rate is not None)
-        )
+        unit, values = columns[time].unit, table.columns[:, time]
+        if unit is None:
+            return tuple(columns), times_of(values)
+        found = sampling_of(values, TIMES[unit])
+        return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
     if stamped:
         return tuple(columns), times_of(table.columns[:, stamped[0]], "s")
     return _with_times(table, columns)
@@ -348,18 +348,22 @@ def _unit(
         return Finding("m/s²", "nothing says it", False, supported=False)
     if table.full_scale_known is False:
         return Finding("m/s²", "nothing says what full scale is", False, supported=False)
-    return _unit_by_level(table.columns[:, list(picked)])
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
 
 
-def _unit_by_level(signals: NDArray[np.float64]) -> Finding[str]:
-    """The unit in which signals are more like those of bearings."""
+def _unit_by_level(signals: NDArray[np.float64], all_signals: NDArray[np.float64]) -> Finding[str]:
+    """The unit in which signals are more like those of bearings; gravity may be on any of all."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
-        means = np.abs(finite.mean(axis=0))
         level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
-    for unit, gravity in (("g", 1.0), ("m/s²", STANDARD_GRAVITY)):
-        if np.any((np.abs(means / gravity - 1.0) < GRAVITY_SHARE) & (level < gravity)):
-            return Finding(unit, f"a mean of {number(means.max())} is gravity in {unit}", False)
+        means = np.abs(np.where(np.isfinite(all_signals), all_signals, 0.0).mean(axis=0))
+    for unit in ("g", "m/s²", "mm/s²"):
+        gravity = STANDARD_GRAVITY / ACCELERATIONS[unit]
+        standing = means[np.abs(means / gravity - 1.0) < GRAVITY_SHARE]
+        if standing.size and level < gravity:
+            words = f"a mean of {number(float(standing[0]))} is gravity in {unit}"
+            return Finding(unit, words, False)
     if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False, supported=False)
     strays = {

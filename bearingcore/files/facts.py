@@ -230,6 +230,9 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     return None
 
 
+_OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|full")
+
+
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
     found: list[Finding[float]] = []
@@ -239,7 +242,7 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if not (math.isfinite(value) and value > 0.0):
             continue
         words = f"“{one.name}” in the file"
-        if "rpm" in key or (one.unit == "rpm" and key in _SPEEDS | {"n"}):
+        if "rpm" in key or (one.unit == "rpm" and not _OTHER_SPEED.search(one.name)):
             found.append(Finding(value * SPEEDS["rpm"], words, file_unit="rpm"))
         elif key in _FREQUENCIES:
             unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
@@ -259,11 +262,12 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
-        found.append(Finding(float(match[1]) * SPEEDS["rpm"], words, file_unit="rpm"))
+        turning = float(match[1]) * SPEEDS["rpm"]
+        found.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
     if not found:
         return None
-    first = next((one for one in found if one.stated), found[0])
-    if any(one.stated and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+    first = next((one for one in found if one.stated), found[-1])
+    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
         reason = f"{first.reason}, which names another one too"
         return dataclasses.replace(first, reason=reason, stated=False)
     return first

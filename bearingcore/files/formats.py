@@ -50,9 +50,11 @@ def read(
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
-        inside, content = libraries.unzipped(name, content)
-        about, columns = read(inside, content, most_numbers, most_columns)
-        return {"name": f"{name.removesuffix('/' + inside)}/{inside}", **about}, columns
+        names, content = libraries.unzipped(name, content)
+        if len(names) > 1:
+            return {"inside": names}, np.empty((0, 0))
+        about, columns = read(names[0], content, most_numbers, most_columns)
+        return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()

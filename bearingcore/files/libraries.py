@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 MOST_UNPACKED = 2**28
 """[bytes] of a file in a zip."""
 
+MOST_INSIDE = 1000
+"""Files in a zip that are named."""
+
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
 
@@ -50,13 +53,16 @@ def library_for(name: str, content: bytes) -> tuple[str, Callable[[bytes, Variab
     return None
 
 
-def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
-    """Name and content of the file in a zip, or of the one that the end of `name` says.
+def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
+    """The names of the files in a zip, and the content of the one that is to be read.
+
+    That is the only one, or the one that the end of `name` says; of several none of which is named
+    the content is empty.
 
     Raises
     ------
     FieldError
-        for a damaged zip, or one of several files none of which is named.
+        for a damaged zip, or an empty one.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
@@ -69,14 +75,10 @@ def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
-            if len(named or files) != 1:
-                some = ", ".join(one.filename for one in files[:6])
-                raise checks.refuse(
-                    "file",
-                    name,
-                    f"a zip of one file, not of {len(files)} ({some}): unpack it, or write which "
-                    f"one after the zip's name, as in {name}/{files[0].filename if files else ''}",
-                )
+            if not files:
+                raise checks.refuse("file", name, "a zip with a file in it")
+            if len(named or files) > 1:
+                return [one.filename for one in files[:MOST_INSIDE]], b""
             one = (named or files)[0]
             if one.file_size > MOST_UNPACKED:
                 raise checks.refuse(
@@ -85,7 +87,7 @@ def unzipped(name: str, content: bytes) -> tuple[str, bytes]:
             inside = packed.read(one)
             if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
                 raise checks.refuse("file", name, "no zip inside a zip: unpack it")
-            return one.filename, inside
+            return [one.filename], inside
     except (FieldError, MemoryError):
         raise
     except Exception:  # a damaged zip raises almost anything in there

@@ -9,6 +9,7 @@ What is said by hand, with `Table.with_columns` or in `read_recording`, goes bef
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -248,6 +249,32 @@ class Table(FileColumns):
         raise checks.refuse("column", column, "one of " + ", ".join(self.names))
 
 
+def files_inside(name: str, content: bytes) -> list[str]:
+    """Names for `read_table` of all files in a zip of several, in their order; else `name` alone.
+
+    Raises
+    ------
+    ValueError
+        for a damaged zip.
+    """
+    if content[:4] != b"PK\x03\x04" or ".zip/" in name:
+        return [name]
+    about, _ = read_file(name, content)
+    inside = sorted(about.get("inside", ()), key=_in_order)
+    return [f"{name}/{one}" for one in inside] or [name]
+
+
+def _in_order(name: str) -> list[tuple[int, str]]:
+    """A key by which run2 is before run10."""
+    return [(int(part or 0), word) for word, part in re.findall(r"(\D*)(\d{0,18})", name)]
+
+
+def path_in(name: str) -> str:
+    """The path of the file to read for a name such as "rig.zip/run1.csv"."""
+    before, mark, _ = name.partition(".zip/")
+    return before + mark.rstrip("/")
+
+
 def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
@@ -277,6 +304,13 @@ def read_table(name: str, content: bytes) -> Table:
             "their tables, or export a shorter part",
         )
     about, columns = read_file(name, content)
+    if inside := about.get("inside"):
+        raise checks.refuse(
+            "file",
+            name,
+            f"a zip of one file, not of {len(inside)} ({', '.join(inside[:6])}): unpack it, or "
+            f"write which one after the zip's name, as in {name}/{inside[0]}",
+        )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
     return Table(columns=columns, **{"name": name, **about})

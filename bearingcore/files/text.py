@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.files.facts import named_in, names_a_fact
-from bearingcore.files.units import UNITS, unit_in
+from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 MOST_HEADINGS = 100
@@ -385,12 +385,13 @@ def _headings(
     called by their number.
     """
     width = columns.shape[1]
+    remarks = [re.sub(r"Unnamed: \d+", "", line) for line in remarks]  # as pandas calls an index
     # a rate or a speed is no name; the place of a line that names two columns is the last
     lines = [line for line in remarks if not _is_remark(line, style, width)][-3:]
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    if len(lines) > 1 and all(_UNIT.fullmatch(cell) for cell in names):
+    if len(lines) > 1 and all(_is_unit(cell) for cell in names):
         above = _names(lines[-2], style, columns)
         if above is not None:
             names = [
@@ -400,9 +401,12 @@ def _headings(
     given = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
         return None  # numbers beside the settings of an instrument
-    if not given or len(set(given)) < len(given) or all(_row(cell, None) for cell in given):
+    if not given or all(_row(cell, None) for cell in given):
         return None
-    return [name or f"column {index + 1}" for index, name in enumerate(names)]
+    return [
+        name if name and names.count(name) == 1 else f"{name}, column {index + 1}".strip(", ")
+        for index, name in enumerate(names)
+    ]
 
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
@@ -423,7 +427,11 @@ _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
     "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled",
 }  # fmt: skip
-_UNIT = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
+_UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
+
+
+def _is_unit(cell: str) -> bool:
+    return bool(_UNIT_LIKE.fullmatch(cell)) or unit_named(cell.strip("[]() ")) is not None
 
 
 _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")

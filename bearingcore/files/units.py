@@ -140,12 +140,16 @@ def unit_in(heading: str) -> str | None:
 
     >>> unit_in("acc x [mm/s^2]"), unit_in("sensor_g"), unit_in("acceleration_y_m_per_s2")
     ('mm/s²', 'g', 'm/s²')
+    >>> unit_in("1/min")
+    'rpm'
     """
     for name in _IN_BRACKETS.findall(heading):
         unit = unit_named(name)
         if unit is not None:
             return unit
     bare = heading.strip().lower()
+    if "/" in bare and (unit := unit_named(bare)) is not None:
+        return unit
     last = bare.split()[-1:]
     if last and len(bare) > len(last[0]) and re.search(r"/|²|s\^?-?2$", last[0]):
         unit = unit_named(last[0].lstrip("/"))

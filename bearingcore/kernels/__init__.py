@@ -8,7 +8,6 @@ from bearingcore.kernels.balls.motion import march_balls
 from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
 from bearingcore.kernels.balls.structs import BallSystem, Races
 from bearingcore.kernels.compiling import all_on_disk, kept_on_disk
-from bearingcore.kernels.contact import POINT_CONTACT
 from bearingcore.kernels.modes import DOUBTFUL, modes_like
 from bearingcore.kernels.motion.march import (
     between_steps,
@@ -72,7 +71,6 @@ __all__ = [
     "OPEN",
     "PATH_COLUMNS",
     "PLANAR",
-    "POINT_CONTACT",
     "REFUSED",
     "RESIDUAL_AIM",
     "RESIDUAL_LIMIT",

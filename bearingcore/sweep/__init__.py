@@ -7,13 +7,40 @@ grids of this package: what needs them is imported when `sweep` is first asked f
 
 from typing import TYPE_CHECKING, Any
 
-from bearingcore.sweep.outputs import OUTPUTS
-from bearingcore.sweep.status import STATUSES, SweepStatus
-
 if TYPE_CHECKING:
     from bearingcore.sweep.run import sweep
+from bearingcore.sweep.grid import Axis, Grid, StillDirectionError, program_version
+from bearingcore.sweep.outputs import (
+    LIFE,
+    MASS,
+    MODES,
+    OUTPUTS,
+    SECONDS,
+    STATICS,
+    Settings,
+    mode_labels,
+    mode_symbol,
+)
+from bearingcore.sweep.status import STATUSES, SweepStatus
 
-__all__ = ["OUTPUTS", "STATUSES", "SweepStatus", "sweep"]
+__all__ = [
+    "LIFE",
+    "MASS",
+    "MODES",
+    "OUTPUTS",
+    "SECONDS",
+    "STATICS",
+    "STATUSES",
+    "Axis",
+    "Grid",
+    "Settings",
+    "StillDirectionError",
+    "SweepStatus",
+    "mode_labels",
+    "mode_symbol",
+    "program_version",
+    "sweep",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -21,7 +21,7 @@ from bearingcore.dynamics.modes import BandSearch, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.record import simulated_record
-from bearingcore.dynamics.speed_run import SETTLING_SHARE
+from bearingcore.dynamics.speed_runs import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.signals.recording import DIRECTIONS
 from bearingcore.statics.equilibrium import (

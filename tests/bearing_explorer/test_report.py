@@ -4,18 +4,16 @@ import dataclasses
 import json
 from datetime import UTC, datetime
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
-from bearing_explorer.diagnosis.report import (
-    NOT_FORESEEN,
-    NOT_JUDGED,
-    ONE_RECORD,
-    measured_report,
-)
-from bearing_explorer.diagnosis.session import simulated
+from bearing_explorer.diagnosis.next_steps import ONE_RECORD, PRACTICE, next_steps
+from bearing_explorer.diagnosis.report import NOT_FORESEEN, NOT_JUDGED, measured_report
+from bearing_explorer.diagnosis.session import AboutMeasurement, simulated
 from bearing_explorer.diagnosis.views import part_words
+from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
 from bearing_explorer.explorer.report import About, mark_of, page, report
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import Reference
@@ -27,7 +25,7 @@ from bearing_explorer.page import SECTIONS
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
-from bearingcore.common.numbers import probability
+from bearingcore.common.numbers import number, probability
 from tests.helpers.measuring import measuring
 from tests.helpers.stability import found_map
 
@@ -157,23 +155,29 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     session.diagnoses.keep(question, answer)
     session.extents.keep(asked, extent)
     session.state = dataclasses.replace(
-        session.state, values={"unit": "g", "shaft_speed": "30 Hz"}, reasons={"unit": "A guess"}
+        session.state,
+        values={"unit": "g", "shaft_speed": "30 Hz"},
+        reasons={"unit": "A guess: it looks so"},
     )
+    session.about = AboutMeasurement(point="drive end, up", date="2 March")
     session._first = {"unit": "g"}
-    made = measured_report(Results(scene), session.snapshot(), {}, own)
+    made = measured_report(Results(scene), session.snapshot(), {}, own, "medium, rigid")
     reader = Reader(made["html"])
     for said in (
         f"fan-rig: {NASTY}",
         "Machine: Pump 3",
+        "Measuring point: drive end, up. Recorded: 2 March.",
         part_words.headline(answer),
         f"Probability {probability(answer.probability)}",
         part_words.extent(extent),
         part_words.plain(answer, question),
-        part_words.pass_on(answer, question),
+        next_steps(answer, question, zone_of(measured, "medium, rigid")),
+        severity(measured, "medium, rigid"),
+        f"BPFO {number(scene.bearing.bpfo(scene.shaft_speed), 4)} Hz",
         part_words.sentence(answer, question),
         "of the simulation",
-        "A guess",
-        "not given: typical ones, for the extent",
+        "Assumed: it looks so",
+        "typical ones, for the extent",
         NOT_JUDGED,
         NOT_FORESEEN,
         ONE_RECORD,
@@ -182,3 +186,30 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     assert not {"script", "img"} & set(reader.tags)
     assert all(made["html"].count(mark_of(figure)) == 1 for figure in made["figures"])
     assert len(made["figures"]) == len(made["items"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("fault", "zone", "change", "begins", "says"),
+    [
+        ("outer race", "D", None, "Now: the vibration is in zone D", ONE_RECORD),
+        ("outer race", "C", None, "Soon: the vibration is in zone C", "measure every day"),
+        ("outer race", "A", None, "Measure again within a week", "does not clear a bearing"),
+        ("outer race", "", 2.5, "Soon: the vibration has clearly grown", "became 2.5 times"),
+        ("none seen", "A", None, "Measure again at the usual interval.", ""),
+        ("none seen", "D", None, "Measure again at the usual", "look now for its cause"),
+        ("cannot tell", "", 3.0, "This record decides nothing", "became 3 times"),
+    ],
+)
+def test_the_next_step_rests_on_part_zone_and_growth(
+    fault: str, zone: str, change: float | None, begins: str, says: str
+) -> None:
+    question = Question.about(simulated(presets["6205"], 20.0, False, 1))
+    found = dataclasses.replace(answered(question), fault=fault)
+    grown = None
+    if change is not None:
+        grown = SimpleNamespace(points=[0, 1], rms_change=np.array([1.0, change]))
+    words = next_steps(found, question, zone, grown)
+    assert words.startswith(begins)
+    assert says in words
+    assert (PRACTICE in words) == (fault == "outer race")
+    assert (ONE_RECORD in words) == (fault == "outer race" and change is None)

@@ -10,7 +10,7 @@ from bearing_explorer.kit.half import Section
 from bearing_explorer.kit.messages import take
 
 from bearingcore import presets
-from bearingcore.experiments.alternatives import alternatives
+from bearingcore.experiments.simpler_models import alternatives
 from tests.helpers.loops import run
 from tests.helpers.sections import SECTIONS
 from tests.helpers.sessions import SceneSession

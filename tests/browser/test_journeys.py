@@ -447,7 +447,7 @@ def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
     tilt.click()
     expect(tilt).to_be_checked()
     desk.steady()
-    desk.press("As the scene needs")
+    desk.press("A shaft on two bearings: tilt held")
     expect(tilt).not_to_be_checked()
     desk.go_to("Frequencies")
     expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no tension"))
@@ -483,8 +483,7 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.bring(desk.main, "broken.csv", b"x,y\n1,2\nhello,3")
     desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
-    desk.press("Change")
-    desk.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    desk.main.get_by_label("Unit of the signal").select_option("m/s²")
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.choose("Support is", "as in the scene")
     desk.press("Find the size")
@@ -534,23 +533,68 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     page.close()
 
 
+def _as_text(heading: str, *columns: np.ndarray) -> bytes:
+    """A CSV file of the fan rig's signal along y, after other columns."""
+    _, data = wavfile.read(io.BytesIO(_recording(38.6, channels=1)))
+    rows = np.column_stack([*(column[: len(data)] for column in columns), data])
+    file = io.StringIO()
+    np.savetxt(file, rows, "%.8g", ",", header=heading, comments="")
+    return file.getvalue().encode()
+
+
 @pytest.mark.proof
-def test_a_file_of_three_signals_asks_which_are_x_and_y(visitor: Visitor) -> None:
+@pytest.mark.parametrize(
+    "layout", ["three signals", "time in ms without a name", "taken for speed"]
+)
+def test_what_each_column_is_is_chosen_over_the_first_lines(visitor: Visitor, layout: str) -> None:
+    main = visitor.main
+
+    def choose(column: int, role: str) -> None:
+        main.get_by_label(re.compile(f"^Column {column}, .*is$")).select_option(role)
+
     visitor.open(FAN_RIG + "diagnosis")
-    visitor.bring(visitor.main, "three.wav", _recording(38.6, channels=3))
-    visitor.reads(re.compile("The file holds 3 signals"))
-    along = [visitor.main.get_by_label(re.compile(f"^Along {name}")) for name in "xy"]
-    along[1].select_option(index=1)
-    visitor.reads(re.compile("three.wav: 3 s along y"))
-    along[0].select_option(index=1)
-    visitor.reads(re.compile("cannot be the same column"))
-    along[1].select_option(index=2)
-    visitor.reads(re.compile("along x and y"))
-    visitor.main.get_by_label(re.compile("^Unit")).select_option("m/s²")
+    index = np.arange(200_000.0)
+    if layout == "three signals":
+        visitor.bring(main, "three.wav", _recording(38.6, channels=3))
+        visitor.reads(re.compile("The file holds 3 signals"))
+        choose(1, "y")
+        visitor.reads(re.compile("three.wav: 3 s along y"))
+        choose(1, "x")
+        choose(2, "x")  # which takes it from the first
+        visitor.reads(re.compile("along x at"))
+        expect(main.get_by_label(re.compile("^Column 1, .*is$"))).to_have_value("")
+        choose(2, "y")
+    elif layout == "time in ms without a name":
+        time = 1e3 * index / 48_000.0
+        visitor.bring(main, "plain.csv", _as_text("a,b", time))
+        visitor.reads(re.compile("plain.csv is read"))
+        choose(1, "time ms")
+        visitor.reads(re.compile(r"plain.csv: 3 s along y at 48\D000 Hz"))
+    else:
+        visitor.bring(main, "odd.csv", _as_text("t [s],speed [Hz]", index / 48_000.0))
+        visitor.reads(re.compile("odd.csv is read"))
+        choose(2, "y")
+        visitor.reads(re.compile(r"odd.csv: 3 s along y at 48\D000 Hz"))
+    main.get_by_label("Unit of the signal").select_option("m/s²")
     visitor.choose("Measured bearing", "that of the scene")
     visitor.choose("Measured speed", "given:")
     visitor.type("Hz or rpm", "420 rpm")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
+
+
+@pytest.mark.proof
+def test_a_file_brought_to_the_other_half_is_offered_there(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "load")
+    scene_file = visitor.page.locator("#scene-file")
+    signal = {"name": "fan.wav", "mimeType": "audio/wav", "buffer": _recording(38.6, channels=1)}
+    scene_file.set_input_files(signal)  # type: ignore[arg-type]
+    visitor.press("Diagnose it")
+    visitor.is_at("Diagnosis")
+    visitor.reads(re.compile("fan.wav · 3 s"))
+    scene = presets["6205"].to_toml().encode()
+    visitor.bring(visitor.main, "motor.toml", scene)
+    visitor.press("Open the scene")
+    visitor.wait(lambda: abs(visitor.number("Shaft speed") - 29.95) < 0.1)
 
 
 @pytest.mark.proof

@@ -7,7 +7,7 @@ from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep
 from bearing_explorer.explorer.views.swept_view import Swept
 
 from bearingcore import presets
-from bearingcore.dynamics.stability_map import stability_map
+from bearingcore.dynamics.stability_maps import stability_map
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 

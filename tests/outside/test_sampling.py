@@ -15,7 +15,7 @@ from scipy.signal import firwin, freqz, upfirdn, welch
 
 from bearingcore import orbit, presets, simulate
 from bearingcore.dynamics.low_pass import low_passed
-from bearingcore.dynamics.speed_run import speed_run
+from bearingcore.dynamics.speed_runs import speed_run
 from tests.outside.test_charts import problem
 from tests.outside.witness import witness
 

@@ -27,7 +27,7 @@ from bearingcore.dynamics.record import TWO_RESONANCES, Resonance
 from bearingcore.signals.averaging import average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.shaft_tones import without_shaft_tones
-from bearingcore.signals.spectrogram import spectrogram
+from bearingcore.signals.spectrograms import spectrogram
 from bearingcore.signals.spectrum_difference import spectrum_difference
 from tests.outside.elements import Array
 from tests.outside.test_kinds import CASES

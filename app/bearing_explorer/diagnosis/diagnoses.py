@@ -20,7 +20,7 @@ from bearing_explorer.kit.compute.executors import JOBS
 from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
-from bearingcore.diagnosis.part.listed import ListedBearing, explaining_bearings
+from bearingcore.diagnosis import ListedBearing, explaining_bearings
 
 Found = TypeVar("Found")
 

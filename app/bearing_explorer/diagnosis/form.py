@@ -25,22 +25,26 @@ from bearing_explorer.diagnosis.signal import Origin
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
-from bearingcore.common.numbers import with_prefix
+from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files.channels import OTHER, SIGNAL, SPEED, TIME, Column
-from bearingcore.files.facts import Finding
-from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import (
+from bearingcore.files import (
+    OTHER,
+    SIGNAL,
+    SPEED,
     SPEEDS,
     STANDARD_GRAVITY,
+    TIME,
     TIMES,
     UNITS,
     VOLTAGES,
+    Column,
+    Finding,
     kind_of,
     level_doubt,
+    longest_run,
     unit_in,
 )
-from bearingcore.signals.recording import FEWEST_SAMPLES
+from bearingcore.signals import FEWEST_SAMPLES
 
 SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
@@ -58,7 +62,7 @@ ROLES = (
     *((f"time {unit}", f"time in {unit}") for unit in TIMES),
     *((f"speed {unit}", f"shaft speed in {unit}") for unit in SPEEDS),
 )
-"""What a column may be, as the form has it and in words."""
+"""Possible roles of a column, as the form has them and in words."""
 APART = ";"
 """Between the roles of the columns in their field."""
 NOT_KNOWN = ""
@@ -72,11 +76,13 @@ SIZES = ("unit", "sensitivity")
 
 MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
 
+SHOWN_LINES = 5
+
 MOST_SAID = 12
 """Numbers and words of a file that are shown."""
 
 _WORDS = {
-    "sample_rate": ("The sample rate", "Hz", 10.0, 1e7),
+    "sample_rate": ("The sample rate", "Hz", 1.0, 1e7),
     "full_scale": ("The value of a 1 in the file", "", 1e-12, 1e12),
     "sensitivity": ("The sensitivity of the sensor", "mV/g", 1e-3, 1e6),
 }
@@ -330,7 +336,7 @@ def columns_of(table: Table) -> ShownColumns:
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],
-        [[_cell(value) for value in line] for line in table.first_rows],
+        [[_cell(value) for value in line] for line in table.first_rows[:SHOWN_LINES]],
         len(table.columns),
     )
 

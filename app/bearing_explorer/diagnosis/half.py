@@ -8,6 +8,7 @@ from typing import Any
 from bearing_explorer.diagnosis.model import Inputs, Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.diagnosis.views.parts import SignalParts
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
@@ -76,4 +77,7 @@ class DiagnosisOfSignal:
         found: Mapping[str, Any] = {
             view.name: view.found for view in self._page.views_made() if view.found is not None
         }
-        return lambda: measured_report(Model(self._scene()), measurement, found, about)
+        kinds = (view.look["machine"] for view in self._page.views_made()
+                 if isinstance(view, MeasuredIndicators))  # fmt: skip
+        kind = next(kinds, "")
+        return lambda: measured_report(Model(self._scene()), measurement, found, about, kind)

@@ -17,11 +17,9 @@ from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
 from bearingcore import Bearing, CatalogueBearing, Scene
-from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
-from bearingcore.common import checks
-from bearingcore.common.numbers import number, span
-from bearingcore.files.contents import FileContents
-from bearingcore.files.facts import Finding
+from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
+from bearingcore.common import choice, number, span
+from bearingcore.files import FileContents, Finding
 
 NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
@@ -39,6 +37,9 @@ SPEEDS = (1e-3, 1e4)
 
 FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed")
 """Of the form that says it."""
+
+GROUPS = {"bearing": ("bearing", "designation", *FREQUENCIES), "speed": ("speed", "shaft_speed")}
+"""The fields that answer one question, by the first of them."""
 
 KNOWN = (GIVEN, ROUGH)
 SPEED_SOURCES = {
@@ -81,6 +82,8 @@ class Machine:
         as the page has it; empty of the scene's.
     guessed
         names of "bearing" and "speed" which a file only suggests.
+    kept
+        names of "bearing" and "speed" which a person gave for the file before.
     by_frequencies
         whether the bearing is known by the frequencies of its parts alone: it has no size then.
     """
@@ -91,6 +94,7 @@ class Machine:
     bearing_source: str = GIVEN
     bearing_name: str = ""
     guessed: frozenset[str] = frozenset()
+    kept: frozenset[str] = frozenset()
     by_frequencies: bool = False
 
     def __post_init__(self) -> None:
@@ -104,8 +108,16 @@ class Machine:
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
-            return dataclasses.replace(self, speed_source=checks.choice("speed", speed, KNOWN))
+            return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
         return dataclasses.replace(self, shaft_speed=speed)
+
+    def source_of(self, name: str) -> str:
+        """Where "bearing" or "speed" is from, in words; empty where it is not known."""
+        if name in self.guessed:
+            return "assumed, a guess from the file"
+        found = self.bearing_source if name == "bearing" else self.speed_source
+        words = (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(found, "")
+        return f"{words}, for the file before" if name in self.kept else words
 
     @property
     def range(self) -> float | tuple[float, float] | None:
@@ -142,6 +154,26 @@ def guess(contents: FileContents) -> dict[str, str]:
         "designation": "",
         **_bearing(contents),
     }
+
+
+def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
+    """Answers `given` for the file before, where this one, as it was filled in `first`, has none.
+
+    >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
+    {}
+    """
+    silent = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
+    return {field: given[field] for name in silent for field in GROUPS[name]}
+
+
+def answers_of(values: Mapping[str, str], first: Mapping[str, str]) -> dict[str, str]:
+    """The fields of the questions that a person answered otherwise than `first`."""
+    answered = [
+        name
+        for name, fields in GROUPS.items()
+        if values[name] not in (NOT_KNOWN, FILE) and any(values[f] != first[f] for f in fields)
+    ]
+    return {field: values[field] for name in answered for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
@@ -241,8 +273,9 @@ def read_machine(
         if not contents.frequencies:  # known from the collection the file seems to be of
             guessed.add("bearing")
     return Machine(
-        speed, bearing, source, by, name, frozenset(guessed), texts["bearing"] == BY_FREQUENCIES
-    )
+        speed, bearing, source, by, name, frozenset(guessed),
+        by_frequencies=texts["bearing"] == BY_FREQUENCIES,
+    )  # fmt: skip
 
 
 def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:

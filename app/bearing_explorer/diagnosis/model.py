@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import bearingcore as core
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore.scene import WITH_MASS
 
 if TYPE_CHECKING:
     from bearing_explorer.kit.views.base import View

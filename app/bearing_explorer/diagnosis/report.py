@@ -6,27 +6,30 @@ Finished by the browser as a report of a scene is, see `report`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bokeh.embed import json_item
 
 from bearing_explorer.diagnosis.diagnoses import Question
-from bearing_explorer.diagnosis.machine import FILE as OF_FILE
-from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.next_steps import next_steps
+from bearing_explorer.diagnosis.session import NOT_SAID, Measurement
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.extent import SpallExtent
+from bearing_explorer.diagnosis.views.measured_indicators import no_velocity, severity, zone_of
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.views.trend import FoundTrend, TrendOfFiles, words_on
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.report_page import About, document, heading, mark_of
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
-from bearingcore.common.numbers import with_prefix
+from bearingcore.bearings import FREQUENCIES
+from bearingcore.common import number, with_prefix
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model
@@ -49,12 +52,15 @@ NOT_JUDGED = "Lubrication, balance, alignment and other bearings of the machine 
 NOT_FORESEEN = (
     "The vibration shows neither the depth of the damage nor the remaining life of the bearing."
 )
-ONE_RECORD = "Several records over time show whether it grows."
 NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
 
 
 def measured_report(
-    model: Model, measurement: Measurement, found: Mapping[str, Any], about: About
+    model: Model,
+    measurement: Measurement,
+    found: Mapping[str, Any],
+    about: About,
+    kind: str = "",
 ) -> dict[str, Any]:
     """The page for the browser to finish. For any thread: it touches no models of the page.
 
@@ -64,6 +70,9 @@ def measured_report(
         a copy, see `Measurement.snapshot`.
     found
         results of jobs, by view.
+    kind
+        power and support of the machine, one of `bearingcore.signals.indicators.ZONES`, for the
+        zone of its vibration; empty where it is not known.
 
     Raises
     ------
@@ -79,17 +88,17 @@ def measured_report(
     drawn: list[str] = []
     items: list[Any] = []
     figures: list[str] = []
-    for kind, title in FIGURES.items():
+    for view, title in FIGURES.items():
         figure = Figure(
-            kind,
+            view,
             model,
             prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
-            found=found.get(kind.name),
+            found=found.get(view.name),
             computed=False,
         )
         data, _ = figure.view.data(model)
         first, *_ = figure.view.figures
-        if kind is SpallExtent and (extent is None or not extent.passes):
+        if view is SpallExtent and (extent is None or not extent.passes):
             continue
         if not any(column.size for columns in data.values() for column in columns.values()):
             continue
@@ -112,15 +121,25 @@ def measured_report(
     if not of:
         of = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
     title = about.title.strip() or f"{of}: {question.measured.recording.name}"
+    said = measurement.about
+    about = replace(about, machine=said.machine or about.machine)
+    trend = found.get(TrendOfFiles.name)
+    if not isinstance(trend, FoundTrend) or trend.series is not measurement.series:
+        trend = None
+    zone = zone_of(question.measured, kind)
+    steps = next_steps(answer, question, zone, None if trend is None else trend.trend)
     body = [
         *heading(about, title),
+        f"<p>Measuring point: {html_text(said.point or NOT_SAID)}. "
+        f"Recorded: {html_text(measurement.recorded)}.</p>",
         part_html(state),
-        f"<p class='do'>{html_text(part_words.pass_on(answer, question))}</p>",
+        f"<p class='do'>{html_text(steps)}</p>",
+        html_table([], _escaped(findings(question, answer, measurement, kind, trend)), named=True),
         f"<div class='figures'>{''.join(figures)}</div>",
         "<h2>Assumptions</h2>",
         html_table(["", "Value", "From"], _escaped(assumptions(question, answer, measurement))),
         "<h2>Not answered by this signal</h2>",
-        f"<p>{html_text(' '.join(limits(question, answer, len(measurement.series.tables))))}</p>",
+        f"<p>{html_text(' '.join(limits(question, answer)))}</p>",
     ]
     style = asset_text("part.css") + asset_text("measured_report.css")
     return {
@@ -132,6 +151,39 @@ def measured_report(
     }
 
 
+def findings(
+    question: Question,
+    answer: Diagnosis,
+    measurement: Measurement,
+    kind: str,
+    trend: FoundTrend | None,
+) -> list[tuple[str, str]]:
+    """Severity, the bearing's frequencies and the trend: name and words."""
+    measured, speed = question.measured, answer.shaft_speed
+    why = no_velocity(measured)
+    level = "not known: " + why
+    if not why:
+        low, high = measured.indicators.band
+        most = 1e3 * float(measured.indicators.velocity_rms.max())
+        level = f"velocity {number(most, 3)} mm/s RMS, {low:.0f} to {high:.0f} Hz"
+    frequencies = "the shaft speed is not known"
+    if speed is not None:
+        each = (f"{name.upper()} {number(getattr(question.bearing, name)(speed), 4)} Hz"
+                for name in FREQUENCIES)  # fmt: skip
+        frequencies = f"{', '.join(each)}, at {part_words.turns(answer)}, without slip"
+    files = len(measurement.series.tables)
+    grown = "one record is none"
+    if trend is not None and len(trend.trend.points) > 1:
+        grown = words_on(trend.trend)
+    elif files > 1:
+        grown = f"{files} files are there; it is not computed yet"
+    return [
+        ("Severity", f"{level}. {severity(measured, kind)}"),
+        ("Frequencies", frequencies),
+        ("Trend", grown),
+    ]
+
+
 def _escaped(rows: Iterable[Iterable[str]]) -> Iterable[list[str]]:
     return ([html_text(cell) for cell in row] for row in rows)
 
@@ -139,45 +191,38 @@ def _escaped(rows: Iterable[Iterable[str]]) -> Iterable[list[str]]:
 def assumptions(
     question: Question, answer: Diagnosis, measurement: Measurement
 ) -> list[tuple[str, str, str]]:
-    """Assumptions of the answer: name, value and its source."""
+    """Assumptions of the answer: name, value, and whether that is given, from the file, ..."""
     measured, bearing = question.measured, question.bearing
-    machine = measured.machine
-    of_file = {
-        "speed": machine.speed_source == OF_FILE, "bearing": machine.bearing_source == OF_FILE
-    }  # fmt: skip
-    recording, given = measured.recording, dict(part_words.facts(answer, question))
-    source = measurement.source_of
-    load = measurement.state.load
-    typed = [
-        f"{name.upper()} {text}"
-        for name, text in measurement.state.values.items()
-        if name in ("bpfo", "bpfi", "ftf", "bsf") and text
-    ]
+    machine, recording = measured.machine, measured.recording
+    given, values = dict(part_words.facts(answer, question)), measurement.state.values
+    source, load = measurement.origin_of, measurement.state.load
+    typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
+    unknown = machine.exact_speed is None
     return [
         ("File", recording.name, "" if measured.origin else "Simulated"),
         ("Signal", f"{with_prefix(recording.duration, 's')} along "
          f"{' and '.join(measured.directions)}", source("columns")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4), source("sample_rate")),
-        ("Unit", measurement.state.values.get("unit", "m/s²") or "not known", source("unit")),
-        ("Shaft", given["Shaft"], source("speed") if of_file["speed"] else ""),
-        ("Slip", given["Slip"], ""),
-        ("Bearing", given["Bearing"], source("bearing") if of_file["bearing"] else ""),
+        ("Unit", values.get("unit", "m/s²") or "not known", source("unit")),
+        ("Shaft", given["Shaft"],
+         "Found" if unknown else machine.source_of("speed").capitalize()),
+        ("Slip", given["Slip"], "Assumed"),
+        ("Bearing", given["Bearing"], machine.source_of("bearing").capitalize()),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
-         source("bpfo") or ("The file" if typed else "")),
-        ("Load", "not given: typical ones, for the extent" if load is None
-         else with_prefix(load, "N"), "" if load is None else "The file"),
-        ("Radial clearance", f"{clearance}, for the extent", "The bearing"),
-        ("Demodulation band", given.get("Demodulation band", "none"), ""),
+         machine.source_of("bearing").capitalize()),
+        ("Load", "typical ones, for the extent" if load is None
+         else with_prefix(load, "N"), "Assumed" if load is None else "From the file"),
+        ("Radial clearance", f"{clearance}, for the extent", "Assumed: usual of the bearing"),
+        ("Demodulation band", given.get("Demodulation band", "none"), "Found"),
     ]  # fmt: skip
 
 
-def limits(question: Question, answer: Diagnosis, files: int) -> list[str]:
+def limits(question: Question, answer: Diagnosis) -> list[str]:
     """Open questions, in sentences."""
     return [
         NOT_JUDGED,
         *([NOT_FORESEEN] if answer.names_a_part else []),
-        *([ONE_RECORD] if files < 2 else []),
         *([] if question.measured.in_si else [NO_SIZE]),
         *(words.strip() for words in [part_words.counted(question)] if words),
     ]

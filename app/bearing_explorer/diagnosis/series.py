@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from bearing_explorer.diagnosis.form import fill, read_form
-from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearingcore import CatalogueBearing, Recording, Table
 
@@ -33,22 +33,30 @@ class Series:
         sentences on files that could not be read.
     together
         whether they were chosen together, as a series.
+    shortened
+        whether rows at the end of some were left out.
     """
 
     tables: tuple[Table, ...] = ()
     left_out: tuple[str, ...] = ()
     together: bool = False
+    shortened: bool = False
 
-    def with_table(self, table: Table, count: int = 1) -> Series:
-        """With a further file, of `count` that come; it replaces an earlier one of its name."""
+    def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
+        """With a further file, of `count` that come; it replaces an earlier one of its name.
+
+        It comes last, or `first`.
+        """
         rows, columns = table.columns.shape
         most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
         if rows > most:
             table = dataclasses.replace(table, columns=table.columns[:most].copy())
-        tables = [*(one for one in self.tables if one.name != table.name), table]
+        others = [one for one in self.tables if one.name != table.name]
+        tables = [table, *others] if first else [*others, table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
-            tables.pop(0)
-        return dataclasses.replace(self, tables=tuple(tables))
+            tables.pop(int(first))
+        shortened = self.shortened or rows > most
+        return dataclasses.replace(self, tables=tuple(tables), shortened=shortened)
 
     def without(self, sentence: str) -> Series:
         """With a sentence on a file that could not be read."""
@@ -68,6 +76,7 @@ def recordings_of(
     series: Series,
     shown: Measured,
     changed: Mapping[str, str],
+    kept: Mapping[str, str],
     direction: str,
     scene: Machine,
     find: Callable[[str], CatalogueBearing],
@@ -75,15 +84,16 @@ def recordings_of(
     """The recordings of a series along a direction; without files the one that is shown.
 
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; in another unit, or one that is not known, it cannot be compared and is left
-    out.
+    that is `shown`; `kept` are answers on the machine for those that say nothing of it. In another
+    unit, or one that is not known, a file cannot be compared and is left out.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
     recordings, origins, left_out = [], [], list(series.left_out)
     for table in series.tables:
         try:
-            found = read_form(*fill(table, changed), scene, find)
+            told, form = fill(table, changed)
+            found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")
             continue

@@ -10,8 +10,9 @@ import asyncio
 import copy
 import logging
 import math
-from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,7 @@ from bearing_explorer.diagnosis.form import (
 from bearing_explorer.diagnosis.machine import FIELDS as MACHINE_FIELDS
 from bearing_explorer.diagnosis.machine import (
     GIVEN,
+    GROUPS,
     NOT_KNOWN,
     ROUGH,
     SCENE,
@@ -58,7 +60,9 @@ from bearing_explorer.diagnosis.machine import (
     SPEED_SOURCES,
     FormError,
     Machine,
+    answers_of,
     find_published,
+    kept_answers,
     of_scene,
 )
 from bearing_explorer.diagnosis.model import motion as motion_of
@@ -83,14 +87,14 @@ from bearingcore import (
     Scene,
     Sizing,
     Table,
+    join_tables,
     read_table,
 )
-from bearingcore.common.numbers import number, thousands, with_prefix
-from bearingcore.diagnosis.part.listed import ListedBearing
-from bearingcore.diagnosis.size.variants import Tolerances, variant
+from bearingcore.common import number, thousands, with_prefix
+from bearingcore.diagnosis import ListedBearing, Tolerances, time_in, variant
 from bearingcore.errors import FieldError
-from bearingcore.scene.pit import pit
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore.files import files_inside
+from bearingcore.scene import WITH_MASS, pit
 
 log = logging.getLogger(__name__)
 
@@ -117,6 +121,11 @@ _WITHOUT_SIZE = (
     "The diagnosis of the damaged part does not depend on it. The size of the defect and the "
     "comparison with the model wait for the answer."
 )
+
+NOT_SAID = "not said"
+"""In a report, where nothing is known."""
+
+NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."
 
 REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
 CHANGED = "Your answers have changed since."
@@ -152,6 +161,10 @@ class MeasurementState:
     speeds: list[list[str]] = field(default_factory=list)
     #: whether changed answers are still being read
     settling: bool = False
+    #: the file before, where bearing or speed are those that a person gave for that
+    kept_from: str = ""
+    #: files that can be joined to one signal
+    parts: int = 0
     #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
     line: str = ""
     #: the whole name of its file, where the line has less of it
@@ -160,6 +173,15 @@ class MeasurementState:
     remarks: str = ""
     #: number of the file or simulation that is shown
     arrival: int = 0
+
+
+@dataclass(frozen=True)
+class AboutMeasurement:
+    """Words for reports, which a person types once for all files of a session."""
+
+    machine: str = ""
+    point: str = ""
+    date: str = ""
 
 
 @dataclass(frozen=True)
@@ -204,6 +226,8 @@ class Measurement:
         self.want: Callable[[int, int], None] = lambda begin, of: None
         #: called when the next of several files may come
         self.more: Callable[[], None] = lambda: None
+        #: words for reports
+        self.about = AboutMeasurement()
         #: the files that were read
         self.series = Series()
         #: takes a message as the controls send it; None where there are no controls
@@ -223,7 +247,9 @@ class Measurement:
         self._as_read: Table | None = None
         self._first: dict[str, str] = {}  # the form as it was filled in
         self._agreed: dict[str, str] = {}  # guesses that a person agreed to
+        self._kept: dict[str, str] = {}  # answers that were given for the file before
         self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
+        self._parts: tuple[str, ...] = ()  # files that were joined to the one that is shown
         self._cut = ""
         self._upload: Upload | None = None
         self._latest = 0  # number of what was asked for last: what it overtook is dropped
@@ -264,6 +290,7 @@ class Measurement:
         except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
             self._tell(words=str(error), bad=True, refused=error.sentences)
             return
+        machine = replace(machine, kept=self._kept_of(values))
         if machine != measured.machine or self.state.refused:
             self.measured = replace(measured, machine=machine)
             words = self._summary(_about_size(size_questions(table, values)))
@@ -337,26 +364,55 @@ class Measurement:
         """Where the value of a field comes from; empty where there is no such field."""
         value = self.state.values.get(name, "")
         if value != self._first.get(name, ""):
-            return "Given"
+            kept = self.state.kept_from if self._kept.get(name) == value else ""
+            return f"Given for the file before, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
+
+    def origin_of(self, name: str) -> str:
+        """Whether a field is given, from the file or assumed, with its reason, for a report."""
+        words = self.source_of(name)
+        for before, after in _ORIGINS.items():
+            if words.startswith(before):
+                return f"{after} {words.removeprefix(before).strip()}".strip()
+        if words.startswith("Given") or not words:
+            return words
+        return f"From the file, {words[0].lower()}{words[1:]}"
+
+    @property
+    def recorded(self) -> str:
+        """When the signal was recorded, as a person or the name of the file says."""
+        if self.about.date:
+            return self.about.date
+        when = None if self.measured is None else time_in(self.measured.recording.name)
+        return NOT_SAID if when is None else f"{when:%d %B %Y, %H:%M}, by the name of the file"
 
     # Files
 
     def begin_upload(
-        self, name: str, size: int, number: int = 1, count: int = 1, chosen: int = 1
+        self,
+        name: str,
+        size: int,
+        number: int = 1,
+        count: int = 1,
+        chosen: int = 1,
+        baseline: bool = False,
     ) -> None:
         """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
 
-        The last of several that can be read is the one that is shown.
+        The last of several that can be read is the one that is shown. A `baseline` is put before
+        the others, and the one that is shown stays.
         """
         if self._ended:
+            return
+        if baseline and self._table is None:
+            self._refuse(NO_FILE_TO_COMPARE)
             return
         if number == 1:
             self._latest += 1
             # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
-            self._arrival = _Arrival(count if several else 1, chosen, series)
+            self._arrival = _Arrival(count if several else 1, chosen, series, baseline=baseline)
         arrival = self._arrival
         if arrival is None or number not in (1, arrival.number + 1):
             return  # of files that were given up
@@ -366,7 +422,7 @@ class Measurement:
             self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, name, str(error))
+            self._take_next(arrival, [(name, str(error))])
         else:
             words = f"Uploading {arrival.words}{self._upload.name} …"
             self._tell(words=words, bad=False, busy=True)
@@ -388,7 +444,7 @@ class Measurement:
             upload.take(content)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, upload.name, str(error))
+            self._take_next(arrival, [(upload.name, str(error))])
             return
         if not upload.whole:
             self.want(upload.length, self._uploads)
@@ -396,23 +452,34 @@ class Measurement:
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, find = self._scene, self._bearings.find
+        scene, find, kept = self._scene, self._bearings.find, self._given_machine
+        content, request = upload.content, self._latest
 
-        def read_or_why() -> _Read | str:
+        def read_or_why(name: str) -> _Read | str:
             try:
-                return read_file(upload.name, upload.content, scene, find)
+                return read_file(name, content, scene, find, kept)
             except ValueError as error:
                 return str(error)
             except Exception:
                 log.exception("a file could not be read")
-                return f"{upload.name} could not be read."
+                return f"{name} could not be read."
 
-        take = lambda found: self._take_next(arrival, upload.name, found)  # noqa: E731
-        self._in_background(read_or_why, take, upload.name)
+        def read_all() -> list[tuple[str, _Read | str]]:
+            try:
+                names = files_inside(upload.name, content)[:MOST_FILES]
+            except ValueError:
+                names = [upload.name]  # which says why
+            return [(name, read_or_why(name)) for name in names if request == self._latest]
 
-    def _take_next(self, arrival: _Arrival, name: str, found: _Read | str) -> None:
-        """Take a file that came, or a sentence on why it cannot be read."""
-        arrival.take(name, found)
+        take = lambda found: self._take_next(arrival, found)  # noqa: E731
+        self._in_background(read_all, take, upload.name)
+
+    def _take_next(self, arrival: _Arrival, files: Sequence[tuple[str, _Read | str]]) -> None:
+        """Take what came: each file, or a sentence on why it cannot be read."""
+        if len(files) > 1 and arrival.count == 1 and not arrival.baseline:  # in a zip
+            arrival.series = Series(together=True)
+        for name, found in files:
+            arrival.take(name, found, len(files))
         if arrival.number < arrival.count:
             self.more()
             return
@@ -422,28 +489,83 @@ class Measurement:
             self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}")
             return
         self.series = arrival.series
-        self._take_read(arrival.newest)
+        if arrival.baseline:
+            self._take_baseline(arrival.newest.table.name)
+        else:
+            self._take_read(arrival.newest)
+
+    def _take_baseline(self, name: str) -> None:
+        """The files of the series are compared with the first one, which came now."""
+        self.series = replace(self.series, together=True)
+        words = (
+            f"{name} is what {'' if self._table is None else self._table.name} is compared with."
+        )
+        self._tell(words=f"{words} See the trend below.", bad=False, busy=False)
+        self._draw()
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """The recordings of the series; for any thread."""
         given = self.state.values
-        changed = {name: given[name] for name in given if given[name] != self._first.get(name)}
+        kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
+        changed = {
+            name: text for name, text in given.items()
+            if text != self._first.get(name) and name not in kept
+        }  # fmt: skip
         return recordings_of(
-            self.series, shown, changed, direction, self._scene, self._bearings.find
+            self.series, shown, changed, kept, direction, self._scene, self._bearings.find
         )
+
+    @property
+    def _given_machine(self) -> dict[str, str]:
+        """The answers on the machine that a person gave for this file or for one before."""
+        values = self.state.values
+        return answers_of(values, self._first) if self._table is not None else {}
+
+    def _kept_of(self, form: Mapping[str, str]) -> frozenset[str]:
+        """The answers on the machine that are still those for the file before."""
+        kept = self._kept
+        return frozenset(
+            name for name, fields in GROUPS.items()
+            if name in kept and all(form[field] == kept[field] for field in fields)
+        )  # fmt: skip
+
+    def forget_machine(self) -> None:
+        """Ask for bearing and speed again, which were given for the file before."""
+        names = (name for name in GROUPS if name in self._kept)
+        self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
+
+    def join_parts(self) -> None:
+        """Make one signal of the files of the series, in their order."""
+        tables = self.series.tables
+        if self._ended or self._arrival is not None or self.state.parts < 2:
+            return
+        self._latest += 1
+        self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
+        scene, find, kept = self._scene, self._bearings.find, self._given_machine
+
+        def join() -> _Read:
+            return replace(read_of(join_tables(tables), scene, find, kept),
+                           parts=tuple(table.name for table in tables))  # fmt: skip
+
+        def take(found: _Read) -> None:
+            self.series = Series((found.table,))
+            self._take_read(found)
+
+        self._in_background(join, take, "The files")
 
     def _take_read(self, found: _Read) -> None:
         """Take a file that was read in place of the one before.
 
         The figures of the one before leave with it, so that none is shown under another's name.
         """
-        table = found.table
+        table, before = found.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
-        self._cut, self._first, self._agreed = found.cut, found.form, {}
+        self._cut, self._first, self._agreed = found.cut, found.first, {}
+        self._kept, self._parts = found.kept, found.parts
         self._taken = found.form
         self.measured = self.sized = None
         if found.asked is not None:
-            self.measured = _measured(found.asked)
+            self.measured = self._measured(found.asked, found.form)
             words, bad = self._summary(_about_size(found.sizes)), False
         else:
             words = f"{table.name} is read. {_WAITS} " + " ".join(
@@ -467,6 +589,10 @@ class Measurement:
             bearings=bearings_of(table, own=self._own_bearings),
             speeds=speeds_of(table),
             settling=False,
+            kept_from=before if found.kept else "",
+            parts=0
+            if self.series.shortened or not self.series.together
+            else len(self.series.tables),
             arrival=self.state.arrival + 1,
             **self._in_short(found.form),
         )
@@ -523,6 +649,7 @@ class Measurement:
             "voltage": is_voltage(table, texts),
             "speeds": speeds_of(table),
             "settling": False,
+            "kept_from": self.state.kept_from if self._kept_of(texts) else "",
         }
         if isinstance(found, FormError):
             stays = " The figures still show the signal as it was before." if before else ""
@@ -535,15 +662,21 @@ class Measurement:
         same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
         self._taken = texts
         if before is not None and same:  # what was computed of the signal stays
-            self.measured = replace(before, machine=found.machine)
+            machine = replace(found.machine, kept=self._kept_of(texts))
+            self.measured = replace(before, machine=machine)
         else:
-            self.measured = _measured(found)
+            self.measured = self._measured(found, texts)
         self._tell(
             words=self._summary(_about_size(sizes)), bad=False, busy=False, **news,
             **self._in_short(texts),
         )  # fmt: skip
         self._follow()  # the scene may have changed while the form was read
         self._draw()
+
+    def _measured(self, asked: FormResult, form: Mapping[str, str]) -> Measured:
+        origin = replace(asked.origin, parts=self._parts)
+        machine = replace(asked.machine, kept=self._kept_of(form))
+        return Measured(asked.recording, machine, origin=origin, in_si=asked.in_si)
 
     def _take_simulated_form(self, measured: Measured, speed: str) -> None:
         """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
@@ -709,6 +842,11 @@ class Measurement:
 _WAITS = "Nothing is drawn yet:"
 
 
+_ORIGINS = {
+    "Said by": "From the file,", "A guess:": "Assumed:", "The file does not say it.": "Assumed",
+}  # fmt: skip
+
+
 @dataclass
 class _Arrival:
     """Files that come one after the other, and what was read of them.
@@ -722,6 +860,7 @@ class _Arrival:
     number: int = 1
     newest: _Read | None = None
     why: str = ""
+    baseline: bool = False
 
     @property
     def words(self) -> str:
@@ -731,29 +870,37 @@ class _Arrival:
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
         return f"{self.number} of {self.count} files{of}: "
 
-    def take(self, name: str, found: _Read | str) -> None:
-        """Take what was read, or why nothing was."""
+    def take(self, name: str, found: _Read | str, inside: int = 1) -> None:
+        """Take what was read, or why nothing was; one of so many `inside` one file."""
         if isinstance(found, str):
             sentence = found if name in found else f"{name}: {found}"
             self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
-            self.series, self.newest = self.series.with_table(found.table, self.count), found
+            self.series, self.newest = (
+                self.series.with_table(found.table, self.count * inside, first=self.baseline),
+                found,
+            )
 
 
 @dataclass(frozen=True)
 class _Read:
     """A file's table, the values of its form, and the recording or why there is none yet.
 
-    `asks` are the questions before there is a recording, `sizes` those before it has a size.
+    `first` is the form as the file alone says; `kept` are answers for the file before that it has
+    besides. `asks` are the questions before there is a recording, `sizes` those before it has a
+    size. `parts` are the files that were joined.
     """
 
     table: Table
+    first: dict[str, str]
     form: dict[str, str]
     cut: str
     asked: FormResult | None
     refused: dict[str, str]
     asks: dict[str, str]
     sizes: dict[str, str]
+    kept: dict[str, str] = field(default_factory=dict)
+    parts: tuple[str, ...] = ()
 
 
 def read_file(
@@ -761,8 +908,12 @@ def read_file(
     content: bytes,
     scene: Machine,
     find: Callable[[str], CatalogueBearing] = find_published,
+    kept: Mapping[str, str] = MappingProxyType({}),
 ) -> _Read:
-    """A file with guesses at what it holds. For any thread; ValueError with a sentence."""
+    """A file with guesses at what it holds. For any thread; ValueError with a sentence.
+
+    `kept`: answers on the machine for the file before, used where this one says nothing.
+    """
     try:
         table = read_table(name, content)
     except FieldError as error:
@@ -773,8 +924,21 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
+    return read_of(table, scene, find, kept)
+
+
+def read_of(
+    table: Table,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+    kept: Mapping[str, str],
+) -> _Read:
+    """The same of a table that was read."""
+    name = table.name
     table, cut = _shortened(table)
-    (_, form), asks = fill(table, {}), questions(table)
+    (_, first), asks = fill(table, {}), questions(table)
+    kept = kept_answers(first, kept)
+    form = {**first, **kept}
     sizes = size_questions(table, form)
     found, refused = _tried(table, form, scene, find), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
@@ -784,8 +948,9 @@ def read_file(
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
-        return _Read(table, form, cut, None, {**refused, **found.sentences}, asks, sizes)
-    return _Read(table, form, cut, None if asks else found, refused, asks, sizes)
+        refused |= found.sentences
+        return _Read(table, first, form, cut, None, refused, asks, sizes, kept)
+    return _Read(table, first, form, cut, None if asks else found, refused, asks, sizes, kept)
 
 
 @dataclass(frozen=True)
@@ -817,10 +982,6 @@ def _answered(
 def _about_size(sizes: Mapping[str, str]) -> str:
     """The questions about a signal's size, and what waits for the answers."""
     return " ".join([*sizes.values(), _WITHOUT_SIZE]) if sizes else ""
-
-
-def _measured(asked: FormResult) -> Measured:
-    return Measured(asked.recording, asked.machine, origin=asked.origin, in_si=asked.in_si)
 
 
 def _sure(table: Table, form: Mapping[str, str], first: Mapping[str, str]) -> set[str]:

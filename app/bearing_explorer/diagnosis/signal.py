@@ -17,10 +17,10 @@ import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import Model, motion_of
 from bearing_explorer.kit.compute.cache import cached
-from bearingcore.common.lazy import cached_property
-from bearingcore.diagnosis.part.listened_signal import NARROWEST
-from bearingcore.files.channels import Column
-from bearingcore.signals.filter_bank import Band, squared_envelopes
+from bearingcore.common import cached_property
+from bearingcore.diagnosis import NARROWEST
+from bearingcore.files import Column
+from bearingcore.signals import Band, squared_envelopes
 
 if TYPE_CHECKING:
     from bearingcore import Bearing, Indicators, Kurtogram, Motion, Recording, Scene, Spectrum
@@ -44,7 +44,7 @@ class Origin:
 
     `unit` is None where the columns have units of their own, empty where it is not known.
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave.
+    meaning of columns that a person gave, `parts` are the files that were joined to this one.
     """
 
     file: str
@@ -53,6 +53,7 @@ class Origin:
     full_scale: float
     sensitivity: float | None = None
     given: Mapping[int, Column] = field(default_factory=dict)
+    parts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,7 +28,7 @@ from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.views.base import View
-from bearingcore.bearings.catalogue import MOST_BYTES
+from bearingcore.bearings import MOST_BYTES
 
 log = logging.getLogger(__name__)
 

@@ -49,7 +49,8 @@ class TabChange(msgspec.Struct):
 class UploadBegins(msgspec.Struct, tag="begin"):
     """A file was chosen: its name and its size [bytes].
 
-    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`.
+    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`; or the
+    `baseline` with which the file that is there is to be compared.
     """
 
     name: str
@@ -57,6 +58,7 @@ class UploadBegins(msgspec.Struct, tag="begin"):
     number: int = 1
     count: int = 1
     chosen: int = 1
+    baseline: bool = False
 
 
 class UploadPiece(msgspec.Struct, tag="piece"):
@@ -67,7 +69,7 @@ class UploadPiece(msgspec.Struct, tag="piece"):
 
 
 class RoleOfColumn(msgspec.Struct):
-    """What a column of a file is, from 0, was chosen."""
+    """The role of a column of a file, from 0, was chosen."""
 
     column: int
     role: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bearingcore.common.numbers import number
+from bearingcore.common import number
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, Field
 from bearingcore.units import UNITS

@@ -27,7 +27,7 @@ from bearing_explorer.kit.views.content import Inputs
 from bearing_explorer.kit.widgets.form import stack
 from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
-from bearingcore.statics.limit import summary
+from bearingcore.statics import summary
 
 log = logging.getLogger(__name__)
 

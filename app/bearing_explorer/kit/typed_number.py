@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from bearingcore.common.numbers import number, span
+from bearingcore.common import number, span
 
 
 def number_of(text: str, words: str, unit: str, least: float, most: float) -> float:

@@ -6,6 +6,7 @@ import asyncio
 import io
 import math
 import struct
+import zipfile
 import zlib
 from collections.abc import Callable
 
@@ -193,7 +194,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
     ("field", "text", "told"),
     [
         ("sample_rate", "fast", "must be a number, not “fast”"),
-        ("sample_rate", "-5", "possible: 10 to 1·10⁷ Hz"),
+        ("sample_rate", "-5", "possible: 1 to 1·10⁷ Hz"),
         ("shaft_speed", "0", "possible:"),
         ("shaft_speed", "rpm", "is missing"),
         ("full_scale", "0", "possible"),
@@ -341,6 +342,121 @@ def test_columns_in_two_units_are_each_read_in_their_own():
     np.testing.assert_allclose(read, NOISE * [9.80665, 1.0], rtol=1e-5)
     answer(made, unit="mm/s")  # which they are not
     assert "says g; mm/s is taken, as given" in made.state.remarks
+
+
+@pytest.mark.parametrize(
+    ("heading", "scale", "roles", "says"),
+    [
+        ("row,sensor", 1e3, "time ms;y", "10 kHz · speed? · unit?"),
+        ("t [s],speed [Hz]", 1.0, "time s;y", "10 kHz · speed? · unit?"),
+        ("count,a [g]", 1e9, "time ns;x", "10 kHz · speed? · g "),
+    ],
+)  # fmt: skip
+def test_the_roles_that_a_person_gives_go_before_all_guesses(heading, scale, roles, says):
+    """Rate, unit and speed follow from them; a rate that was typed stays."""
+    rows = np.column_stack([scale * np.arange(2000) / 1e4, NOISE[:, 0]])
+    content = (heading + "\n" + "\n".join(f"{t:.8g},{a:.6g}" for t, a in rows)).encode()
+    made = brought("a.csv", content)
+    assert not made.state.bad or made.state.columns is not None
+    answer(made, columns=roles)
+    assert says in made.state.line
+    assert made.state.values["sample_rate"] == "10000"
+    np.testing.assert_allclose(made.measured.recording.acceleration[:, 0] / (
+        9.80665 if "[g]" in heading else 1.0), NOISE[:, 0], rtol=1e-4)  # fmt: skip
+    answer(made, sample_rate="5000")
+    answer(made, columns=f"time µs;{roles[-1]}")
+    assert made.state.values["sample_rate"] == "5000"
+    answer(made, columns=f"speed rpm;{roles[-1]}")  # which varies: it is not taken unsaid
+    assert any(words.startswith("a guess from the file:") for _, words in made.state.speeds)
+
+
+def test_a_rate_that_could_not_be_is_a_question_and_agreeing_settles_it():
+    rows = "\n".join(f"{k / 8},{a:.6g}" for k, a in enumerate(NOISE[:, 0]))
+    made = brought("a.csv", f"time,a [g]\n{rows}".encode())
+    assert made.state.open == ["sample_rate"]
+    assert "Is 8000 Hz the sample rate?" in made.state.reasons["sample_rate"]
+    assert made.measured is None
+    answer(made, sure="yes")
+    assert made.measured.recording.sample_rate == 8000.0
+    answer(made, unit="m/s²")  # which does not ask again
+    assert not made.state.open
+    answer(made, columns="time s;y")  # the hand wins, even so
+    assert made.measured.recording.sample_rate == 8.0
+
+
+def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise():
+    async def steps() -> None:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
+                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
+        await settled(made)
+        assert made.state.kept_from == ""
+        await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
+        assert made.measured.machine.kept == {"bearing", "speed"}
+        assert made.measured.machine.source_of("speed") == "given, for the file before"
+        assert made.source_of("designation") == "Given for the file before, first.csv"
+        content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
+        await bring(made, "third.csv", content)
+        assert made.measured.machine.kept == {"bearing"}
+        assert made.measured.machine.source_of("speed") == "from the file"
+        made.forget_machine()
+        await settled(made)
+        assert (made.measured.bearing, made.state.kept_from) == (None, "")
+
+    run(steps())
+
+
+def zip_of(**files: bytes) -> bytes:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as file:
+        for name, content in files.items():
+            file.writestr(f"{name}.csv", content)
+    return packed.getvalue()
+
+
+def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
+    parts = {
+        f"run{k}": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
+        for k in range(6)
+    }
+    made = brought("rig.zip", zip_of(**parts, readme=b"no numbers"))
+    assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
+    assert len(made.series.left_out) == 1
+    assert made.measured.recording.name == "rig.zip/run5.csv"
+    assert made.state.parts == 6
+
+    async def join() -> None:
+        made.join_parts()
+        await settled(made)
+
+    run(join())
+    np.testing.assert_allclose(
+        made.measured.recording.acceleration / 9.80665, NOISE[::-1][:1800], rtol=1e-4
+    )
+    assert "6 files are joined" in made.state.remarks
+    assert len(made.measured.origin.parts) == 6
+    assert len(made.series.tables) == 1
+
+
+def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
+    async def steps() -> None:
+        made = measuring()
+        made.begin_upload("sound.csv", 100, baseline=True)
+        assert made.state.bad
+        await bring(made, "now.csv", csv_of(3.0 * NOISE, "time [s],x [g],y [g]"))
+        before, content = made.measured, csv_of(NOISE, "time [s],x [g],y [g]")
+        wanted: list[int] = []
+        made.want = lambda begin, of: wanted.append(of)
+        made.begin_upload("sound.csv", len(content), baseline=True)
+        made.take_piece(content, wanted[-1])
+        await settled(made)
+        assert made.measured is before
+        assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
+        found = made.recordings(before, "y").recordings
+        assert found[1].acceleration.std() == pytest.approx(3.0 * found[0].acceleration.std())
+
+    run(steps())
 
 
 # -- bad files -------------------------------------------------------------------------------------

@@ -26,8 +26,8 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.common.table import ResultTable, as_csv, table_of
-from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.dynamics.stability_map import stability_map
+from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.dynamics.stability_maps import stability_map
 from bearingcore.units import UNITS
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bearingcore import Load, presets
-from bearingcore.scene.pit import pit
+from bearingcore.scene.pits import pit
 
 CWRU = presets["6205"].replace(
     load=Load(fy=-400.0), shaft_speed=1796 * math.pi / 30.0, contact_damping=300.0

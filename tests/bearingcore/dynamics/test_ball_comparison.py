@@ -4,8 +4,8 @@ import math
 
 from bearingcore import presets, simulate
 from bearingcore.dynamics.ball_comparison import compare_balls
-from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.scene.pit import pit
+from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.scene.pits import pit
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from bearingcore import orbit, presets, simulate, spectrum
-from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.dynamics.stability_map import OUTCOMES, regions, stability_map
+from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.dynamics.stability_maps import OUTCOMES, regions, stability_map
 from bearingcore.dynamics.status import MapOutcome, OrbitStatus
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bearingcore.dynamics.strikes import Flight, Strike, flights, strikes
+from bearingcore.dynamics.strikes import Flight, Strike, ball_strikes, flights
 
 TIME = 0.1 * np.arange(10)
 
@@ -22,7 +22,7 @@ def test_a_ball_flies_where_it_touches_neither_race() -> None:
 def test_a_strike_is_told_with_its_first_touch_and_its_peak() -> None:
     inner = [5, 4, 0, 0, 0, 0, 0, 0, 3, 3]
     outer = [5, 4, 2, 0, 0, 0, 7, 8, 6, 0]
-    assert strikes(TIME, loads(inner, outer)) == (
+    assert ball_strikes(TIME, loads(inner, outer)) == (
         Strike(0, "outer", TIME[6], 8.0, TIME[7]),
         Strike(0, "inner", TIME[8], 3.0, TIME[8]),
     )
@@ -31,4 +31,4 @@ def test_a_strike_is_told_with_its_first_touch_and_its_peak() -> None:
 def test_balls_are_told_apart() -> None:
     two = np.concatenate([loads([1] * 10, [0] * 5 + [2] * 5), loads([0] * 10, [0] * 10)], axis=2)
     assert [flight.ball for flight in flights(TIME, two)] == [1]
-    assert [strike.ball for strike in strikes(TIME, two)] == [0]
+    assert [strike.ball for strike in ball_strikes(TIME, two)] == [0]

@@ -12,8 +12,8 @@ from bearingcore import equilibrium, kernels, modes, presets, simulate, stiffnes
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.orbit import orbit
-from bearingcore.dynamics.speed_run import speed_run
-from bearingcore.dynamics.stability_map import regions, stability_map
+from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.dynamics.stability_maps import regions, stability_map
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.signals.recording import Recording
 from bearingcore.statics.ball_positions import ball_positions

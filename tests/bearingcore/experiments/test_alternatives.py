@@ -10,7 +10,7 @@ import pytest
 from bearingcore import presets, simulate
 from bearingcore.dynamics.curves import curve_errors, stiffness_curves
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.experiments.alternatives import (
+from bearingcore.experiments.simpler_models import (
     DISPLACEMENT,
     MOST_CALLS,
     SPECTRUM,

@@ -9,21 +9,20 @@ import pytest
 
 from bearingcore import presets
 from bearingcore.dynamics.problem import motion_problem
-from bearingcore.experiments import (
-    Watch,
+from bearingcore.experiments.integrators import HAS_CVODE
+from bearingcore.experiments.measurements import measure
+from bearingcore.experiments.models import models_experiment
+from bearingcore.experiments.motions import motion_experiment
+from bearingcore.experiments.points import Experiment, Watch
+from bearingcore.experiments.references import motion_reference
+from bearingcore.experiments.stability import DIVERGED, linear_limits, stability_chart
+from bearingcore.experiments.statics import (
     angles_experiment,
-    linear_limits,
-    measure,
-    models_experiment,
-    motion_experiment,
-    stability_chart,
+    hard_cases,
+    static_problem,
+    static_reference,
     statics_experiment,
 )
-from bearingcore.experiments.integrators import HAS_CVODE
-from bearingcore.experiments.points import Experiment
-from bearingcore.experiments.references import motion_reference
-from bearingcore.experiments.stability import DIVERGED
-from bearingcore.experiments.statics import hard_cases, static_problem, static_reference
 from bearingcore.statics.equilibrium import default_cage_angles
 from tests.helpers.timing import measure_once
 

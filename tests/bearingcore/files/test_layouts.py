@@ -104,13 +104,26 @@ def test_two_rates_that_disagree_are_asked_about() -> None:
         (pd.DataFrame({"acc": SIGNAL[:, 0]}, index=DATES - DATES[0]).to_csv(), RATE),
         (pd.DataFrame(np.column_stack([TIME, SIGNAL[:, 0]])).to_csv(index=False), RATE),
         (FRAME.reset_index().to_csv(), RATE),
+        ("Unnamed: 0" + FRAME.to_csv(), RATE),
         (
             '"time" "acc"\n'
             + "\n".join(f'"{i + 1}" {t:.6f} {a}' for i, (t, a) in enumerate(FRAME.to_numpy())),
             RATE,
         ),
     ],
-    ids=["frame", "german", "series", "unnamed", "times", "dates", "durations", "bare", "two", "R"],
+    ids=[
+        "frame",
+        "german",
+        "series",
+        "unnamed",
+        "times",
+        "dates",
+        "durations",
+        "bare",
+        "two",
+        "again",
+        "R",
+    ],
 )
 def test_the_index_of_a_data_frame_is_no_signal(content: str, rate: float | None) -> None:
     check_one_signal(read(content), rate)
@@ -160,12 +173,20 @@ def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None
     assert f"in {unit} since 1970" in made.contents.sample_rate.reason
 
 
+def test_a_row_of_units_may_name_a_speed() -> None:
+    turning = np.full(len(TIME), 1480.0)
+    made = read(rows(TIME, SIGNAL[:, 0], turning, heading="Zeit,Beschl,Drehzahl\ns,g,1/min"))
+    assert made.names == ("Zeit [s]", "Beschl [g]", "Drehzahl [1/min]")
+    assert made.contents.shaft_speed.value == pytest.approx(1480.0 * math.pi / 30.0)
+
+
 @pytest.mark.parametrize(
     ("heading", "names"),
     [
         ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
         ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
         ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
+        ("time;acc;acc", ("time", "acc, column 2", "acc, column 3")),
         ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")),  # which one is missing?
     ],
 )
@@ -441,6 +462,8 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     two = zipped(a_csv=text, b_npy=numpy_file(np.save, SIGNAL[:, 0]))
     with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
         read(two, "rig.zip")
+    assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
+    assert table.files_inside("a.csv", text) == ["a.csv"]
     check_one_signal(read(two, "rig.zip/a.csv"))
     check_one_signal(read(two, "rig.zip/b.npy"), None)
     with pytest.raises(ValueError, match="unpack it"):
@@ -506,6 +529,16 @@ def test_the_hand_wins_over_what_headings_say() -> None:
                          unit="m/s²", directions=("y", "x"))  # fmt: skip
     np.testing.assert_allclose(got.acceleration, SIGNAL)
     assert got.sample_rate == pytest.approx(RATE)
+    slow = read_recording(
+        "x.csv", content, columns={"time": 0, "signal": 1}, time_unit="h", unit="g"
+    )
+    assert slow.sample_rate == pytest.approx(RATE / 3600.0)  # whatever is likely
+
+
+def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
+    (tmp_path / "rig.zip").write_bytes(zipped(run_csv=FRAME.to_csv().encode(), b_csv=b"1"))
+    got = read_recording(tmp_path / "rig.zip" / "run.csv", unit="g")
+    assert got.sample_rate == pytest.approx(RATE)
 
 
 @pytest.mark.parametrize(
@@ -543,7 +576,10 @@ def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
     path = tmp_path / "run_1797rpm.csv"
     path.write_text(FRAME.to_csv())
     got = read_recording(path, unit="g")
-    assert got.shaft_speed == pytest.approx(1797.0 * math.pi / 30.0)
+    assert got.shaft_speed is None  # a name suggests it; it does not give it
+    suggested = read_table(path.name, path.read_bytes()).contents.shaft_speed
+    assert suggested.value == pytest.approx(1797.0 * math.pi / 30.0)
+    assert (suggested.stated, suggested.taken) == (False, True)
     with pytest.raises(ValueError, match="No such file"):
         read_recording(tmp_path / "none.csv")
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore.signals.spectrogram import order_map, spectrogram
+from bearingcore.signals.spectrograms import order_map, spectrogram
 
 RATE = 6000.0
 TIME = np.arange(int(8 * RATE)) / RATE

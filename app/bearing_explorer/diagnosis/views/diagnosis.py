@@ -15,7 +15,7 @@ from bearing_explorer.diagnosis.diagnoses import (
     Question,
     answered,
 )
-from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.session import AboutMeasurement, Measurement, MeasurementState
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
@@ -28,10 +28,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Diagnosis, Recording
-from bearingcore.common.numbers import probability
-from bearingcore.diagnosis.part.combs import HARMONICS
-from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
-from bearingcore.diagnosis.part.status import DiagnosisStatus
+from bearingcore.common import probability
+from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model
@@ -98,8 +96,8 @@ class PartDiagnosis(LookView, MeasuredView):
     first_look: ClassVar[dict[str, Any]] = {"zoom": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.machine = MachineForm(self._answer_form)
-        self.part = PartPanel()
+        self.machine = MachineForm(self._answer_form, self._forget_machine)
+        self.part = PartPanel(self._report_on, self._search)
         self._shown_of: Recording | None = None  # of which the panel has an answer
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
@@ -129,6 +127,14 @@ class PartDiagnosis(LookView, MeasuredView):
     def _answer_form(self, values: Mapping[str, str]) -> None:
         if self.measurement is not None:
             self.measurement.take_form({**self.measurement.state.values, **values})
+
+    def _report_on(self, words: Mapping[str, str]) -> None:
+        if self.measurement is not None:
+            self.measurement.about = AboutMeasurement(**words)
+
+    def _forget_machine(self) -> None:
+        if self.measurement is not None:
+            self.measurement.forget_machine()
 
     def answer(self) -> Diagnosis | str | None:
         """The diagnosis, a sentence why there is none, or None: not yet."""
@@ -213,11 +219,15 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""
-        if self.measurement is None or found is None or found.status not in UNEXPLAINED:
+        if self.measurement is None or found is None:
             self.candidates.show("")
             return
         listed = self.measurement.listed
         answer, wanted = listed.latest(about), listed.wanted
+        asked = isinstance(wanted, ListQuestion) and wanted.is_like(about)
+        if found.status not in UNEXPLAINED and not asked:
+            self.candidates.show("")
+            return
         if not isinstance(wanted, ListQuestion) or not wanted.is_like(about):
             wanted = self.measurement.listed_question(about)
             if answer is None:
@@ -237,7 +247,9 @@ class PartDiagnosis(LookView, MeasuredView):
             rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
             before = CANCELLED.format(**counted) if progress.cancelled else ""
             after = "" if progress.cancelled and not rows else NONE_IN_LIST
-            first = UNEXPLAINED_BY_IT if about.geometry else ""
+            found = self.answer()
+            unexplained = isinstance(found, Diagnosis) and found.status in UNEXPLAINED
+            first = UNEXPLAINED_BY_IT if about.geometry and unexplained else ""
             words = first + FOUND_IN_LIST if rows else after
             self.candidates.show(before + words, rows)
 

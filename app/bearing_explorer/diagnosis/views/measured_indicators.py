@@ -13,7 +13,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.kit.widgets.form import FieldSpec
-from bearingcore.signals.indicators import SHAFT_SPEEDS, ZONES, severity_zone
+from bearingcore.signals import SHAFT_SPEEDS, ZONES, severity_zone
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model
@@ -109,8 +109,15 @@ def no_velocity(measured: Measured) -> str:
     return measured.indicators.velocity_reason
 
 
-def severity(measured: Measured, machine: str) -> str:
-    """The zone of the greatest velocity, or why there is none."""
+def zone_of(measured: Measured, machine: str) -> str:
+    """The zone of the greatest velocity; empty where there is none."""
+    if no_zone(measured, machine):
+        return ""
+    return severity_zone(float(measured.indicators.velocity_rms.max()), machine)
+
+
+def no_zone(measured: Measured, machine: str) -> str:
+    """Why there is no zone; empty where there is one."""
     why = no_velocity(measured)
     speed = measured.shaft_speed
     if not why and speed is None:
@@ -120,10 +127,14 @@ def severity(measured: Measured, machine: str) -> str:
         why = "the standard is for 120 to 30 000 rpm"
     if not why and not machine:
         why = "choose power and support of the machine"
-    if why:
+    return why
+
+
+def severity(measured: Measured, machine: str) -> str:
+    """The zone of the greatest velocity, or why there is none."""
+    if why := no_zone(measured, machine):
         return f"No zone of ISO 20816-3: {why}."
-    most = float(measured.indicators.velocity_rms.max())
-    zone = severity_zone(most, machine)
+    most, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)
     power, support = (_WORDS[part] for part in machine.split(", "))
     ends = style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])
     return (

@@ -15,7 +15,7 @@ from bearing_explorer.kit.plots.layers import draw, strips
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore.signals.filter_bank import PARTS
+from bearingcore.signals import PARTS
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

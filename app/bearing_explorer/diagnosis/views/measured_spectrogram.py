@@ -19,12 +19,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
-from bearingcore.signals.spectrogram import (
-    FEWEST_SEGMENTS,
-    Spectrogram,
-    order_map,
-    spectrogram,
-)
+from bearingcore.signals import FEWEST_SEGMENTS, Spectrogram, order_map, spectrogram
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

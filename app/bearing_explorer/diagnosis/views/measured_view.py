@@ -15,13 +15,13 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
-from bearingcore.files.units import ACCELERATIONS
+from bearingcore.files import ACCELERATIONS, path_in
 
 if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.signal import Measured
+    from bearing_explorer.diagnosis.signal import Measured, Origin
     from bearingcore import Scene
-    from bearingcore.common.table import ResultTable
-    from bearingcore.diagnosis.part.evidence import EnvelopeLines
+    from bearingcore.common import ResultTable
+    from bearingcore.diagnosis import EnvelopeLines
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
@@ -243,6 +243,18 @@ def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
     }
 
 
+def _table_lines(origin: Origin) -> list[str]:
+    """Lines that read the file, or join the files, of a recording."""
+    if origin.parts:
+        names = code_of(list(origin.parts))
+        return [
+            f"parts = [read_table(name, Path(name).read_bytes()) for name in {names}]",
+            "table = join_tables(parts)",
+        ]
+    name, path = code_of(origin.file), code_of(path_in(origin.file))
+    return [f"table = read_table({name}, Path({path}).read_bytes())"]
+
+
 def recording_lines(measured: Measured) -> list[str]:
     """Lines of Python that make `recording`: read from the file, or simulated without noise."""
     recording, origin = measured.recording, measured.origin
@@ -258,9 +270,9 @@ def recording_lines(measured: Measured) -> list[str]:
         ]
     known = {"sensitivity": origin.sensitivity, "shaft_speed": measured.machine.exact_speed}
     further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
-    name, unit = code_of(origin.file), code_of(origin.unit if measured.in_si else "m/s²")
+    unit = code_of(origin.unit if measured.in_si else "m/s²")
     return [
-        f"table = read_table({name}, Path({name}).read_bytes())",
+        *_table_lines(origin),
         *([f"table = table.with_columns({dict(origin.given)!r})"] if origin.given else []),
         *([] if measured.in_si else ["# the unit of the file is not known"]),
         "recording = table.recording(",

@@ -21,9 +21,8 @@ from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_o
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearingcore import Diagnosis
-from bearingcore.diagnosis.part.evidence import NONE_SEEN, PartEvidence
-from bearingcore.diagnosis.part.parts import PARTS
+from bearingcore import Diagnosis, PartEvidence
+from bearingcore.diagnosis import NONE_SEEN, PARTS
 
 FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")

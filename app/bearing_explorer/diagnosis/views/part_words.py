@@ -7,14 +7,12 @@ import math
 from typing import Any
 
 from bearing_explorer.diagnosis.diagnoses import SLIP, Question
-from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SPEED_SOURCES, Machine
+from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
-from bearingcore import Diagnosis, MeasuredExtent
-from bearingcore.common.numbers import percent_off, probability
-from bearingcore.diagnosis.part import say
-from bearingcore.diagnosis.part.evidence import LIKELY, NONE_SEEN, PartEvidence
-from bearingcore.diagnosis.part.listed import ListedBearing
+from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
+from bearingcore.common import percent_off, probability
+from bearingcore.diagnosis import LIKELY, NONE_SEEN, ListedBearing, perhaps_a_ball
 
 SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""
@@ -61,7 +59,7 @@ def plain(found: Diagnosis, question: Question) -> str:
         one = found.of(found.fault)
         modulated = f", modulated once per {one.sideband_source} turn"
         turns = one.part != "outer race" and float(one.sidebands[:3].mean()) >= SIDEBANDS
-        doubt = say.perhaps_a_ball() if found.perhaps_a_ball else ""
+        doubt = perhaps_a_ball() if found.perhaps_a_ball else ""
         return (
             f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
             f"{modulated if turns else ''}.{doubt}"
@@ -118,8 +116,7 @@ def speed_alone(machine: Machine) -> str:
     """The shaft speed, in a sentence, while the bearing is not known."""
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
-    words = "assumed" if "speed" in machine.guessed else SPEED_SOURCES[machine.speed_source]
-    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {words}."
+    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {machine.source_of('speed')}."
 
 
 def assumed(question: Question) -> str:
@@ -142,9 +139,7 @@ def _rpm(speed: float) -> str:
 
 def speed_source(found: Diagnosis, machine: Machine) -> str:
     """Where the shaft speed of an answer is from, in words."""
-    own = SPEED_SOURCES.get(machine.speed_source, "")
-    if "speed" in machine.guessed:
-        own = "assumed, a guess from the file"
+    own = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if found.speed_source.startswith(given):
             return own + found.speed_source.removeprefix(given)
@@ -208,9 +203,7 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
 def _origin(question: Question) -> str:
     """Where the bearing of an answer is from, after a comma."""
     machine, estimated = question.measured.machine, question.bearing.estimated
-    source = "assumed, a guess from the file"
-    if "bearing" not in machine.guessed:
-        source = BEARING_SOURCES[machine.bearing_source]
+    source = machine.source_of("bearing")
     if machine.by_frequencies:
         return f", from its {machine.bearing_name} ({source}); sizes are in proportion only"
     known = "".join(f", {words}" for words in (machine.bearing_name, source) if words)

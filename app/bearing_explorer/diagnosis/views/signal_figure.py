@@ -13,7 +13,7 @@ from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearingcore import Recording, Scene
-from bearingcore.common import checks
+from bearingcore.common import choice
 
 BEARINGS = (GIVEN, BY_FREQUENCIES, "unknown")
 """Knowledge of the bearing of a recording."""
@@ -52,7 +52,7 @@ def figure_of(
     """
     del cage_angle, focus
     machine = of_scene(scene, GIVEN).knowing(speed)
-    if checks.choice("bearing", bearing, BEARINGS) == "unknown":
+    if choice("bearing", bearing, BEARINGS) == "unknown":
         machine = dataclasses.replace(machine, bearing=None)
     machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)
 

@@ -48,8 +48,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Candidate, Scene, Sizing, size_defect
-from bearingcore.common.numbers import with_deviation
-from bearingcore.signals.averaging import BallPasses
+from bearingcore.common import with_deviation
+from bearingcore.signals import BallPasses
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model

@@ -40,8 +40,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.trend import LINES
+from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
 
 if TYPE_CHECKING:
@@ -358,14 +357,15 @@ def python_lines(found: FoundTrend, model: Model) -> str:
     return "\n".join([
         "from pathlib import Path\n",
         "from bearingcore import Recording, Scene, presets, read_table, trend",
-        "from bearingcore.files.channels import Column\n",
+        "from bearingcore.files import Column, path_in\n",
         f"scene = {scene_code(scene)}",
-        "files = [  # columns, directions, meaning given to columns, unit, rate, a 1, V/(m/s²), rad/s",
+        "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s",
         *files,
         "]",
         "recordings = []",
         "for name, columns, along, given, unit, rate, one, sensor, speed in files:",
-        "    table = read_table(name, Path(name).read_bytes()).with_columns(given)",
+        "    table = read_table(name, Path(path_in(name)).read_bytes())",
+        "    table = table.with_columns(given)",
         "    made = table.recording(columns, along, unit, rate, one, sensitivity=sensor)",
         "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
         "found = trend(",

@@ -14,7 +14,7 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
 from bearingcore import Candidate, Scene
-from bearingcore.common.numbers import probability
+from bearingcore.common import probability
 
 
 class CandidateList(pn.Column):

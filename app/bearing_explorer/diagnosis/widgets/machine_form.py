@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -19,8 +20,8 @@ from bearing_explorer.diagnosis.machine import (
 from bearing_explorer.diagnosis.session import MeasurementState
 from bearing_explorer.diagnosis.widgets.measurement_form import notes_html
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.widgets.form import Fields, choices, entry, row, select
-from bearingcore.bearings.frequencies import FREQUENCIES
+from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
+from bearingcore.bearings import FREQUENCIES
 
 LABELS = {
     "bearing": "Measured bearing",
@@ -36,6 +37,9 @@ NO_BEARINGS = [["", "choose", WAYS]]
 HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm"}
 
 
+KEPT = "<p>As you gave it for the file before, {}.</p>"
+
+
 class MachineForm(pn.Column):
     """Bearing and shaft speed of a signal; each answer counts at once.
 
@@ -43,9 +47,13 @@ class MachineForm(pn.Column):
     ----------
     answer
         called with all values of the form.
+    forget
+        called to ask again for what was given for the file before.
     """
 
-    def __init__(self, answer: Callable[[Mapping[str, str]], None]) -> None:
+    def __init__(
+        self, answer: Callable[[Mapping[str, str]], None], forget: Callable[[], None]
+    ) -> None:
         self._fields = fields = Fields(lambda _: answer(dict(fields.values)))
         for name in FIELDS:
             if name == "bearing":
@@ -54,10 +62,11 @@ class MachineForm(pn.Column):
                 fields.add(name, select(LABELS[name], [["", ""]]))
             else:
                 fields.add(name, entry(LABELS[name], placeholder=HINTS.get(name, "")))
+        self._forget = button("Another machine", forget, visible=False)
         self._notes = pn.pane.HTML("", stylesheets=[asset_text("measurement.css")], margin=0)
         self._shown: tuple[Any, Any] = (None, None)
         super().__init__(
-            row(*(fields.widgets[name] for name in LABELS)), self._notes,
+            row(*(fields.widgets[name] for name in LABELS), self._forget), self._notes,
             css_classes=["machine"], sizing_mode="stretch_width", margin=(2, 0, 8, 0),
         )  # fmt: skip
 
@@ -89,5 +98,7 @@ class MachineForm(pn.Column):
         named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
         named += [name for name in state.refused if shown.get(name) and name not in named]
         words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
-        self._notes.object = notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
+        kept = KEPT.format(html.escape(state.kept_from)) if state.kept_from else ""
+        self._forget.visible = bool(kept)
+        self._notes.object = kept + notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
         self._notes.visible = bool(self._notes.object)

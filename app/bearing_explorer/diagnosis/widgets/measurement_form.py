@@ -27,8 +27,8 @@ from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.common.numbers import number
-from bearingcore.files.units import UNITS
+from bearingcore.common import number
+from bearingcore.files import UNITS
 
 LABELS = {
     "columns": "Columns",
@@ -39,8 +39,8 @@ LABELS = {
 }
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, or a zip of "
-    "one of them; at most "
-    f"{MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, become a trend."
+    f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
+    "become a trend; parts of one signal can be joined."
 )
 _MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
@@ -49,8 +49,8 @@ _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
-    Once there is a signal it folds to a line, and unfolds again by a button. The fields about a
-    file are made when there is the first one.
+    Once there is a signal and no question it folds to a line, and unfolds again by a button. The
+    fields about a file are made when there is the first one.
     """
 
     def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
@@ -65,11 +65,12 @@ class MeasurementForm(pn.Column):
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", self._take_load, visible=False)
+        self._join = button("", self._join_parts, visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
         self._cancel = button("Cancel", self._give_up, visible=False, align="start")
-        self._in_short = row(self._line, self._change, visible=False)
+        self._in_short = row(self._line, self._join, self._change, visible=False)
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
@@ -132,14 +133,19 @@ class MeasurementForm(pn.Column):
             return
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
-                message.name, message.size, message.number, message.count, message.chosen
-            )
+                message.name, message.size, message.number, message.count, message.chosen,
+                message.baseline,
+            )  # fmt: skip
         else:
             self._measurement.take_piece(message.content, message.of)
 
     def _take_load(self) -> None:
         if self._measurement is not None:
             self._measurement.take_load()
+
+    def _join_parts(self) -> None:
+        if self._measurement is not None:
+            self._measurement.join_parts()
 
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
@@ -152,7 +158,7 @@ class MeasurementForm(pn.Column):
     def show(self, state: MeasurementState) -> None:
         """Show the state of the measurement."""
         if state.arrival != self._shown.arrival or (self._agreed and not state.bad):
-            self.folded, self._agreed = bool(state.line), False
+            self.folded, self._agreed = bool(state.line) and not state.open, False
         self._fold(state)
         self._about_file.visible = state.columns is not None
         if state.columns is not None:
@@ -162,6 +168,9 @@ class MeasurementForm(pn.Column):
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
             visible=bool(load and self._measurement and self._measurement.change_scene),
+        )
+        self._join.param.update(
+            label=f"Join the {state.parts} files to one signal", visible=state.parts > 1
         )
         self._shown = state
 

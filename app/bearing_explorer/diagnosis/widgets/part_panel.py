@@ -12,7 +12,7 @@ import panel as pn
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
-from bearing_explorer.kit.widgets.form import button, row
+from bearing_explorer.kit.widgets.form import Fields, button, entry, row
 
 _PICTURES = {
     "busy": "Bearing; the signal is being analysed",
@@ -25,14 +25,39 @@ navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
 NOT_NOW = "Neither can be taken while the answer is out of date."
+_CHOOSE = "window.dispatchEvent(new CustomEvent('explorer-choose-files', {{detail: '{}'}}))"
+_NEXT = (
+    ("baseline", "Compare with a sound one …"), ("several", "Is it getting worse? Several files …"),
+)  # fmt: skip
+"""Files to choose next, and the words of the button."""
 _REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
 
-class PartPanel(pn.Column):
-    """The bearing with the damaged part marked, the answer in words, and its assumptions."""
+REPORTED = {
+    "machine": ("Name of the machine", "fan 3, motor side"),
+    "point": ("Measuring point", "drive end, vertical"),
+    "date": ("Date of the recording", "26 November 2026"),
+}
+"""Words on the measurement in a report: label and example."""
 
-    def __init__(self) -> None:
+
+class PartPanel(pn.Column):
+    """The bearing with the damaged part marked, the answer in words, and its assumptions.
+
+    Parameters
+    ----------
+    report_on
+        called with the words for the report, by the names of `REPORTED`.
+    search
+        called to look for listed bearings that would explain the signal.
+    """
+
+    def __init__(
+        self,
+        report_on: Callable[[Mapping[str, str]], None] = lambda _: None,
+        search: Callable[[], None] = lambda: None,
+    ) -> None:
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
@@ -41,8 +66,20 @@ class PartPanel(pn.Column):
         self._report = button("Report on one page", lambda: None, align="start")
         self._report.js_on_click(code=_REPORT)
         self._why_not = _words("")
-        self._actions = row(self._copy, self._report, self._why_not, visible=False)
-        super().__init__(self._answer, self._actions, self._summary, **wide)
+        fields = Fields(lambda _: report_on(dict(fields.values)))
+        for name, (label, example) in REPORTED.items():
+            fields.add(name, entry(label, placeholder=example))
+        self._actions = row(
+            self._copy, *fields.widgets.values(), self._report, self._why_not, visible=False
+        )
+        further = [button(words, lambda: None) for _, words in _NEXT]
+        for made, (which, _) in zip(further, _NEXT, strict=True):
+            made.js_on_click(code=_CHOOSE.format(which))
+        self._next = row(
+            *further, button("Which bearing could it be?", search), visible=False,
+            margin=(8, 0, 8, 0),
+        )  # fmt: skip
+        super().__init__(self._answer, self._actions, self._next, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 
     def show(self, state: Mapping[str, Any]) -> None:
@@ -57,7 +94,7 @@ class PartPanel(pn.Column):
         self._copy.param.update(label="Copy the summary", disabled=not summary)
         self._report.disabled = not summary
         self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
-        self._actions.visible = bool(state.get("pass_on", ""))
+        self._actions.visible = self._next.visible = bool(state.get("pass_on", ""))
 
     def outdate(self, why: str) -> None:
         """Mark the answer that is shown: it is not that of the newest answers and settings."""

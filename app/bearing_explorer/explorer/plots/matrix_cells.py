@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.glyphs import add_glyph
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
-from bearingcore.statics.equilibrium import TERM_SYMBOLS
+from bearingcore.statics import TERM_SYMBOLS
 
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""

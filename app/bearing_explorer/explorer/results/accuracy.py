@@ -11,8 +11,14 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import words_of
 from bearingcore import Scene, presets
-from bearingcore.experiments import Measurements, measure, measurements_from
-from bearingcore.experiments.measurements import NAMES, ORBITS, STABILITY
+from bearingcore.experiments import (
+    NAMES,
+    ORBITS,
+    STABILITY,
+    Measurements,
+    measure,
+    measurements_from,
+)
 
 EVERYTHING = "everything"
 TRIALS = {

@@ -16,19 +16,21 @@ from bearing_explorer.explorer.results.excerpt import (
     excerpt_of,
     why_ended,
 )
-from bearingcore import Motion, Scene
-from bearingcore.common.numbers import level_difference
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.dynamics.ball_comparison import (
+from bearingcore import RACES, Motion, Scene
+from bearingcore.common import ResultTable, level_difference, table_of
+from bearingcore.dynamics import (
     QUIET,
+    RACES_OF_LOADS,
     SETTLING,
     BallComparison,
+    Flight,
+    Strike,
+    ball_strikes,
     compared_directions,
+    flights,
 )
-from bearingcore.dynamics.ball_comparison import compare_motions as compare_bands
-from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, flights, strikes
-from bearingcore.scene.defect import RACES
-from bearingcore.statics.passes import path_kinks
+from bearingcore.dynamics import compare_motions as compare_bands
+from bearingcore.statics import path_kinks
 
 Array = NDArray[np.float64]
 
@@ -260,7 +262,7 @@ def _strikes(
         return ()
     slot = int(np.flatnonzero(balls == entry.ball)[0])
     until = float(time[-1]) if leaves is None else LATE * leaves.time
-    own = [s for s in strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
+    own = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
     found = []
     for race in RACES:
         there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]

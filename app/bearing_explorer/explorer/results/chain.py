@@ -10,9 +10,8 @@ import numpy as np
 
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.kit.compute.compiling import StillCompiling
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.equilibrium import TERM_UNITS
-from bearingcore.statics.ranges import BALL_LOAD
+from bearingcore.common import ResultTable, table_of
+from bearingcore.statics import BALL_LOAD, TERM_UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

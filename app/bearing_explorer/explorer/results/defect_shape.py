@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearingcore import Scene
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.passes import ball_drop
+from bearingcore.common import ResultTable, table_of
+from bearingcore.statics import ball_drop
 
 TWO_PI = 2.0 * math.pi
 POINTS = 721

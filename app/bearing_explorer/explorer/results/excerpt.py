@@ -9,10 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore import Motion, Scene, equilibrium
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.scene.defect import RACES
-from bearingcore.statics.passes import Crossing, crossings, drops_at, passing_rate
+from bearingcore import RACES, Motion, Scene, equilibrium
+from bearingcore.common import ResultTable, table_of
+from bearingcore.statics import Crossing, crossings, drops_at, passing_rate
 
 STATIC_POINTS = 241
 

@@ -25,22 +25,24 @@ from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import DOF_NAMES, Scene
-from bearingcore.common.lazy import cached_property
-from bearingcore.common.numbers import number
-from bearingcore.diagnosis.size.sizing_error import extent_error
-from bearingcore.sweep.grid import Axis, Grid, StillDirectionError
-from bearingcore.sweep.outputs import (
+from bearingcore.common import cached_property, number
+from bearingcore.diagnosis import extent_error
+from bearingcore.sweep import (
     LIFE,
     MASS,
     MODES,
     OUTPUTS,
     SECONDS,
     STATICS,
+    STATUSES,
+    Axis,
+    Grid,
     Settings,
+    StillDirectionError,
+    SweepStatus,
     mode_labels,
     mode_symbol,
 )
-from bearingcore.sweep.status import STATUSES, SweepStatus
 from bearingcore.units import UNITS
 
 Array = NDArray[np.float64]

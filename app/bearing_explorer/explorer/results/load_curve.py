@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import Equilibrium
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.equilibrium import has_long_period
+from bearingcore.common import ResultTable, table_of
+from bearingcore.statics import has_long_period
 
 Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
 

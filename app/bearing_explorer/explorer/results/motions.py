@@ -19,11 +19,9 @@ from bearing_explorer.explorer.state.settings import Marching
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import Overtaken, cached
 from bearingcore import Motion, Orbit, Scene, Spectrum
-from bearingcore.common.numbers import thousands
-from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate, fine_step_rate
-from bearingcore.scene.packing import is_planar
-from bearingcore.scene.scene import MASSLESS, WITH_MASS
+from bearingcore.common import thousands
+from bearingcore.dynamics import default_step_rate, fine_step_rate, highest_natural_frequency
+from bearingcore.scene import MASSLESS, WITH_MASS, is_planar
 
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is

@@ -16,10 +16,9 @@ from bearing_explorer.explorer.results.chain import Peak, direction, loudest
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
-from bearingcore.scene.scene import DOF_SYMBOLS
-from bearingcore.statics.passes import drops_at
-from bearingcore.statics.ranges import BALL_LOAD
-from bearingcore.sweep.outputs import mode_symbol
+from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.statics import BALL_LOAD, drops_at
+from bearingcore.sweep import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.excerpt import Excerpt
@@ -210,6 +209,8 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     if not held:
         return ""
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
+    if scene.holds_tilt_unasked:
+        return f"{names} are held, as by the shaft's other bearing."
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:

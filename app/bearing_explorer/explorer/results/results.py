@@ -35,14 +35,17 @@ from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
-from bearingcore.common.lazy import cached_property
-from bearingcore.dynamics.orbit import common_ball_passes
-from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.scene.scene import MASSLESS, WITH_MASS
-from bearingcore.statics.ball_positions import EquilibriumWithMass
-from bearingcore.statics.equilibrium import default_cage_angles, has_long_period
-from bearingcore.statics.positions import turns
-from bearingcore.statics.ranges import StaticRanges, ranges_of
+from bearingcore.common import cached_property
+from bearingcore.dynamics import OrbitStatus, common_ball_passes
+from bearingcore.scene import MASSLESS, WITH_MASS
+from bearingcore.statics import (
+    EquilibriumWithMass,
+    StaticRanges,
+    default_cage_angles,
+    has_long_period,
+    ranges_of,
+    turns,
+)
 
 if TYPE_CHECKING:
     from bearing_explorer.kit.views.base import View

@@ -8,12 +8,15 @@ from numpy.typing import NDArray
 import bearingcore as core
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
-from bearingcore import Equilibrium, Maps, Modes, Scene
-from bearingcore.scene.defect import RACES
-from bearingcore.statics.equilibrium import ANGLES_A_PERIOD
-from bearingcore.statics.passes import drops_now
-from bearingcore.statics.positions import ROUNDS
-from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, static_ranges
+from bearingcore import RACES, Equilibrium, Maps, Modes, Scene
+from bearingcore.statics import (
+    ANGLES_A_PERIOD,
+    BALL_LOAD,
+    ROUNDS,
+    StaticRanges,
+    drops_now,
+    static_ranges,
+)
 
 
 @cached

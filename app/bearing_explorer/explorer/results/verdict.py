@@ -8,9 +8,9 @@ import numpy as np
 
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.sentences import words_of
-from bearingcore.common.numbers import count, scientific
-from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.scene.scene import DOF_SYMBOLS
+from bearingcore.common import count, scientific
+from bearingcore.dynamics import OrbitStatus
+from bearingcore.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

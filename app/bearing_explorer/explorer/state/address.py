@@ -17,7 +17,9 @@ The rules of version 1, which later versions go on reading:
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
-- `race`, `edge`, `law`, `balls`, `dofs` (``auto`` or names with dots between) are words. `floor` is
+- `race`, `edge`, `law`, `balls`, `dofs` are words. `dofs` are names with dots between, ``free``
+  (tilts are free), ``held`` (held, but for a moment), or ``auto``, which like nothing leaves tilts
+  free where the load causes any: that was so before links could say ``held``. `floor` is
   ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
   too long for an address.
 - `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
@@ -60,11 +62,10 @@ from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFE
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
-from bearingcore.bearings.rows import Row
-from bearingcore.common import checks
+from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
+from bearingcore.common import real_number
 from bearingcore.fields import SCENE_PARTS, Field, Range
-from bearingcore.scene.floor import MOST_ROWS
+from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
 VERSION = "1"
 LONGEST_LINK = 7_000
@@ -85,6 +86,7 @@ FORMER_TABS = {
 }
 """Former names of tabs, in links that people have."""
 
+_DOFS_OF_WORD = {"auto": None, "free": TILT_FREE, "held": TILT_HELD}
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
 _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
@@ -231,6 +233,8 @@ def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
         pairs.append(("selected", str(place.selected + 1)))
     for part, entries in _SCENE.items():
         pairs += _changes(entries, _part_of(scene, part), _part_of(base, part))
+    if scene.holds_tilt_unasked:
+        pairs = [*(pair for pair in pairs if pair[0] != "dofs"), ("dofs", "held")]
     if place.name:
         pairs.append(("name", place.name))
     return pairs
@@ -368,7 +372,11 @@ def _read(given: dict[str, str]) -> Place:
         for part, changes in fields.items()
     }
     defect = defects[0] if count == 1 else tuple(defects)
+    held = own_fields.get("dofs") == TILT_HELD and not parts["load"].has_moment
+    if held:  # that is the default
+        own_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
+    scene = scene if held else scene.with_former_dofs()
     tab = FORMER_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
 
@@ -463,17 +471,18 @@ def _option_text(choice: Choice, value: Any) -> str:
     return next(name for name, held in choice.in_links.items() if held == value)
 
 
-def _dofs(text: str) -> tuple[str, ...] | None:
-    if text == "auto":
-        return None
+def _dofs(text: str) -> tuple[str, ...] | str | None:
+    if text in _DOFS_OF_WORD:
+        return _DOFS_OF_WORD[text]
     names = tuple(text.split("."))
     if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
         raise ValueError(f"“{_shown(text)}” is not a list of directions that can move.")
     return names
 
 
-def _dofs_text(dofs: tuple[str, ...] | None) -> str:
-    return "auto" if dofs is None else ".".join(dofs)
+def _dofs_text(dofs: tuple[str, ...] | str | None) -> str:
+    words = (word for word, meant in _DOFS_OF_WORD.items() if meant == dofs)
+    return ".".join(dofs) if isinstance(dofs, tuple) else next(words)
 
 
 def unpacked(word: str) -> MeasuredFloor:
@@ -531,7 +540,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(checks.real_number, "rating")),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(real_number, "rating")),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

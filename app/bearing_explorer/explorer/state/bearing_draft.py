@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, FIELD_BY_KEY, Values, in_si
 from bearing_explorer.kit.sentences import field_of, sentence_of
 from bearingcore import Bearing
-from bearingcore.bearings import drawing
-from bearingcore.common.numbers import number
+from bearingcore.bearings import faults
+from bearingcore.common import number
 from bearingcore.errors import FieldError
 
 OF_BEARING = frozenset(key for key, field in FIELD_BY_KEY.items() if field.group in BEARING_GROUPS)
@@ -28,17 +28,17 @@ def faults_of(bearing: Bearing, draft: Values, error: ValueError) -> Faults:
     `bearing` is the one that the draft would change, `error` what the core said of it. Faults
     stand at fields of the draft, where there is one among those concerned.
     """
-    faults: Faults = {}
-    for fault in drawing.faults(_dimensions(bearing, draft)):
+    refused: Faults = {}
+    for fault in faults(_dimensions(bearing, draft)):
         concerned = [_CONTROL[name] for name in (fault.field, *fault.numbers)]
         at = next((name for name in concerned if name in draft), concerned[0])
-        faults.setdefault(at, _sentence(fault))
-    if not faults:
+        refused.setdefault(at, _sentence(fault))
+    if not refused:
         field = field_of(error)
         known = field is not None and field.key in OF_BEARING
         key = field.key if field is not None and known else next(reversed(draft))
-        faults[key] = sentence_of(error)
-    return faults
+        refused[key] = sentence_of(error)
+    return refused
 
 
 _CONTROL = {FIELD_BY_KEY[key].full_name: key for key in OF_BEARING}

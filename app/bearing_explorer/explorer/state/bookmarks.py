@@ -32,7 +32,7 @@ from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEdit
 from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
-from bearingcore.common.scene_file import LARGEST_TEXT
+from bearingcore.common import LARGEST_TEXT
 
 _COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in their order
 _STEPS = ("set", "typed", "choose", "reset", "floor")

@@ -129,8 +129,8 @@ class Prediction(msgspec.Struct, frozen=True):
     """A question before the answer is shown, as the head of a lesson has it.
 
     Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
-    number of `unit`, right from `right` − `within` to `right` + `within`. Figures on `veil` have the
-    answer and are veiled until then; None: all that the lesson marks.
+    number of `unit`, right from `right` − `within` to `right` + `within`. Figures on `veil` have
+    the answer and are veiled until then; None: all that the lesson marks.
     """
 
     ask: Text

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT
 from bearingcore import Scene
-from bearingcore.common.numbers import with_prefix
-from bearingcore.scene.scene import MASSLESS, WITH_MASS
+from bearingcore.common import with_prefix
+from bearingcore.scene import MASSLESS, WITH_MASS
 
 
 @dataclass(frozen=True)

@@ -52,14 +52,18 @@ from bearingcore import (
     preset_notes,
     presets,
     read_floor,
+    scene_of,
 )
-from bearingcore.bearings.ball import USUAL_GROOVES, drawn
-from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS
-from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.common import checks
-from bearingcore.common.numbers import number
+from bearingcore.bearings import (
+    BALL_MATERIAL,
+    BALL_MATERIALS,
+    OPTIONAL_FIELDS,
+    USUAL_GROOVES,
+    drawn,
+)
+from bearingcore.common import number, refuse
 from bearingcore.fields import Range
-from bearingcore.scene.presets import preset_labels
+from bearingcore.scene import TILT_FREE, preset_labels
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -69,6 +73,10 @@ ESTIMATED = "inside estimated"
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
+_USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
+"""Parts of a scene that come with a bearing out of a list, and their names in a sentence."""
+_SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
+"""No defect yet: a longer one lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _NO_FILE = "No file yet: the floor is flat."
 _OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
@@ -112,6 +120,7 @@ class Snapshot:
     kinds: tuple[str, ...]
     own_name: str
     origin: CatalogueOrigin | None
+    begun: Scene = field(compare=False)
     selected: int = field(compare=False)
     values: Values = field(compare=False)
     limits: dict[str, Range] = field(compare=False)
@@ -137,6 +146,8 @@ class SceneEditor:
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
     """The entry of a list that the bearing was taken from."""
+    begun: Scene = field(init=False)
+    """The preset, or the usual scene of a listed bearing, from which changes began."""
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
@@ -168,17 +179,18 @@ class SceneEditor:
             preset = self.preset if self.preset in alike or not alike else alike[0]
         defects = [_turned(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
-            raise checks.refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
+            raise refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
         if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
             rows = len(scene.bearing.all_rows)
-            raise checks.refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
+            raise refuse("number of rows", rows, f"at most {MOST_SHOWN_ROWS} here")
         if not 0 <= selected < len(defects):
-            raise checks.refuse("selected defect", selected + 1, f"1 to {len(defects)}")
+            raise refuse("selected defect", selected + 1, f"1 to {len(defects)}")
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         limits = limits_of(presets[preset]) | groove_limits(scene)
         for index in range(len(defects)):
             check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
+        self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
         self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
@@ -195,6 +207,7 @@ class SceneEditor:
             kinds=tuple(floor.kind for floor in self.floors),
             own_name=self.own_name,
             origin=self.origin,
+            begun=self.begun,
             selected=self.selected,
             values=dict(self.values),
             limits=dict(self.limits),
@@ -205,7 +218,7 @@ class SceneEditor:
     def restore(self, kept: Snapshot) -> None:
         """All as it was when the snapshot was taken."""
         self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
-        self.own_name, self.origin = kept.own_name, kept.origin
+        self.own_name, self.origin, self.begun = kept.own_name, kept.origin, kept.begun
         self.drop_draft()
         self.values, self.limits = dict(kept.values), dict(kept.limits)
         self.usual = dict(kept.usual)
@@ -254,14 +267,25 @@ class SceneEditor:
     def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
         """Put a bearing out of a list in the place of the one that is shown.
 
-        ValueError, and nothing changed, where the scene's defects do not go with it.
+        It comes sound, with a load, a speed and a support that are usual for it (`scene_of`); what
+        was changed of these before stays as it was changed.
+
+        ValueError, and nothing changed, where the defects that stay do not go with it.
         """
-        scene, effect = held(scene_with(self.scene, bearing))
+        usual = scene_of(bearing).replace(defect=_SOUND)
+        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
+        fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
+        before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
+        if before.dofs == self.begun.dofs:
+            before = before.replace(dofs=None)
+        scene, effect = held(scene_with(before, bearing).replace(**fresh))
+        floors = self.floors if "defect" in kept else [FloorChoice()]
+        selected = self.selected if "defect" in kept else 0
+        self.floors, self.selected, self.begun = floors, selected, usual
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        if effect:
-            self.effects["preset"] = effect
+        self.effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
@@ -449,10 +473,11 @@ class SceneEditor:
         self.floors[self.selected] = new
 
     def _take_dofs(self, dofs: str) -> None:
-        free = None if dofs == "auto" else tuple(name for name in DOF_NAMES if name in dofs.split())
-        if free == ():
+        named = tuple(name for name in DOF_NAMES if name in dofs.split())
+        known = {"auto": None, TILT_FREE: TILT_FREE}
+        if not named and dofs not in known:
             raise ValueError("Choose at least one direction that can move.")
-        self._change(dofs=free)
+        self._change(dofs=known.get(dofs, named))
 
     def _take_defect(self, which: str) -> None:
         if which == "add":
@@ -582,7 +607,9 @@ class SceneEditor:
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,
                 "floor": floor.kind,  # of a file that could not be read there is no floor
-                "dofs": "auto" if scene.dofs is None else " ".join(scene.dofs),
+                "dofs": " ".join(scene.dofs)
+                if isinstance(scene.dofs, tuple)
+                else scene.dofs or "auto",
             },
             "defects": {
                 "names": [
@@ -621,9 +648,24 @@ def _with_rows(
     if not second:
         return bearing
     if len(bearing.rows) != 2:
-        raise checks.refuse("rows of balls", len(bearing.all_rows), "two of them")
+        raise refuse("rows of balls", len(bearing.all_rows), "two of them")
     low, high = bearing.rows
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
+
+
+def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
+    """Sentence on what came with a bearing out of a list, and on what was kept."""
+    loads = ((-scene.load.fy, "down"), (scene.load.fz, "along the shaft"))
+    words = {
+        "defect": "no defect",
+        "load": " and ".join(f"{number(load)} N {where}" for load, where in loads if load),
+        "shaft_speed": f"{number(scene.shaft_speed * 30.0 / math.pi, 4)} turns a minute",
+        "support": f"a rotor and a housing of {number(scene.support.inner_mass)} kg each",
+    }
+    came = [words[part] for part in _USUAL if part not in kept]
+    stays = [name for part, name in _USUAL.items() if part in kept]
+    usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
+    return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

@@ -30,14 +30,24 @@ from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
-from bearingcore.experiments import Experiment, Measurements, OrbitAtSpeed, StabilityChart
-from bearingcore.experiments.balls import ERRORS as BALL_ERRORS
-from bearingcore.experiments.models import EXACT, FULL, MODEL_ERRORS, SETTLED
-from bearingcore.experiments.references import MOTION_ERRORS
-from bearingcore.experiments.stability import FIXED_STEP, VERDICTS
-from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
-from bearingcore.scene.presets import preset_labels
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore.experiments import (
+    ANGLE_ERRORS,
+    CASES,
+    EXACT,
+    FIXED_STEP,
+    FULL,
+    MODEL_ERRORS,
+    MOTION_ERRORS,
+    SETTLED,
+    STATIC_ERRORS,
+    VERDICTS,
+    Experiment,
+    Measurements,
+    OrbitAtSpeed,
+    StabilityChart,
+)
+from bearingcore.experiments import ERRORS as BALL_ERRORS
+from bearingcore.scene import WITH_MASS, preset_labels
 
 
 class Chart(NamedTuple):

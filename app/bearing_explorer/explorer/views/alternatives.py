@@ -21,8 +21,8 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
-from bearingcore.common.numbers import decibels, percent
-from bearingcore.experiments.alternatives import SPECTRUM, Alternative, Alternatives, alternatives
+from bearingcore.common import decibels, percent
+from bearingcore.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
 HEADS = ("Model", "Error", "of the", "Time", "Saves", "Remark")
 

@@ -20,8 +20,8 @@ from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearingcore.bearings.catalogue import COLUMNS, NEEDED
-from bearingcore.common.numbers import with_deviation
+from bearingcore.bearings import COLUMNS, NEEDED
+from bearingcore.common import with_deviation
 from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:

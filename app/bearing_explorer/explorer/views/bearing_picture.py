@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS
 from bearingcore import Bearing
-from bearingcore.bearings.drawing import center_distance
+from bearingcore.bearings import center_distance
 
 Point = tuple[float, float]
 

@@ -17,8 +17,8 @@ from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row
-from bearingcore.common.numbers import percent
-from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
+from bearingcore.common import percent
+from bearingcore.statics import LEFT_OUT, hours_in_words, turns_in_words
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
@@ -46,7 +46,8 @@ FIELDS = (
         1e3,
         1e-3,
         1e5,
-        "Of the whole bearing, with all its rows. Left empty it is computed by ISO 281.",
+        "Of the whole bearing, with all its rows. Left empty it is that of a bearing chosen by its "
+        "number, else computed by ISO 281.",
     ),
     Field(
         "viscosity",
@@ -97,7 +98,7 @@ class LifeOfBearing(View):
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
         self._fields = Fields(self.take)
-        hints = {"dynamic_load_rating": "ISO 281", "viscosity": "not given"}
+        hints = {"dynamic_load_rating": "by number, or ISO 281", "viscosity": "not given"}
         self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
         for field in FIELDS:

@@ -28,8 +28,8 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import Equilibrium, Scene
-from bearingcore.common.table import ResultTable, table_of
-from bearingcore.statics.ball_positions import EquilibriumWithMass
+from bearingcore.common import ResultTable, table_of
+from bearingcore.statics import EquilibriumWithMass
 
 OTHER_ROWS = style.DIRECTION_COLORS[1]
 """Colour of the rows after the first."""

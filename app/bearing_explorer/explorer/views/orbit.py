@@ -28,10 +28,9 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.form import stack
 from bearing_explorer.kit.widgets.status import StatusLine
-from bearingcore.common.numbers import count, scientific
-from bearingcore.common.table import table_of
-from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.scene.scene import MASSLESS
+from bearingcore.common import count, scientific, table_of
+from bearingcore.dynamics import OrbitStatus
+from bearingcore.scene import MASSLESS
 
 HEIGHT = 280
 ORBIT_POINTS = 600

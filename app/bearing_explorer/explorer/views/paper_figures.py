@@ -19,9 +19,8 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.levels import decibels
 from bearingcore import STIFFNESS_TERMS, Maps, Scene, presets, stiffness_maps
-from bearingcore.common.numbers import number, prefixed_span, span
-from bearingcore.statics.equilibrium import TERM_UNITS
-from bearingcore.statics.passes import crossings
+from bearingcore.common import number, prefixed_span, span
+from bearingcore.statics import TERM_UNITS, crossings
 
 Array = NDArray[np.float64]
 _SLIPS = "## Errors in the paper"

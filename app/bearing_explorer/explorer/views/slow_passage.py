@@ -37,8 +37,8 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore import Bearing
-from bearingcore.common.table import table_of
-from bearingcore.scene.packing import ball_angles
+from bearingcore.common import table_of
+from bearingcore.scene import ball_angles
 
 SIDE_BY_SIDE = """
 :host {

@@ -31,9 +31,9 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
-from bearingcore.common.progress import Progress
-from bearingcore.dynamics.stability_map import OUTCOMES, StabilityMap, regions, stability_map
-from bearingcore.scene.scene import MASSLESS
+from bearingcore.common import Progress
+from bearingcore.dynamics import OUTCOMES, StabilityMap, regions, stability_map
+from bearingcore.scene import MASSLESS
 
 GRIDS = (13, 25, 49, 97)
 """Points along each side that can be chosen; each holds the points of those before."""

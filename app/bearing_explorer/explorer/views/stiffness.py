@@ -24,8 +24,8 @@ from bearing_explorer.kit.plots.style import in_degrees, with_prefix, words_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS, Scene
-from bearingcore.common.numbers import prefixed_span
-from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.common import prefixed_span
+from bearingcore.statics import TERM_UNITS
 
 NARROWEST = 920
 """[px] width from which a cell has room for its symbol and its value."""

@@ -13,7 +13,7 @@ from bearing_explorer.explorer.state.value_range import Sweep, alike_but_for, fo
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Scene
-from bearingcore.common.progress import Progress
+from bearingcore.common import Progress
 
 FAINT = 0.35
 """Opacity of a result of another scene."""

@@ -47,8 +47,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
-from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore.dynamics import contact_resonance_band
+from bearingcore.scene import WITH_MASS
 
 GREY: FieldSpec = {
     "name": "grey",

@@ -22,9 +22,8 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import Fields, row, select, stack
-from bearingcore.common.numbers import decibels, scientific
-from bearingcore.experiments import Experiment, Point
-from bearingcore.experiments.integrators import METHODS
+from bearingcore.common import decibels, scientific
+from bearingcore.experiments import METHODS, Experiment, Point
 
 HEIGHT, TALL = 260, 430
 """[px] of a chart, and of one that has a row for itself."""

@@ -15,11 +15,12 @@ import threading
 from collections.abc import Callable
 
 from bearing_explorer.kit.compute import default_results
-from bearingcore import Scene, kernels, warm
-from bearingcore.scene.scene import WITH_MASS
+from bearingcore import Scene, warm
+from bearingcore.kernels import all_on_disk
+from bearingcore.scene import WITH_MASS
 from bearingcore.warm_up import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS
 
-__all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling"]
+__all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling", "all_on_disk"]
 
 log = logging.getLogger(__name__)
 
@@ -118,8 +119,3 @@ class Compilation:
 _current = Compilation()
 begin, wait, left = _current.begin, _current.wait, _current.left
 need, progress, drawn = _current.need, _current.progress, _current.drawn
-
-
-def all_on_disk() -> bool:
-    """Whether an earlier start has compiled everything."""
-    return kernels.all_on_disk()

@@ -30,7 +30,7 @@ from bearing_explorer.kit.plots.heat_map import (
 )
 from bearing_explorer.kit.plots.layers import Glyph, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearingcore.common.numbers import PREFIXES, prefix_power
+from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:

@@ -29,9 +29,9 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from bearingcore.common.numbers import PREFIXES, prefix_power
-from bearingcore.common.numbers import number as number
-from bearingcore.common.numbers import with_prefix as with_prefix
+from bearingcore.common import PREFIXES, prefix_power
+from bearingcore.common import number as number
+from bearingcore.common import with_prefix as with_prefix
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""

@@ -46,7 +46,7 @@ from bearing_explorer.kit.views.python_lines import lines_of
 from bearing_explorer.kit.widgets.facts import sentence_html, table_to_read
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 from bearingcore import Scene
-from bearingcore.common.table import as_csv
+from bearingcore.common import as_csv
 
 #: {source: {column: array}}
 Sources = dict[str, dict[str, np.ndarray]]

@@ -36,7 +36,8 @@ def lines_of(view: View[C], content: C) -> str:
         if view.figures or view.computes:
             body.append("drawn.show()  # in the browser")
     text = "\n".join(body)
-    core = [name for name in ("Recording", "Scene", "presets", "read_table", "simulate")
+    known = ("Recording", "Scene", "join_tables", "presets", "read_table", "simulate")
+    core = [name for name in known
             if f"{name}(" in text or f"{name}[" in text or f"{name}." in text]  # fmt: skip
     imports = [
         "import math\n" if "math." in text else "",
@@ -44,7 +45,7 @@ def lines_of(view: View[C], content: C) -> str:
         "\n" if "math." in text or "Path(" in text else "",
         "from bearing_explorer import figures\n",
         f"from bearingcore import {', '.join(core)}\n",
-        "from bearingcore.files.channels import Column\n" if "Column(" in text else "",
+        "from bearingcore.files import Column\n" if "Column(" in text else "",
     ]
     return f"{''.join(imports)}\n{text}\n"
 

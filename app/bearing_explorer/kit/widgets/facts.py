@@ -13,7 +13,7 @@ import panel as pn
 from numpy.typing import NDArray
 
 from bearing_explorer.kit.assets import asset_text
-from bearingcore.common.numbers import count, number
+from bearingcore.common import count, number
 from bearingcore.units import UNITS
 
 

@@ -9,8 +9,8 @@ import param
 
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.serve.live_component import LiveComponent
-from bearingcore.common import numbers
-from bearingcore.statics.limit import NO_OIL
+from bearingcore.common import number, with_prefix
+from bearingcore.statics import NO_OIL
 
 if TYPE_CHECKING:
     from bearingcore import Limit
@@ -64,7 +64,7 @@ def _number(value: float, unit: str) -> str:
     if math.isnan(value):
         return "not known"
     if unit == "rad":
-        return f"{numbers.number(math.degrees(value))}°"
+        return f"{number(math.degrees(value))}°"
     if unit:
-        return numbers.with_prefix(value, unit)
-    return numbers.number(value) if value >= 1e-4 or value == 0.0 else "below 0.0001"
+        return with_prefix(value, unit)
+    return number(value) if value >= 1e-4 or value == 0.0 else "below 0.0001"

@@ -25,6 +25,7 @@ from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Scene, equilibrium, presets
+from bearingcore.scene.scene import FREE_TILT_WORDS
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
@@ -175,7 +176,11 @@ def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     assert all("θx and θy are held by choice." in words for words in said(chosen))
     rollers = "cylindrical rollers carry nothing along the others"
     assert all(rollers in words for words in said(presets["nu208"])[1:])
-    assert not any("held" in words or "Not needed" in words for words in said(presets["liew-lim"]))
+    free = said(presets["liew-lim"])
+    assert not any("are held" in words or "Not needed" in words for words in free)
+    assert FREE_TILT_WORDS in free[-1]
+    tilts_held = "θx and θy are held, as by the shaft's other bearing."
+    assert all(tilts_held in words for words in said(presets["liew-lim"].replace(dofs=None)))
 
 
 def test_no_rounding_noise_is_said() -> None:

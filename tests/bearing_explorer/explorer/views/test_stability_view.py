@@ -24,7 +24,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import orbit
-from bearingcore.dynamics.stability_map import OUTCOMES
+from bearingcore.dynamics.stability_maps import OUTCOMES
 from tests.helpers.stability import RIG, found_map
 
 

@@ -13,7 +13,6 @@ from bearing_explorer.kit.compute import cache, compiling, default_results
 from bearing_explorer.kit.compute.compiling import Compilation, StillCompiling
 from bearing_explorer.page import SECTIONS
 
-from bearingcore import kernels
 from bearingcore.warm_up import PARTS
 from tests.helpers.loops import run
 from tests.helpers.served import wait_until
@@ -27,7 +26,7 @@ def compilation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Compilation]:
     for name in ("begin", "wait", "left", "need", "progress", "drawn"):
         monkeypatch.setattr(compiling, name, getattr(made, name))
     monkeypatch.setattr(compiling, "FIRST_PICTURE", 0.0)
-    monkeypatch.setattr(kernels, "all_on_disk", lambda: False)
+    monkeypatch.setattr(compiling, "all_on_disk", lambda: False)
     cache.clear()
     yield made
     cache.clear()

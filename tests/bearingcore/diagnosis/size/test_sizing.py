@@ -16,7 +16,7 @@ from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator
 from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.files.table import read_table
-from bearingcore.scene.pit import pit
+from bearingcore.scene.pits import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing import FAMILIES, as_given, size_all

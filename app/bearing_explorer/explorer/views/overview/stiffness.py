@@ -30,7 +30,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.form import button
 from bearingcore import STIFFNESS_TERMS
-from bearingcore.statics.equilibrium import TERM_UNITS
+from bearingcore.statics import TERM_UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

@@ -10,8 +10,8 @@ import numpy as np
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.reasons import why_softer
 from bearing_explorer.kit.plots import style
-from bearingcore.statics.equilibrium import TERM_SYMBOLS
-from bearingcore.sweep.outputs import mode_symbol
+from bearingcore.statics import TERM_SYMBOLS
+from bearingcore.sweep import mode_symbol
 
 LEAST = 0.01
 """Of a number: less is no change."""

@@ -1,0 +1,90 @@
+"""The next step after a diagnosis, and how soon, in sentences for planners.
+
+How soon rests on the zone of the vibration's velocity and on whether it grew; the intervals are
+usual practice, and say so.
+"""
+
+from __future__ import annotations
+
+from bearing_explorer.diagnosis.diagnoses import Question
+from bearing_explorer.diagnosis.views.part_words import the
+from bearingcore import Diagnosis, Trend
+from bearingcore.common import number
+from bearingcore.diagnosis import LIKELY, NONE_SEEN
+
+GROWN = 2.0
+"""Times the baseline's root mean square from which on the vibration has clearly grown."""
+
+ONE_RECORD = "One record cannot show how fast the damage grows; a second one can."
+PRACTICE = "These intervals are usual practice, not computed."
+ALIKE = "at the same point, speed and load"
+
+
+def next_steps(
+    found: Diagnosis, question: Question, zone: str = "", trend: Trend | None = None
+) -> str:
+    """The next step, and how soon, in sentences.
+
+    Parameters
+    ----------
+    zone
+        of ISO 20816-3; empty where it is not known.
+    trend
+        of several records, where there is one.
+    """
+    several = trend is not None and len(trend.points) > 1
+    change = float(trend.rms_change[-1]) if several and trend is not None else 1.0
+    if not found.names_a_part:
+        return _without_a_part(found, zone, change)
+    part = the(found.fault)
+    words = [_how_soon(part, zone, change, found.probability < LIKELY)]
+    if several:
+        words.append(
+            f"Over {len(trend.points) if trend else 0} records the vibration became "
+            f"{number(change, 2)} times that of the baseline."
+        )
+    else:
+        words.append(ONE_RECORD)
+    if zone in ("A", "B"):
+        words.append("A low velocity does not clear a bearing: early damage hardly shows in it.")
+    return " ".join([*words, PRACTICE])
+
+
+def _how_soon(part: str, zone: str, change: float, unsure: bool) -> str:
+    if zone == "D":
+        return (
+            f"Now: the vibration is in zone D, which may damage the machine, and {part} is named. "
+            "Stop it, or take load off it, as soon as the process allows, and change the bearing."
+        )
+    if zone == "C" or change >= GROWN:
+        why = "is in zone C, not for long operation" if zone == "C" else "has clearly grown"
+        return (
+            f"Soon: the vibration {why}. Order the bearing, change it at the next opportunity, and "
+            f"measure every day until then, {ALIKE}."
+        )
+    first = "Confirm it first: measure again" if unsure else "Measure again"
+    return (
+        f"{first} within a week, {ALIKE}, and weekly from then on. Order the bearing, and have it "
+        "inspected at the next planned stop."
+    )
+
+
+def _without_a_part(found: Diagnosis, zone: str, change: float) -> str:
+    if found.fault == NONE_SEEN:
+        words = "Measure again at the usual interval."
+    else:
+        words = (
+            "This record decides nothing about the bearing: measure again, with the sensor closer "
+            "to it, at a higher sample rate, or for longer."
+        )
+    if zone in ("C", "D"):
+        soon = "now" if zone == "D" else "soon"
+        words += (
+            f" The vibration is in zone {zone} all the same: look {soon} for its cause in balance, "
+            "alignment, looseness or another part."
+        )
+    elif change >= GROWN:
+        words += (
+            f" The vibration became {number(change, 2)} times that of the baseline: find out why."
+        )
+    return words

@@ -122,12 +122,11 @@ export function render({ model }) {
     })
     const teachers = element("details", { class: "teachers" }, element("summary", {}, "For teachers"),
       element("div", { class: "body", html: model.teachers }))
-    teachers.hidden = hides || !model.teachers
     teachers.addEventListener("toggle", () => { if (teachers.open) teachers.scrollIntoView() })
     fill(element("h2", { tabindex: "-1" }, "Lessons"),
       element("p", { class: "note" }, "Each asks a question, shows which slider to drag, and gives the "
         + "answer. Beginning one sets its scene; Undo brings yours back."),
-      element("ol", { class: "entries" }, ...entries), teachers)
+      element("ol", { class: "entries" }, ...entries), ...(hides || !model.teachers ? [] : [teachers]))
   }
 
   // A prediction: chosen or typed. Until then the figures that would answer it are veiled.

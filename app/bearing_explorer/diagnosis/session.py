@@ -343,6 +343,15 @@ class Measurement:
             return CHANGED
         return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
 
+    @property
+    def at_work(self) -> str:
+        """Work that is under way, for the status line; empty where nothing is."""
+        if self.state.busy:
+            return "Reading the signal"
+        if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
+            return "Analysing the signal"
+        return "Searching the list of bearings" if self.listed.busy else ""
+
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
         named = {one.name: one.bearing for one, _ in self._bearings.all()}
@@ -814,9 +823,11 @@ class Measurement:
         )
 
     def _tell(self, **news: Any) -> None:
-        self.state = replace(self.state, **news)
+        before, self.state = self.at_work, replace(self.state, **news)
         self.show(self.state)
         self.show_machine(self.state)
+        if self.at_work != before:
+            self._draw()
 
     def _in_background(
         self, compute: Callable[[], Any], take: Callable[[Any], None], name: str

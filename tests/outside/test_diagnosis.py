@@ -140,6 +140,7 @@ def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
     compared="extent, but for ball spacings and for which peak is the entry",
     within="its interval of 95 %",
 )  # fmt: skip
+@pytest.mark.proof
 def test_an_extent_of_a_motion_by_scipy() -> None:
     truth, content = file_from_elsewhere()
     read = read_table("rig.csv", content).recording(["vertical", "horizontal"], ["y", "x"], "g")

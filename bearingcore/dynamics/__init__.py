@@ -10,11 +10,11 @@ from bearingcore.dynamics.ball_comparison import (
 )
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate, fine_step_rate
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.speed_runs import SpeedRun, speed_run
 from bearingcore.dynamics.stability_maps import OUTCOMES, StabilityMap, regions, stability_map
 from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.dynamics.step_rate import default_step_rate, fine_step_rate
 from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, ball_strikes, flights
 
 __all__ = [

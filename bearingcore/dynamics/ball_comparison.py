@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference, number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.dynamics.motion import Motion, fine_step_rate, simulate
+from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.step_rate import fine_step_rate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
 

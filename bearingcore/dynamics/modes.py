@@ -34,6 +34,10 @@ from bearingcore.statics.positions import (
 
 Array = NDArray[np.float64]
 
+MIXED = 0.25
+"""Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
+nearly: right to 1e-4 then."""
+
 
 @shown_as_table
 @dataclass(frozen=True)
@@ -144,8 +148,8 @@ def frequency_bands(
 
     Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
     them: see `bearingcore.statics.positions`. Around each least and greatest sample it is looked
-    for ever closer; coarsely, and where a defect turns with the shaft, without damping, and the
-    frequency there is the damped one, as in `Modes`.
+    for ever closer: with damping nearly, coarsely and where a defect turns with the shaft without.
+    The frequency there is the damped one, as in `Modes`.
 
     Parameters
     ----------
@@ -182,16 +186,14 @@ def frequency_bands(
         if undamped:
             return search.frequencies(known)
         # dampers that come in with a ball make frequencies jump, which undamped ones do not show
-        return modes_at(known, search.template).frequency.T
+        return modes_at(known, search.template, nearly=True).frequency.T
 
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
     ends = extremes(found, frequencies(state), closer, rounds=rounds)
-    least, greatest = ends.least, ends.greatest
-    if undamped:
-        there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
-        least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 
@@ -227,10 +229,11 @@ class BandSearch:
         return found
 
 
-def modes_at(state: Equilibrium, template: Array | None = None) -> Modes:
+def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
     """The modes at static states that are already known.
 
     They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
+    `nearly`: damping by `_nearly_damped`, which is quicker.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -263,7 +266,8 @@ def modes_at(state: Equilibrium, template: Array | None = None) -> Modes:
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
-        frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
+        damped = _nearly_damped if nearly else _damped
+        frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
     return Modes(
         scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
@@ -485,6 +489,38 @@ def _damped(
     chosen = np.take_along_axis(values, picked, axis=1)
     size = np.abs(chosen)
     return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
+
+
+def _nearly_damped(
+    K: NDArray[np.float64],
+    C: NDArray[np.float64],
+    mass: NDArray[np.float64],
+    shape: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
+
+    In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
+    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
+    by more than MIXED, or one hardly swings, as `_damped` has it.
+    """
+    c = shape @ C @ np.swapaxes(shape, 1, 2)
+    own = np.diagonal(c, axis1=1, axis2=2)
+    squared = np.einsum("nij,nij->ni", shape @ K, shape)
+    between = np.where(np.eye(len(mass), dtype=bool), 0.0, c)
+    rest = squared
+    for _ in range(3):
+        rate = -0.5 * own + 1j * np.sqrt(rest - 0.25 * own**2 + 0j)
+        there = rate[:, :, None]
+        D = there**2 + own[:, None] * there + squared[:, None]
+        part = between / np.where(between == 0.0, 1.0, D)
+        pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
+        rest = squared - rate**2 * pull
+    size = np.abs(rate)
+    frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
+    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (own**2 < squared).all(axis=1)
+    if not near.all():
+        frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
+    return frequency, ratio
 
 
 def _labels(

@@ -30,14 +30,9 @@ from bearingcore.dynamics.low_pass import (
     hermite_weights,
 )
 from bearingcore.dynamics.modes import highest_frequency_of
-from bearingcore.dynamics.motion import (
-    MOST_SAMPLES,
-    MOST_STEPS,
-    moving_system,
-    static_start,
-    step_rate_of,
-)
+from bearingcore.dynamics.motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.dynamics.step_rate import step_rate_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedMotion
 from bearingcore.scene.scene import Scene

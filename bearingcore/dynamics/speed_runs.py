@@ -19,13 +19,12 @@ from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
-    default_step_rate,
-    fine_step_rate,
     simulate,
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.status import MotionStatus
+from bearingcore.dynamics.step_rate import default_step_rate, fine_step_rate
 from bearingcore.scene.scene import MASSLESS, Scene
 
 SETTLING_SHARE = 0.5

@@ -22,7 +22,8 @@ from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_part
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import low_passed, rows_needed
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate, simulate
+from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.points import (
     NOT_WATCHED,
     Experiment,

@@ -8,13 +8,7 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     has_long_period,
 )
-from bearingcore.statics.life import (
-    GIVEN,
-    LEFT_OUT,
-    OF_A_CATALOGUE,
-    hours_in_words,
-    turns_in_words,
-)
+from bearingcore.statics.life import GIVEN, LEFT_OUT, OF_A_CATALOGUE, hours_in_words, turns_in_words
 from bearingcore.statics.limit import NO_OIL, summary, unknown
 from bearingcore.statics.passes import (
     Crossing,

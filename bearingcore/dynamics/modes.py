@@ -29,7 +29,6 @@ from bearingcore.statics.positions import (
     equilibrium_over_all,
     extremes,
     positions_of,
-    turns,
 )
 
 Array = NDArray[np.float64]
@@ -171,7 +170,7 @@ def frequency_bands(
         where the support lacks a number, by its name.
     """
     checks.instance("scene", scene, Scene)
-    n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
+    n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
     found = positions_of(packed, n)
@@ -179,7 +178,7 @@ def frequency_bands(
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(state)
-    undamped = turns(scene) or coarse  # many samples, or few that have to be quick
+    undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""

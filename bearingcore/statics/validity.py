@@ -54,7 +54,7 @@ from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
-from bearingcore.statics.limit import NO_DRAWING, NO_OIL, Limit, unknown, upper_limit
+from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.positions import over_all_positions, positions
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
@@ -211,7 +211,6 @@ NOT_IN_STATICS_WITH_MASS = (
 )
 
 NO_STATE = "no cage angle has a static equilibrium"
-NO_MOTION = "no motion of this scene has been simulated yet"
 
 
 def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -> Limit:

@@ -266,7 +266,8 @@ class Settings:
     sample_rate
         [Hz] of simulated motions and records.
     dynamic_load_rating
-        C_r [N] that lives are computed with; None: that of each bearing by ISO 281.
+        C_r [N] that lives are computed with; None: that of each bearing, of the catalogue where its
+        number is known, else by ISO 281.
     band_low, band_high
         [Hz] of the band whose share of the power that mass adds is asked for.
     """
@@ -479,7 +480,8 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
     lives, where nothing is carried, are not known to a map.
     """
-    rating = settings.dynamic_load_rating or dynamic_load_rating(scene.bearing)
+    own = scene.bearing.dynamic_load_rating
+    rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
     found = life(scene, rating, positions="all")
     turns = 1e6 * found.million_revolutions
     known = math.isfinite(turns)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from bearingcore import Load, Scene, equilibrium, life, presets, simulate
+from bearingcore import Load, Scene, equilibrium, life, presets, simulate, warm
 from bearingcore.common.numbers import number, scientific, with_prefix
 from bearingcore.experiments.points import least_time
 from tests.benchmarks.charts import DOCUMENT, put
@@ -254,7 +254,9 @@ def main() -> None:
     """Run all peers and write the table."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--iso16281", type=Path, required=True)
-    rows = [*by_iso_16281(asked.parse_args().iso16281), *by_ross()]
+    folder = asked.parse_args().iso16281
+    warm()  # compiling is no part of the work
+    rows = [*by_iso_16281(folder), *by_ross()]
     rows += [*by_root_finder(), *by_integrators()]
     made = table(rows)
     print(made)

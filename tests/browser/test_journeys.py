@@ -893,14 +893,14 @@ def test_a_link_that_cannot_be_read_says_so(visitor: Visitor) -> None:
 @pytest.mark.proof
 def test_a_scene_is_saved_changed_opened_and_swept(visitor: Visitor, tmp_path: Path) -> None:
     visitor.open(FAN_RIG + "load&extent_deg=38.6")
-    dialog = visitor.menu("Download")
+    dialog = visitor.menu("Share")
     name, text = visitor.download(lambda: visitor.press(re.compile("^Scene"), dialog))
     assert name.endswith(".toml")
     assert Scene.from_toml(text.decode()) == FAN.replace(extent=math.radians(38.6))
     visitor.page.keyboard.press("Escape")
     visitor.press("Reset", visitor.scene)
     expect(visitor.box("Length of the defect")).to_have_value("12.9")
-    dialog = visitor.menu("Download")
+    dialog = visitor.menu("Share")
     visitor.bring(dialog, "bad.toml", b"extent = [")
     visitor.reads(re.compile("allowed: TOML"), visitor.scene)
     visitor.bring(visitor.scene, "mine.toml", text)
@@ -940,7 +940,7 @@ def test_a_report_is_saved_and_read(
     visitor: Visitor, browser: BrowserContext, tmp_path: Path
 ) -> None:
     visitor.open(FAN_RIG + "load&extent_deg=20")
-    dialog = visitor.menu("Download")
+    dialog = visitor.menu("Share")
     name, text = visitor.download(lambda: visitor.press(re.compile("^Report"), dialog))
     assert name.endswith(".html")
     (tmp_path / name).write_bytes(text)

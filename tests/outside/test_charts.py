@@ -224,12 +224,14 @@ def test_points_of_the_models_charts(preset: str) -> None:
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
     by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
-    compared="largest Floquet multiplier at three speeds of every preset's chart", within=5e-3,
+    compared="largest multiplier at the highest stable speeds of every preset's chart",
+    within=5e-3,
 )  # fmt: skip
 @every_preset
 def test_points_of_the_orbits_charts(preset: str) -> None:
     known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
-    for point in known[:: max(len(known) // 3, 1)][:3]:
+    last = 3 if len(presets[preset].active_dofs) == 2 else 1  # a pass is short at high speed
+    for point in known[-last:]:
         found = problem(preset, shaft=point["shaft_speed"]).multipliers()
         here = orbit(presets[preset].replace(shaft_speed=point["shaft_speed"]))
         assert here.largest_multiplier == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3)

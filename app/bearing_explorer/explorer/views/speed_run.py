@@ -130,6 +130,7 @@ class SpeedRunSpectra(SweptView):
         "Horizontal line: current speed. Click to go to a speed."
     )
     nothing_yet = "There is no run yet."
+    first_comes = "The first run is being computed."
     start = "Run up"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 

@@ -183,7 +183,6 @@ def test_every_preset_is_among_the_frozen_links() -> None:
     [
         ("v=2", "version “2”"),
         ("v=too-long", "far too long"),
-        ("extent_deg=30", "version"),
         ("v=1&preset=<script>alert(1)</script>", "no bearing"),
         ("v=1&extent_deg=nan", "not a number"),
         ("v=1&extent_deg=360.1", "length of the defect"),
@@ -253,10 +252,37 @@ def test_anything_is_read_or_refused_in_a_sentence(text: str) -> None:
         assert note == "" or note.endswith(".")  # fmt: skip
 
 
-@pytest.mark.parametrize("text", ["", "?", "utm_source=x", "%ff=%ff", "a=b&c"])
-def test_an_address_about_something_else_is_none_of_ours(text: str) -> None:
+def test_a_link_without_a_version_is_read_and_that_is_said() -> None:
+    place = opened("?extent_deg=30&tab=stiffness", SceneEditor("fan-rig"))
+    assert place.scene == presets["fan-rig"].replace(extent=math.radians(30))
+    assert place.tab == "stiffness"
+    assert "no version" in place.note
+
+
+def test_a_link_that_cannot_be_read_still_opens_its_tab() -> None:
+    place = opened("v=1&extent_deg=400&tab=orbits", SceneEditor("fan-rig"))
+    assert place.scene == presets["fan-rig"]
+    assert place.tab == "over-speed"
+    assert "extent" in place.note
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("", ""),
+        ("?", ""),
+        ("utm_source=x", "“utm_source”"),
+        ("%ff=%ff", "“"),
+        ("a=b&c", "“a” in the address, like 1 more,"),
+        ("x" * 5000, "x…”"),
+    ],
+)
+def test_what_is_not_known_in_an_address_is_said(text: str, named: str) -> None:
     assert read(text) is None
-    assert opened(text, SceneEditor("fan-rig")).note == ""
+    note = opened(text, SceneEditor("fan-rig")).note
+    assert named in note
+    assert len(note) < 200
+    assert ("ignored." in note) == bool(named)
     place = opened("v=1&extent_deg=30&fbclid=x1", SceneEditor("fan-rig"))
     assert place.scene.defect == dataclasses.replace(
         presets["fan-rig"].defect, extent=math.radians(30)

@@ -1,8 +1,8 @@
 """Dynamics: natural frequencies, simulated motion, the periodic steady state, speed runs."""
 
 from bearingcore.dynamics.ball_comparison import (
-    LOWEST,
-    QUIET,
+    LOWEST_COMPARED,
+    QUIETEST_COMPARED,
     SETTLING,
     BallComparison,
     compare_motions,
@@ -18,9 +18,9 @@ from bearingcore.dynamics.step_rate import default_step_rate, fine_step_rate
 from bearingcore.dynamics.strikes import RACES_OF_LOADS, Flight, Strike, ball_strikes, flights
 
 __all__ = [
-    "LOWEST",
+    "LOWEST_COMPARED",
     "OUTCOMES",
-    "QUIET",
+    "QUIETEST_COMPARED",
     "RACES_OF_LOADS",
     "SETTLING",
     "BallComparison",

@@ -3,13 +3,13 @@
 from bearingcore.dynamics.ball_comparison import (
     LOWEST_COMPARED,
     QUIETEST_COMPARED,
-    SETTLING,
     BallComparison,
     compare_motions,
     compared_directions,
 )
 from bearingcore.dynamics.ball_motion import contact_resonance_band
 from bearingcore.dynamics.modes import highest_natural_frequency
+from bearingcore.dynamics.motion import SETTLING
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.speed_runs import SpeedRun, speed_run
 from bearingcore.dynamics.stability_maps import OUTCOMES, StabilityMap, regions, stability_map

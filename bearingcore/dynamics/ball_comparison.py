@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference, number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.motion import SETTLING, Motion, simulate
 from bearingcore.dynamics.step_rate import fine_step_rate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
@@ -28,9 +28,6 @@ LOWEST_COMPARED = 300.0
 
 QUIETEST_COMPARED = 1e-4
 """Power over the greatest of all bands and directions below which a band does not count."""
-
-SETTLING = 0.12
-"""[s] of motion that is left out, several times the slowest mode's decay."""
 
 
 @shown_as_table

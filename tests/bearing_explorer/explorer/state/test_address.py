@@ -36,6 +36,7 @@ from bearingcore import (
     Scene,
     presets,
 )
+from bearingcore.scene import TILT_FREE
 
 FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("utf-8"))["link"]
 
@@ -73,6 +74,7 @@ def places(draw: st.DrawFn) -> Place:
             {},
             optional={
                 "fx": numbers(-1e6, 1e6),
+                "fz": numbers(-1e6, 1e6),
                 "my": numbers(-1e5, 1e5),
                 "shaft_speed": numbers(0, 6000),
                 "contact_damping": st.one_of(st.none(), numbers(0, 1e6)),
@@ -85,14 +87,14 @@ def places(draw: st.DrawFn) -> Place:
                 "n_balls": st.integers(1, 8),
                 "contact_law": st.sampled_from(CONTACT_LAWS),
                 "dofs": st.one_of(
-                    st.none(),
+                    st.sampled_from([None, TILT_FREE]),
                     st.lists(st.sampled_from(DOF_NAMES), min_size=1, unique=True).map(tuple),
                 ),
             },
         )
     )
     if scene.bearing.kind.line_contact:  # radial only, and without a contact angle
-        for name in ("my", "contact_angle", "dofs"):
+        for name in ("fz", "my", "contact_angle", "dofs"):
             changed.pop(name, None)
     if scene.bearing.kind.name == "self-aligning" and "contact_angle" in changed:
         changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
@@ -132,6 +134,29 @@ def test_every_scene_comes_back_to_the_last_bit(place: Place) -> None:
     if not shown.note:  # else out of the limits of what can be typed
         assert place_of(editor, place.tab) == place
         assert write(shown) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "dofs", "free"),
+    [
+        ("fz_n=50", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&dofs=auto", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&dofs=held", None, ("x", "y", "z")),
+        ("fz_n=50&dofs=free", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&mx_nm=1&dofs=held", ("x", "y", "z"), ("x", "y", "z")),
+        ("fz_n=50&mx_nm=1", None, DOF_NAMES),
+        ("fy_n=-50", None, ("x", "y")),
+        ("preset=7208-25deg&dofs=auto", TILT_FREE, DOF_NAMES),
+    ],
+)
+def test_what_says_nothing_of_directions_has_those_that_it_had(text, dofs, free) -> None:
+    """In links and in files: tilts were free before they could be held."""
+    scene = read(f"v=1&{text}").scene
+    assert (scene.dofs, scene.active_dofs) == (dofs, free)
+    data = scene.to_data()
+    assert Scene.from_data(data) == scene
+    if dofs == TILT_FREE:
+        assert "dofs" not in data, "programs of before read it alike"
 
 
 def test_a_link_is_short_and_can_be_read() -> None:

@@ -81,3 +81,10 @@ def test_a_long_measured_floor_is_read() -> None:
     text = scene.to_toml()
     assert len(text) <= LARGEST_TEXT
     assert Scene.from_toml(text) == scene
+
+
+def test_a_text_that_is_no_toml_is_quoted_on_one_line() -> None:
+    with pytest.raises(ValueError, match="TOML") as refusal:
+        Scene.from_toml('name = "a"\nload = = 3\n')
+    assert "\\n" not in str(refusal.value)
+    assert "line 2" in str(refusal.value)

@@ -17,7 +17,7 @@ class SceneJobView(JobView[Results, Found, SceneEditor], Generic[Found]):
     """A `JobView` whose form reads the editor of the scene."""
 
     noun: ClassVar[str] = ""
-    """What its result is called where there is nothing to see before the first."""
+    """Name of its result, where there is nothing to see before the first."""
 
     @property
     def words_of_nothing(self) -> str:

@@ -302,7 +302,7 @@ class SceneEditor:
     # Numbers
 
     def in_own_units(self, given: Mapping[str, Any], second: bool) -> dict[str, Any]:
-        """Texts as they were typed, in the units of the fields; in the box of the `second` unit or not.
+        """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
 
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
         be refused.

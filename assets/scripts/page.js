@@ -18,7 +18,6 @@
   const show_theme = () => {
     const dark = root.dataset.theme === "dark"
     theme.setAttribute("aria-pressed", String(dark))
-    theme.title = dark ? "Light colours" : "Dark colours"
   }
   theme.addEventListener("click", () => announce("turn-theme"))
   on_event("theme", root, show_theme)

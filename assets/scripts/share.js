@@ -75,7 +75,7 @@ export function render({ model }) {
     try {
       localStorage.setItem(KEPT, JSON.stringify(items))
     } catch {
-      say("This browser has no room for scenes, or may not keep them. Save it as a file instead, under Download.")
+      say("This browser has no room for scenes, or may not keep them. Save it as a file instead, under Share.")
       return false
     }
     list_kept()

@@ -7,8 +7,9 @@ nitride and the arrangement of two angular-contact or tapered bearings: see
 `bearingcore.bearings.inside`: the bearing says so itself (`Bearing.estimated`).
 
 Understood are deep groove bearings 60, 62, 63, 64, 160, 618, 619, angular-contact ones 70, 72, 73,
-self-aligning ones 12, 13, 22, 23, cylindrical rollers NU, N, NJ, NUP of the series 2, 3, 10, 22, 23
-and tapered rollers 302, 303, 322, 323, with bores of 10 to 100 mm (rollers from 20 mm). Tapered
+719, self-aligning ones 12, 13, 22, 23, cylindrical rollers NU, N, NJ, NUP of the series 2, 3, 10,
+22, 23 and tapered rollers 302, 303, 320, 322, 323, with bores of 10 to 100 mm (604 to 609 and 623
+to 629 below, rollers from 20 mm; 719 from 10 mm is 79 of other makers). Tapered
 rollers with steeper cups (B, C, D behind the number) are other bearings, and are not.
 """
 
@@ -30,6 +31,7 @@ from bearingcore.bearings.designation_tables import (
     clearance,
     matched_clearance,
     rows_of,
+    series_of,
 )
 from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.inside import (
@@ -60,15 +62,18 @@ from bearingcore.common.numbers import number
 
 SERIES: Mapping[str, str] = {
     **dict.fromkeys(("60", "62", "63", "64", "160", "618", "619"), DEEP_GROOVE),
-    **dict.fromkeys(("70", "72", "73"), ANGULAR_CONTACT),
+    **dict.fromkeys(("70", "72", "73", "719"), ANGULAR_CONTACT),
     **dict.fromkeys(("12", "13", "22", "23"), SELF_ALIGNING_BALLS),
     **dict.fromkeys(("NU2", "NU3", "NU10", "NU22", "NU23"), ROLLERS),
-    **dict.fromkeys(("302", "303", "322", "323"), TAPERED_ROLLERS),
+    **dict.fromkeys(("302", "303", "320", "322", "323"), TAPERED_ROLLERS),
 }
 """Kind of bearing of each series; N, NJ and NUP have the dimensions of NU."""
 
 CATALOGUE_ANGLE = math.radians(30.0)
 """Contact angle for which the table has the ratings of angular-contact bearings."""
+
+OTHER_ANGLES = {"719": math.radians(15.0)}
+"""The same of series for which it is another one."""
 
 ROWS_OF_BALLS, ROWS_OF_ROLLERS = 0.7, 7.0 / 9.0
 """Powers with which C_r of ISO 281 grows with the rows of balls and of rollers."""
@@ -176,7 +181,7 @@ def read_designation(text: str) -> Designation:
     if said.inside:
         size = _reinforced(name, basic, size, said.inside)
     assumed: list[str] = []
-    angle = _angle(kind, size, said.angle, assumed)
+    angle = _angle(basic, size, said.angle, assumed)
     none = kind in (ANGULAR_CONTACT, TAPERED_ROLLERS)
     clearance_class = "" if none else said.clearance_class or "CN"
     play = 0.0
@@ -201,7 +206,7 @@ def read_designation(text: str) -> Designation:
     elif said.has_better_steel:
         assumed.append("no load rating: that of X-life is its maker's")
     bearing = _mounted(bearing, kind, size, said, assumed)
-    rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(kind, inside, angle))
+    rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(basic, inside, angle))
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
     known = None if said.is_ceramic or said.has_better_steel else rating
     return Designation(
@@ -226,16 +231,23 @@ def is_known(text: str) -> bool:
 
 
 def designations(beginning: str = "") -> Iterator[str]:
-    """Basic numbers of the table that begin so; "nu 2" is as good as "NU2", and N and NJ as NU."""
-    wanted = re.sub(r"^(NUP|NJ|N)(?=\d)", "NU", beginning.upper().replace(" ", ""))
-    return (basic for basic in boundaries() if basic.startswith(wanted))
+    """Basic numbers of the table that begin so; "nu 2" is as good as "NU2".
+
+    Those of N, NJ and NUP, which the table has as NU, are given with their own letters.
+    """
+    wanted = beginning.upper().replace(" ", "")
+    own = re.match(r"NUP|NJ|N(?=\d)", wanted)
+    letters = own[0] if own else ""
+    table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
+    found = (basic for basic in boundaries() if basic.startswith(table))
+    return (letters + basic.removeprefix("NU") if letters else basic for basic in found)
 
 
 def series_words() -> str:
     """The series that are known by number, in words."""
     names = {kind: [s for s, of in SERIES.items() if of == kind] for kind in SERIES.values()}
     listed = "; ".join(f"{', '.join(of)} ({kind}s)" for kind, of in names.items())
-    return f"{listed}; bores of 10 to 100 mm, of rollers from 20 mm"
+    return f"{listed}; bores of 10 to 100 mm, of 60 and 62 from 3 mm, of rollers from 20 mm"
 
 
 @cache
@@ -252,7 +264,7 @@ def inside_of(basic: str) -> Inside:
         ]
         ratings_of_all = (size.static_rating, *alike)
         return rollers_from_raceways(size.inner_raceway, size.outer_raceway, ratings_of_all)
-    return _inside(kind, size, _rated_angle(kind, size))
+    return _inside(kind, size, _rated_angle(basic, size))
 
 
 def _inside(kind: str, size: Boundary, angle: float) -> Inside:
@@ -286,39 +298,45 @@ def _basic(letters: str, digits: str) -> str | None:
     """The number as the table has it; None where it has it not."""
     if letters in ("NU", "N", "NJ", "NUP"):
         digits = f"NU{digits}"
-    elif letters == "NF" or (letters == "HR" and SERIES.get(digits[:-2]) != TAPERED_ROLLERS):
+    elif letters == "NF" or (letters == "HR" and SERIES.get(series_of(digits)) != TAPERED_ROLLERS):
         return None
-    elif len(digits) == 4 and digits[:2] in ("68", "69"):  # as Japanese makers shorten 618, 619
-        digits = f"61{digits[1:]}"
+    elif len(digits) == 4 and digits[:2] in ("68", "69", "79"):  # 618, 619, 719 of Japanese makers
+        digits = f"{digits[0]}1{digits[1:]}"
     return digits if digits in boundaries() else None
 
 
 def _kind_of(basic: str) -> str:
-    return SERIES[basic[:-2]]
+    return SERIES[series_of(basic)]
 
 
-def _rated_angle(kind: str, size: Boundary) -> float:
+def _rated_angle(basic: str, size: Boundary) -> float:
     """Contact angle [rad] for which the table has the ratings."""
+    kind = _kind_of(basic)
     if kind == SELF_ALIGNING_BALLS:
         return ratings.contact_angle_of(size.axial_factor)
     if kind == TAPERED_ROLLERS:
         return ratings.tapered_angle_of(size.thrust_limit)
-    return CATALOGUE_ANGLE if kind == ANGULAR_CONTACT else 0.0
+    angle = OTHER_ANGLES.get(series_of(basic), CATALOGUE_ANGLE)
+    return angle if kind == ANGULAR_CONTACT else 0.0
 
 
-def _angle(kind: str, size: Boundary, said: float | None, assumed: list[str]) -> float:
+def _angle(basic: str, size: Boundary, said: float | None, assumed: list[str]) -> float:
     """Contact angle [rad] of a designation that says an angle [degrees], or none."""
-    if kind != ANGULAR_CONTACT:
-        return _rated_angle(kind, size)
+    rated = _rated_angle(basic, size)
+    if _kind_of(basic) != ANGULAR_CONTACT:
+        return rated
     if said is None:
-        assumed.append("a contact angle of 30°, as no letter says it (B is 40°, AC 25°, C 15°)")
-        return CATALOGUE_ANGLE
+        angle = number(math.degrees(rated))
+        assumed.append(
+            f"a contact angle of {angle}°, as no letter says it (B is 40°, AC 25°, C 15°)"
+        )
+        return rated
     return math.radians(said)
 
 
-def _rating_at(kind: str, inside: Inside, angle: float) -> float:
+def _rating_at(basic: str, inside: Inside, angle: float) -> float:
     """C_r at a contact angle over that of the catalogue, by ISO 281; 1 where there is one angle."""
-    if kind != ANGULAR_CONTACT:
+    if _kind_of(basic) != ANGULAR_CONTACT:
         return 1.0
 
     def rated(at: float) -> float:
@@ -327,7 +345,7 @@ def _rating_at(kind: str, inside: Inside, angle: float) -> float:
         f_c = ratings.capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])
         return float(ratings.dynamic_rating(f_c, inside.n_balls, inside.ball_diameter, cosine))
 
-    return rated(angle) / rated(CATALOGUE_ANGLE)
+    return rated(angle) / rated(OTHER_ANGLES.get(series_of(basic), CATALOGUE_ANGLE))
 
 
 def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[str]) -> Bearing:

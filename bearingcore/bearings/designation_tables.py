@@ -51,6 +51,11 @@ def boundaries() -> Mapping[str, Boundary]:
     return found
 
 
+def series_of(basic: str) -> str:
+    """Series of a basic number: 62 of 6208 and of 628, NU2 of NU208."""
+    return basic[: -1 if len(basic) == 3 else -2]
+
+
 def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, float]:
     """Least and greatest radial internal clearance [m] of ISO 5753-1.
 

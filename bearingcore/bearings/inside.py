@@ -129,12 +129,12 @@ class Measured(NamedTuple):
 
 
 MEASURED = Measured(
-    right=39,
-    bearings=44,
-    diameter=0.000426,
-    frequency=8.8e-05,
-    frequency_spread=0.0171,
-    ratio_spread=0.0564,
+    right=52,
+    bearings=57,
+    diameter=0.00128,
+    frequency=1.68e-4,
+    frequency_spread=0.0176,
+    ratio_spread=0.0590,
 )
 
 
@@ -155,7 +155,7 @@ class OtherMaker(NamedTuple):
     ratio_spread: float
 
 
-OTHER_MAKER = OtherMaker(same=52, bearings=64, ratio=0.0045, ratio_spread=0.0198)
+OTHER_MAKER = OtherMaker(same=57, bearings=78, ratio=0.00614, ratio_spread=0.0347)
 
 
 def accuracy(tapered: bool = False) -> str:

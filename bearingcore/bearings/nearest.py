@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 
-from bearingcore.bearings.designation_tables import boundaries
+from bearingcore.bearings.designation_tables import boundaries, series_of
 from bearingcore.common.numbers import number
 
 _LIKE = {
-    **dict.fromkeys(("718", "719"), ("70", "a heavier series of angular-contact ball bearings")),
+    "718": ("719", "a heavier series of angular-contact ball bearings"),
     "QJ2": ("72", "one half of its contacts"),
     "QJ3": ("73", "one half of its contacts"),
-    **dict.fromkeys(("320", "329", "330", "331", "332"), ("302", "another series of such rollers")),
+    **dict.fromkeys(("329", "330", "331", "332"), ("320", "another series of such rollers")),
     "313": ("303", "the same dimensions with a flatter cone"),
     "213": ("NU3", "cylindrical rollers of the same dimensions"),
     "222": ("NU22", "cylindrical rollers of the same dimensions"),
@@ -34,6 +34,8 @@ _LIKE = {
 _FORM = re.compile(r"(?:.*[ -])??(?P<letters>[A-Z]{0,3}?)[ -]?(?P<number>\d{3,5})(?!\d)")
 _SMALL_BORES = {0: 10.0, 1: 12.0, 2: 15.0, 3: 17.0}
 _SHORT = {"68": "618", "69": "619"}
+_SMALL = {"63": "62"}
+"""Series of bores below 10 mm with another one that has them."""
 
 
 def nearest_known(name: str) -> str:
@@ -46,12 +48,12 @@ def nearest_known(name: str) -> str:
     letters = "NU" if letters in ("N", "NJ", "NUP", "NF") else letters
     for key in dict.fromkeys((letters + digits, digits)):
         if key[-3:].isdigit() and len(digits) == 3 and key == digits:  # bores below 10 mm: 608
-            series, bore = digits[:2], float(digits[2])
+            series, bore = _SMALL.get(digits[:2], digits[:2]), float(digits[2])
         else:
             series, code = key[:-2], int(key[-2:])
             bore = _SMALL_BORES.get(code, 5.0 * code)
         like, instead = _LIKE.get(series, (_SHORT.get(series, series), ""))
-        known = {basic: size for basic, size in boundaries().items() if basic[:-2] == like}
+        known = {basic: size for basic, size in boundaries().items() if series_of(basic) == like}
         if known:
             basic = min(known, key=lambda one: abs(1e3 * known[one].bore - bore))
             size = known[basic]

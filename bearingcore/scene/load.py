@@ -27,6 +27,11 @@ class Load:
             object.__setattr__(self, field.name, value)
 
     @property
+    def has_moment(self) -> bool:
+        """True where a moment is part of it."""
+        return (self.mx, self.my) != (0.0, 0.0)
+
+    @property
     def vector(self) -> NDArray[np.float64]:
         """(Fx, Fy, Fz, Mx, My), shape (5,) [N, N·m]."""
         return np.array([self.fx, self.fy, self.fz, self.mx, self.my])

@@ -16,7 +16,7 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.tapered import USUAL_ANGLE
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
-from bearingcore.scene.scene import Scene
+from bearingcore.scene.scene import TILT_FREE, Scene
 from bearingcore.scene.support import Support
 
 # Table 1 of the paper gives masses and the radial support; the rest, which its motion in x and y
@@ -70,7 +70,7 @@ def _scene(
     depth: float,
     *,
     edge: str = "exact",
-    dofs: tuple[str, ...] | None = None,
+    dofs: tuple[str, ...] | str | None = None,
 ) -> Scene:
     """A scene on the fan rig's support, its defect in the middle of the load zone.
 
@@ -145,7 +145,7 @@ def _pair_7208(
             Load(fy=-3000.0, fz=thrust),
             3000.0,
             *(8.0, 100e-6),
-            dofs=None if preload else ("x", "y", "z"),
+            dofs=TILT_FREE if preload else ("x", "y", "z"),
         ),
         f"Two 7208 angular-contact bearings of 25° side by side on a shaft, {label}: {meaning}. By "
         "ISO 15: bore 40 mm, outside diameter 80 mm, width 18 mm each. Computed: rows 18 mm apart, "
@@ -177,6 +177,7 @@ _PRESETS: Mapping[str, Preset] = {
             420.0,
             *(40.0, 50e-6),
             edge="published",
+            dofs=TILT_FREE,
         ),
         "The angular-contact bearing of Liew and Lim that Section 3 of Petersen, Howard and "
         "Prime (2014) studies. From the source: balls, groove radius, groove distance, contact "
@@ -295,6 +296,7 @@ _PRESETS: Mapping[str, Preset] = {
             Load(fy=-2500.0, fz=500.0),
             3000.0,
             *(8.0, 100e-6),
+            dofs=TILT_FREE,
         ),
         "A double-row angular-contact bearing. By ISO 15: bore 40 mm, outside diameter 80 mm, "
         "width 30.2 mm. Computed: a dynamic rating of 44 kN by ISO 281. Assumed, as makers do "
@@ -358,6 +360,7 @@ _PRESETS: Mapping[str, Preset] = {
             Load(fy=-4000.0, fz=1000.0),
             1500.0,
             *(4.0, 20e-6),
+            dofs=TILT_FREE,
         ),
         "Two tapered roller bearings back to back. By ISO 355: bore 30 mm, outside diameter 62 mm, "
         "a cup of 14°02′10″. Assumed, as makers do not print it: 17 rollers on 46 mm, the middle "

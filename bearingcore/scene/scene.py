@@ -23,8 +23,9 @@ DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
 
 TILTS = ("rx", "ry")
-TILT_HELD = "tilt held"
-"""Choice of directions of a shaft on two bearings: those that the scene needs but for the tilts."""
+TILT_HELD, TILT_FREE = "tilt held", "tilt free"
+"""Choices of directions: those that the scene needs but for the tilts, as on a shaft on two
+bearings, and all that it needs, as if this bearing alone held the shaft."""
 
 FREE_TILT_WORDS = (
     "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
@@ -65,9 +66,10 @@ class Scene:
     contact_law
         "published" or "no tension".
     dofs
-        free directions out of ("x", "y", "z", "rx", "ry"). None: what the scene needs, tilts among
-        them where the load causes any. "tilt held": these without the tilts, as on a shaft on two
-        bearings.
+        free directions out of ("x", "y", "z", "rx", "ry"). "tilt free": what the scene needs, tilts
+        among them where the load causes any, as if this bearing alone held the shaft. "tilt held":
+        these without the tilts, as on a shaft on two bearings. None: the same, but free where the
+        load has a moment, which this bearing then carries.
     balls
         "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
         the centrifugal load of each ball at the scene's speed.
@@ -88,7 +90,7 @@ class Scene:
     support: Support
     contact_damping: float | None = None
     contact_law: str = "published"
-    dofs: tuple[str, ...] | None = None
+    dofs: tuple[str, ...] | str | None = None
     balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
     unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
 
@@ -107,8 +109,8 @@ class Scene:
             )
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
-        held = isinstance(self.dofs, str) and self.dofs == TILT_HELD
-        if self.dofs is not None and not held:
+        said = self.dofs if isinstance(self.dofs, str) else ""
+        if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
             keep("dofs", check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
@@ -118,7 +120,7 @@ class Scene:
         keep("bearing", bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)
-        if held:
+        if said == TILT_HELD:
             keep("dofs", self._held_dofs)
         self._check_directions()
         for defect in self.defects:
@@ -149,7 +151,7 @@ class Scene:
         for direction, name in LOAD_ALONG.items():
             if direction not in kind.directions and (value := getattr(self.load, name)) != 0.0:
                 raise checks.refuse(name, value, f"0: {kind.carries}")
-        if self.dofs is not None:
+        if isinstance(self.dofs, tuple):
             kind.check_directions(self.dofs)
         if self.balls == WITH_MASS:
             kind.check_mass()
@@ -162,7 +164,9 @@ class Scene:
 
     @property
     def needed_dofs(self) -> tuple[str, ...]:
-        """The directions that can move: all five, unless a smaller set is exact.
+        """The directions that the load moves where nothing but this bearing holds the shaft.
+
+        All five, unless a smaller set is exact.
 
         A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
         symmetry: z, rx and ry stay zero and only x and y are needed. Of some kinds of bearing
@@ -184,20 +188,23 @@ class Scene:
 
     @property
     def active_dofs(self) -> tuple[str, ...]:
-        """The directions that are computed: `dofs` if given, else `needed_dofs`."""
-        return self.dofs if self.dofs is not None else self.needed_dofs
+        """The directions that are computed: see `dofs`."""
+        if isinstance(self.dofs, tuple):
+            return self.dofs
+        free = self.dofs == TILT_FREE or self.load.has_moment
+        return self.needed_dofs if free else self._held_dofs
 
     def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
         """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
 
-        "tilt held" are those that the scene needs but for the tilts.
+        "tilt held" are those that the scene needs but for the tilts, "tilt free" all of these.
 
         ValueError for names that are none, or that the kind of bearing cannot move along.
         """
         if dofs is None:
             return self.active_dofs
-        if isinstance(dofs, str) and dofs == TILT_HELD:
-            return self._held_dofs
+        if isinstance(dofs, str) and dofs in (TILT_HELD, TILT_FREE):
+            return self._held_dofs if dofs == TILT_HELD else self.needed_dofs
         names = check_dofs(dofs)
         self.bearing.kind.check_directions(names)
         return names
@@ -208,9 +215,26 @@ class Scene:
         return self.bearing.cage_speed(self.shaft_speed)
 
     @property
+    def defect_turns(self) -> bool:
+        """True where a defect turns with the shaft."""
+        return any(defect.race == "inner" for defect in self.defects)
+
+    @property
     def turning_force(self) -> float:
         """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
         return self.unbalance * self.shaft_speed**2
+
+    @property
+    def holds_tilt_unasked(self) -> bool:
+        """True where tilts are held, as `dofs` says nothing of them, that the load would cause."""
+        return self.dofs is None and self.active_dofs != self.needed_dofs
+
+    def with_former_dofs(self) -> Self:
+        """The scene of a file or link that says nothing of directions.
+
+        Tilts are free in it, as they were where `dofs` said nothing.
+        """
+        return dataclasses.replace(self, dofs=TILT_FREE) if self.holds_tilt_unasked else self
 
     def healthy(self) -> Scene:
         """The same scene without its defects."""
@@ -220,6 +244,11 @@ class Scene:
         """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+        # what says nothing had free tilts before there was a choice: see `with_former_dofs`
+        if self.holds_tilt_unasked:
+            data["dofs"] = TILT_HELD
+        elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
+            del data["dofs"]
         kind = data["bearing"].pop("kind")
         if kind is not recognized(self.bearing):
             data["bearing"]["kind"] = kind.name
@@ -254,7 +283,13 @@ class Scene:
                     bearing["load_deflection_factor"], bearing.get("roller_length")
                 )
             table["bearing"] = bearing
-        return scene_file.from_data(cls, "scene", table, top=True)
+        said = table.get("dofs")
+        if said == TILT_HELD:  # without a moment that is the default
+            table["dofs"] = None
+        scene = scene_file.from_data(cls, "scene", table, top=True)
+        if said is None:
+            return scene.with_former_dofs()
+        return scene.replace(dofs=said) if said == TILT_HELD and scene.load.has_moment else scene
 
     def to_toml(self) -> str:
         """The scene as text that `from_toml` reads; SI units and radians."""

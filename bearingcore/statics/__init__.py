@@ -8,7 +8,7 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     has_long_period,
 )
-from bearingcore.statics.life import LEFT_OUT, hours_in_words, turns_in_words
+from bearingcore.statics.life import GIVEN, LEFT_OUT, OF_A_CATALOGUE, hours_in_words, turns_in_words
 from bearingcore.statics.limit import NO_OIL, summary, unknown
 from bearingcore.statics.passes import (
     Crossing,
@@ -19,16 +19,18 @@ from bearingcore.statics.passes import (
     passing_rate,
     path_kinks,
 )
-from bearingcore.statics.positions import ROUNDS, turns
+from bearingcore.statics.positions import ROUNDS
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, ranges_of, static_ranges
 from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 
 __all__ = [
     "ANGLES_A_PERIOD",
     "BALL_LOAD",
+    "GIVEN",
     "LEFT_OUT",
     "NO_DRAWING",
     "NO_OIL",
+    "OF_A_CATALOGUE",
     "ROUNDS",
     "TERM_SYMBOLS",
     "TERM_UNITS",
@@ -48,7 +50,6 @@ __all__ = [
     "state_of_limits",
     "static_ranges",
     "summary",
-    "turns",
     "turns_in_words",
     "unknown",
 ]

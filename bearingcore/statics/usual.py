@@ -7,8 +7,10 @@ import math
 from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
+from bearingcore.scene.packing import STANDARD_GRAVITY
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
 from bearingcore.scene.scene import Scene
+from bearingcore.scene.support import Support
 from bearingcore.statics.life import dynamic_load_rating
 from bearingcore.statics.thrust import facing, induced_thrust
 
@@ -26,10 +28,13 @@ def scene_of(bearing: BearingLike) -> Scene:
     """A scene of a sound bearing under a load and at a speed that are usual for it.
 
     The load is a fifteenth of the dynamic rating, downwards; a bearing that carries thrust one way
-    only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min. A
-    bearing that tilts freely, or would tip under such a load, is that of a shaft on two bearings:
-    its tilts are held. Rotor and support are those of the fan rig, which is no machine that this
-    bearing is in: what depends on them (natural frequencies, vibration) needs those of the machine.
+    only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min, on
+    two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
+
+    Rotor and support are assumed, as no number of a bearing says them: the part of the rotor that
+    weighs the radial load, a housing as heavy, on the springs of the fan rig, which damp it as much
+    as the fan rig's housing (4 % of critical). Natural frequencies and vibration are those of such
+    a machine; give the machine's own for those of another.
 
     Parameters
     ----------
@@ -46,20 +51,37 @@ def scene_of(bearing: BearingLike) -> Scene:
     --------
     >>> scene = scene_of("6205")
     >>> round(scene.load.fy), round(scene.shaft_speed * 30.0 / math.pi)
-    (-933, 3896)
+    (-933, 3894)
     """
     own = bearing_of(bearing)
     rated = own.replace(ball_youngs_modulus=None, ball_poisson=None) if own.is_hybrid else own
     rating = own.dynamic_load_rating or dynamic_load_rating(rated)
+    load = _rounded(LOAD_SHARE * rating)
     scene = Scene(
         bearing=own,
         defect=Defect.none(),
-        load=Load(fy=-LOAD_SHARE * rating),
-        shaft_speed=SPEED_FACTOR / (1e3 * own.pitch_diameter) * math.pi / 30.0,
-        support=FAN_RIG_SUPPORT,
+        load=Load(fy=-load),
+        shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * own.pitch_diameter)),
+        support=_carrying(load),
     )
     way = facing(own)
     if not way:
         return scene
-    scene = scene.replace(dofs=("x", "y", "z"))
-    return scene.replace(fz=way * THRUST_SHARE * induced_thrust(scene))
+    return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")
+
+
+def _carrying(load: float) -> Support:
+    """The fan rig's support with bodies that weigh a load [N] each, and as much damping of them."""
+    rig = FAN_RIG_SUPPORT
+    heavier = _rounded(load / STANDARD_GRAVITY) / rig.inner_mass
+    powers = {"stiffness": 0.0, "damping": 0.5}
+    return Support(
+        **{
+            name: value * heavier ** powers.get(name.split("_")[0], 1.0)
+            for name, value in vars(rig).items()
+        }
+    )

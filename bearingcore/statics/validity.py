@@ -22,7 +22,8 @@ What the model leaves out and what is looked at here:
 - the size of the contact: Hertz takes it for small against the ball;
 - thrust: a row that carries it one way alone and is pressed the other way, or with less than its
   radial load induces (`thrust`);
-- tilts that the scene holds: the moment that the shaft's other bearing is taken to carry (`held`);
+- tilts: the moment that the shaft's other bearing is taken to carry where the scene holds them, and
+  how far the shaft tilts where they are free (`tilts`);
 - stale stiffness: a load-deflection factor that does not go with the drawing;
 - the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
 - coarse time steps: steps while a ball passes a defect;
@@ -53,12 +54,12 @@ from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
-from bearingcore.statics.held import held_tilts
-from bearingcore.statics.limit import NO_DRAWING, NO_OIL, Limit, unknown, upper_limit
+from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.statics.positions import over_all_positions, positions, turns
+from bearingcore.statics.positions import over_all_positions, positions
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
+from bearingcore.statics.tilts import free_tilts, held_tilts
 
 ANGLES = 361
 """Cage angles in a ball spacing at which a scene is looked at; a third of them go into the
@@ -97,7 +98,7 @@ def state_of_limits(scene: Scene) -> Equilibrium:
     A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
     the shaft began: see `bearingcore.statics.positions`.
     """
-    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if turns(scene) else ANGLES)
+    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if scene.defect_turns else ANGLES)
 
 
 def limits(
@@ -171,7 +172,7 @@ def limits(
             _stiffness(scene),
         ]
     found += thrust_limits(scene, state)
-    found.append(held_tilts(state))
+    found += [held_tilts(state), free_tilts(state)]
     found.append(_film(scene, film))
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
@@ -210,7 +211,6 @@ NOT_IN_STATICS_WITH_MASS = (
 )
 
 NO_STATE = "no cage angle has a static equilibrium"
-NO_MOTION = "no motion of this scene has been simulated yet"
 
 
 def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -> Limit:
@@ -364,6 +364,8 @@ def _centrifugal_change(scene: Scene) -> Limit:
     """Change of loads and stiffness by centrifugal load, found by solving with it."""
     force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
+    if words := scene.bearing.kind.mass_unknown:
+        return unknown(name, limit, "", f"there is no model with the mass of {words}")
     try:
         found = positions(scene, _CHANGE_ANGLES)
         some = slice(None, None, max(found.weights.size // _MOST_CHANGES, 1))
@@ -375,13 +377,19 @@ def _centrifugal_change(scene: Scene) -> Limit:
     value = max(effect.load, effect.stiffness)
     fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
-        f"changes loads by up to {percent(effect.load)} of the heaviest and stiffness by up to "
-        f"{percent(effect.stiffness)}, and separates the contact angles of the two races by up to "
-        f"{number(math.degrees(effect.contact_angle), 2)}°"
+        f"changes loads by {_up_to(effect.load)} of the heaviest and stiffness by "
+        f"{_up_to(effect.stiffness)}"
     )
+    if effect.contact_angle > 1e-6:
+        parted = number(math.degrees(effect.contact_angle), 2)
+        fact += f", and separates the contact angles of the two races by up to {parted}°"
     left_out = NOT_IN_STATICS_WITH_MASS if scene.balls == WITH_MASS else NOT_IN_STATICS
     within = f"; up to {percent(limit)} it may be left out."
     return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
+
+
+def _up_to(share: float) -> str:
+    return f"up to {percent(share)}" if share >= 1e-4 else "less than 0.01 %"
 
 
 def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:

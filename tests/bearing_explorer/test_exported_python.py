@@ -196,7 +196,9 @@ def test_before_anything_is_computed_the_lines_say_so(name: str) -> None:
         presets["6205"].replace(
             bearing=dataclasses.replace(presets["6205"].bearing, load_deflection_factor=9e9)
         ),
-        presets["7208-25deg"].replace(dofs=None, contact_law="no tension", contact_damping=None),
+        presets["7208-25deg"].replace(
+            dofs="tilt free", contact_law="no tension", contact_damping=None
+        ),
         presets["fan-rig"].replace(
             floor=MeasuredFloor((-1.0, 0.1, 1.0), (0.0, 1.0, 0.25)), extent=1 / 3
         ),

@@ -4,8 +4,8 @@
 
 FOLDER is a checkout of github.com/minzhun/ISO16281. ROSS (`ross-rotordynamics`) and EXUDYN
 (`exudyn`) come from PyPI, best into an environment of their own; none of them is needed by anything
-else. Equations of motion are those written down for `tests/outside/test_sampling.py`: EXUDYN and
-SciPy integrate them as they stand, compiled by numba.
+else. EXUDYN and SciPy integrate the motion with the compiled forces of this program, as far as
+their own interface lets them; the truth is `tests/outside/march.py` by DOP853 at 1e-12.
 """
 
 from __future__ import annotations
@@ -27,11 +27,12 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from bearingcore import Load, Scene, equilibrium, life, presets, simulate
+from bearingcore import Load, Scene, equilibrium, life, presets, simulate, warm
 from bearingcore.common.numbers import number, scientific, with_prefix
+from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.points import least_time
 from tests.benchmarks.charts import DOCUMENT, put
-from tests.outside.test_sampling import CAGE, DAMPING, EXTENT, rates
+from tests.outside.test_charts import problem
 
 MARK = "peers"
 DURATION, RATE = 0.1, 65_536.0
@@ -75,7 +76,7 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
         return one
 
     scene = presets["seven-ball"].healthy()
-    scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs=None)
+    scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs="tilt free")
     theirs, seconds, _ = least_time(seven)
     loads = itertools.count(1000.0, 1e-9)  # each another scene: lives are kept
     own, own_seconds, _ = least_time(lambda: life(scene.replace(fx=next(loads)), 23400.0))
@@ -134,37 +135,39 @@ def swings(housing: NDArray[np.float64], true: NDArray[np.float64]) -> float:
 
 
 def by_integrators() -> Iterator[Row]:
-    """0.1 s of the fan rig from rest; the truth is DOP853 at 1e-12."""
+    """0.1 s of the fan rig from rest."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
 
-    rig = presets["fan-rig"].replace(contact_damping=DAMPING)
+    rig, one = presets["fan-rig"], problem("fan-rig")
     motion, own_seconds, _ = least_time(lambda: simulate(rig, DURATION, RATE).outer_displacement)
-    first = simulate(rig, 1e-3)
-    start = 1e6 * np.concatenate([first.inner_displacement[0], first.outer_displacement[0]])
-    start = np.concatenate([start, np.zeros(4)])
+    start, forces = one.start(), motion_problem(rig)
+    true = one.solved(start, INSTANTS, 1e-12)[:, 2:4]
 
-    def solved(method: str, tolerance: float) -> NDArray[np.float64]:
+    def rates(t: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Of both rings' places, then of their velocities [µm], by this program's kernel."""
+        found = 1e6 * forces.rate(t, 1e-6 * y[[0, 1, 4, 5, 2, 3, 6, 7]])
+        return found[[0, 1, 4, 5, 2, 3, 6, 7]]
+
+    def solved(method: str) -> NDArray[np.float64]:
         made = solve_ivp(
-            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS, args=(EXTENT, CAGE, DAMPING),
-            rtol=tolerance, atol=tolerance, max_step=1e-4,
+            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS,
+            rtol=1e-9, atol=1e-9, max_step=1e-4,
         )  # fmt: skip
         return made.y[2:4].T
 
-    true = solved("DOP853", 1e-12)
     own = swings(1e6 * motion, true)
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
     for method in ("DOP853", "LSODA"):
-        found, seconds, _ = least_time(lambda method=method: solved(method, 1e-9))
+        found, seconds, _ = least_time(lambda method=method: solved(method))
         program = f"SciPy {version('scipy')}, {method} to 1e-9"
         yield Row("", program, seconds, own_seconds, swings(found, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        state = np.concatenate([np.asarray(q), 1e-3 * np.asarray(v)])
-        return 1e3 * rates(t, state, EXTENT, CAGE, DAMPING)[4:]
+        return rates(t, np.concatenate([np.asarray(q), np.asarray(v)]))[4:]
 
     def multibody(solver: Any, steps: int) -> NDArray[np.float64]:
         system = exudyn.SystemContainer()
@@ -208,12 +211,12 @@ def by_integrators() -> Iterator[Row]:
 def by_root_finder() -> Iterator[Row]:
     """31 cage angles of the fan rig with its defect, forces of numpy, each from the last."""
     cage = np.linspace(0.0, 2.0 * math.pi / 14, 31)
-    spacing = 2.0 * math.pi / 14 * np.arange(14)
+    hurt, spacing = math.radians(12.9), 2.0 * math.pi / 14 * np.arange(14)
 
     def gaps(turned: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         phi = turned + spacing
         away = (phi - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
-        inside = np.maximum(0.5 * EXTENT - np.abs(away), 0.0)
+        inside = np.maximum(0.5 * hurt - np.abs(away), 0.0)
         half = np.minimum(0.5 * 26.5e-3 * inside, 4e-3)
         drop = np.minimum(4e-3 - np.sqrt(16e-6 - half**2), 50e-6)
         return np.stack([np.cos(phi), np.sin(phi)]), 3e-6 + drop
@@ -256,7 +259,9 @@ def main() -> None:
     """Run all peers and write the table."""
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--iso16281", type=Path, required=True)
-    rows = [*by_iso_16281(asked.parse_args().iso16281), *by_ross()]
+    folder = asked.parse_args().iso16281
+    warm()  # compiling is no part of the work
+    rows = [*by_iso_16281(folder), *by_ross()]
     rows += [*by_root_finder(), *by_integrators()]
     made = table(rows)
     print(made)

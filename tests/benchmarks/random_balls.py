@@ -63,7 +63,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
         load=Load(size * math.cos(heading), size * math.sin(heading), share * size),
         shaft_speed=10.0 ** rng.uniform(0.0, 3.3),
         support=presets["fan-rig"].support,
-        dofs=[None, ("x", "y"), ("x", "y", "z")][int(rng.integers(3))],
+        dofs=["tilt free", ("x", "y"), ("x", "y", "z")][int(rng.integers(3))],
     )
 
 

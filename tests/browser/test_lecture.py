@@ -66,7 +66,7 @@ def test_a_ball_crosses_the_defect_slowly_and_is_heard(page: Page, explorer: Ser
                            ".data.now[0] > before", arg=frames["time"][first + 2])  # fmt: skip
     assert page.evaluate("sounds") == []  # it is off
     view.get_by_role("combobox", name="Speed").select_option("1/10")
-    view.get_by_role("slider", name="Volume").fill("40")
+    view.get_by_role("slider", name="Sound").fill("40")
     heard = page.evaluate("sounds")[-1]
     assert heard["loop"]
     assert heard["peak"] == pytest.approx(1.0)

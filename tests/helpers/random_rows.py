@@ -36,11 +36,11 @@ def random_scene(rng: np.random.Generator, kind: str) -> Scene:
     ]
     lever = 0.5 * bearing.pitch_diameter
     load = Load(loads[0], loads[1], loads[2], lever * loads[3], lever * loads[4])
-    dofs: tuple[str, ...] | None = None
+    dofs: tuple[str, ...] | str | None = None
     if kind == "rollers":
         load = Load(loads[0], loads[1])
     elif kind != "self-aligning":
-        dofs = (None, ("x", "y", "z"), ("x", "y"))[int(rng.choice(3, p=[0.7, 0.2, 0.1]))]
+        dofs = ("tilt free", ("x", "y", "z"), ("x", "y"))[int(rng.choice(3, p=[0.7, 0.2, 0.1]))]
     defect = Defect(
         extent=float(rng.uniform(0.0, 1.5)),
         depth=0.2 * bearing.ball_diameter * float(rng.random() ** 3),

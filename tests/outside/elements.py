@@ -1,7 +1,8 @@
-"""Rows of balls or rollers between two rings, at rest and in motion: a witness of its own.
+"""Rows of balls or rollers between two rings at rest: a witness of its own.
 
 Petersen, Howard & Prime (2014), Eqs. 3-5 and 7-23, for rows at any place: written down from the
-geometry of groove centres, minimised and integrated by SciPy, differentiated by complex steps.
+geometry of groove centres, minimised by SciPy, differentiated by complex steps (`march.py` has
+their motion).
 Everything takes complex numbers, so that no derivative is written down.
 """
 
@@ -9,7 +10,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.optimize import minimize, root
 from scipy.special import ellipe, ellipk
 
@@ -146,55 +146,6 @@ class Rows:
             ]
             out[:, i] = (ends[0] - ends[1]) / (2.0 * h)
         return out
-
-    def march(self, rig: "Rig", force: Array, free: list[int], times: Array) -> tuple[Array, ...]:
-        """Displacements of both rings (times, free) from the state at rest at angle 0.
-
-        The acceleration of the outer one comes third.
-        """
-        n = len(free)
-        q0 = self.rest(force, 0.0, free)[free]
-        outer = force[free] / rig.stiffness[free]
-
-        def rates(t: float, y: Array) -> Array:
-            y = y * 1e-6
-            a, b, va, vb = y[:n], y[n : 2 * n], y[2 * n : 3 * n], y[3 * n :]
-            q = np.zeros(5, dtype=complex)
-            q[free] = a - b + 1j * STEP * (va - vb)
-            delta = self.compression(q, rig.cage * (t + 1j * STEP))
-            push = np.where(delta.real > 0.0, delta.real, 0.0) ** self.law[1] * self.law[0]
-            push = np.where(delta.real > 0.0, push + rig.c * delta.imag / STEP, 0.0)
-            if rig.no_tension:
-                push = np.maximum(push, 0.0)
-            pushes = (self.directions(q.real, rig.cage * t) @ push)[free]
-            ground = rig.stiffness[free] * b + rig.damping[free] * vb
-            turning = rig.unbalance * np.array([np.cos(rig.shaft * t), np.sin(rig.shaft * t)])
-            load = force[free].astype(float)
-            load[:2] += turning
-            inner, housing = (load - pushes) / rig.mass[free], (pushes - ground) / rig.mass[free]
-            return 1e6 * np.concatenate([va, vb, inner, housing])
-
-        start = 1e6 * np.concatenate([q0 + outer, outer, np.zeros(2 * n)])
-        found = solve_ivp(
-            rates, (0.0, times[-1]), start, "DOP853", times, rtol=1e-9, atol=1e-9, max_step=1e-4
-        )
-        assert found.success
-        last = [rates(t, y)[3 * n :] for t, y in zip(times, found.y.T, strict=True)]
-        return 1e-6 * found.y[:n].T, 1e-6 * found.y[n : 2 * n].T, 1e-6 * np.array(last)
-
-
-@dataclass(frozen=True)
-class Rig:
-    """Two bodies alike and what holds the outer one; (5,) by direction; `unbalance` a force [N]."""
-
-    mass: Array
-    stiffness: Array
-    damping: Array
-    shaft: float
-    cage: float
-    c: float
-    no_tension: bool = False
-    unbalance: float = 0.0
 
 
 def point_contact(D: float, across: float, along: float, plane: float = 210e9 / 0.91) -> Array:

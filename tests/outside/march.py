@@ -41,7 +41,7 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
     against the other [m, rad]; `own` and `rows` as `Problem` packs them.
     """
     count, ball, ca, sa, lever, apart, clearance, K, n, preload = own[:10]
-    extent, depth, race, edge, center, cage, c_contact = own[10:17]
+    extent, depth, race, edge, center, cage, c_contact, least = own[10:18]
     out[:] = 0.0
     for r in range(rows.shape[0]):
         z, facing = rows[r, 0], rows[r, 1]
@@ -72,7 +72,7 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
                 delta = length - apart
                 rate = across * (radial_rate - slope * ca) + along * (axial_rate - slope * sa)
             if delta > 0.0:
-                push = K * delta**n + c_contact * rate
+                push = max(K * delta**n + c_contact * rate, least)
                 along *= facing
                 out[0] += push * across * c
                 out[1] += push * across * s
@@ -95,9 +95,13 @@ def rates(t: float, y: Array, own: Array, rows: Array, free: Array, rig: Array) 
     accelerate(t, q, v, own, rows, push)
     out = np.empty(4 * n)
     out[: 2 * n] = y[2 * n :]
+    unbalance, shaft = own[18], own[19]
     for i in range(n):
+        load = rig[3, i]
+        if free[i] < 2:
+            load += unbalance * (math.cos(shaft * t) if free[i] == 0 else math.sin(shaft * t))
         held = rig[1, i] * y[n + i] + rig[2, i] * y[3 * n + i]
-        out[2 * n + i] = 1e6 * (rig[3, i] - push[free[i]]) / rig[0, i]
+        out[2 * n + i] = 1e6 * (load - push[free[i]]) / rig[0, i]
         out[3 * n + i] = (1e6 * push[free[i]] - held) / rig[0, i]
     return out
 
@@ -123,7 +127,10 @@ def by_runge_kutta(
 
 @dataclass(frozen=True)
 class Problem:
-    """Two rings on a support; arrays by free direction, in SI; `cage` [rad/s]."""
+    """Two rings on a support; arrays by free direction, in SI; speeds [rad/s].
+
+    `no_tension`: contacts never pull; `unbalance` [N] turns with the shaft.
+    """
 
     rows: Rows
     force: Array
@@ -133,13 +140,17 @@ class Problem:
     damping: Array
     cage: float
     c: float
+    no_tension: bool = False
+    unbalance: float = 0.0
+    shaft: float = 0.0
 
     def packed(self) -> tuple[Array, Array, Array, Array]:
         one, hurt = self.rows, self.rows.defect
         own = (
             one.count, 0.5 * one.element, math.cos(one.angle), math.sin(one.angle), one.lever,
             one.apart, one.clearance, *one.law, one.preload, hurt.extent, hurt.depth, hurt.race,
-            EDGES[hurt.edge], hurt.center, self.cage, self.c,
+            EDGES[hurt.edge], hurt.center, self.cage, self.c, 0.0 if self.no_tension else -math.inf,
+            self.unbalance, self.shaft,
         )  # fmt: skip
         free = list(self.free)
         rig = np.stack([self.mass, self.stiffness, self.damping, self.force[free]])

@@ -83,9 +83,15 @@ def problem(preset: str, edge: str = "", shaft: float = math.nan) -> Problem:
 
 
 @cache
-def exact(preset: str, duration: float, edge: str = "") -> np.ndarray:
-    """Accelerations of the housing at 65,536 Hz from rest, by DOP853."""
+def exact(preset: str, duration: float, edge: str = "", extent: float = math.nan) -> np.ndarray:
+    """Accelerations of the housing at 65,536 Hz from rest, by DOP853.
+
+    `extent` [rad] in place of the defect's own.
+    """
     times, one = np.arange(round(duration * RATE) + 1) / RATE, problem(preset, edge)
+    if math.isfinite(extent):
+        hurt = replace(one.rows.defect, extent=extent)
+        one = replace(one, rows=replace(one.rows, defect=hurt))
     return one.accelerations(times, one.solved(one.start(), times))
 
 
@@ -108,15 +114,18 @@ def test_the_march_meets_the_stored_reference() -> None:
 @every_preset
 def test_points_of_the_motion_charts(preset: str) -> None:
     true, one = exact(preset, 0.1), problem(preset)
+    lever = presets[preset].bearing.groove_center_radius  # a rotation counts as a length
+    size = np.array([1.0, 1.0, 1.0, lever, lever])[list(one.free)]
     motion = simulate(presets[preset], 0.1, RATE, step_rate=4.0 * RATE)
-    off = motion.instant_acceleration("outer") - true[: len(motion.time)]
-    assert math.sqrt(np.sum(off**2) / np.sum(true**2)) < 5e-3
+    off = size * (motion.instant_acceleration("outer") - true[: len(motion.time)])
+    assert math.sqrt(np.sum(off**2) / np.sum((size * true) ** 2)) < 5e-3
     points = [p for p in chart("motion", preset)["points"] if p["method"] == "RK4 in velocities"]
     for point in [p for p in points if p["value"] >= RATE][:3]:
         keep = round(point["value"] / RATE)
         steps = (len(true) - 1) * keep
         found = by_runge_kutta(one.start(), 1.0 / point["value"], steps, keep, *one.packed())
-        error = math.sqrt(np.sum((found - true) ** 2) / np.sum(true**2))
+        off = np.sum((size * (found - true)) ** 2)
+        error = math.sqrt(off / np.sum((size * true) ** 2))
         assert error == pytest.approx(point["errors"]["series L2"], rel=2e-3), point["setting"]
 
 
@@ -203,7 +212,7 @@ def test_points_of_the_angles_chart() -> None:
 @every_preset
 def test_points_of_the_models_charts(preset: str) -> None:
     def level(edge: str) -> float:
-        return 10.0 * math.log10(np.mean(exact(preset, 0.2, edge) ** 2))
+        return 10.0 * math.log10(np.mean(exact(preset, 0.2, edge)[:, :2] ** 2))
 
     for point in chart("models", preset)["points"]:
         edge = point["method"].removesuffix(" edges")
@@ -215,12 +224,14 @@ def test_points_of_the_models_charts(preset: str) -> None:
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
     by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
-    compared="largest Floquet multiplier at three speeds of every preset's chart", within=5e-3,
+    compared="largest multiplier at the highest stable speeds of every preset's chart",
+    within=5e-3,
 )  # fmt: skip
 @every_preset
 def test_points_of_the_orbits_charts(preset: str) -> None:
     known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
-    for point in known[:: max(len(known) // 3, 1)][:3]:
+    last = 3 if len(presets[preset].active_dofs) == 2 else 1  # a pass is short at high speed
+    for point in known[-last:]:
         found = problem(preset, shaft=point["shaft_speed"]).multipliers()
         here = orbit(presets[preset].replace(shaft_speed=point["shaft_speed"]))
         assert here.largest_multiplier == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3)

@@ -103,6 +103,17 @@ def test_moment_of_held_tilts() -> None:
     assert shown == pytest.approx(np.hypot(*moment), rel=3e-3)
 
 
+def test_free_tilts_are_those_of_least_energy() -> None:
+    """The pair of 7208 with a radial and an axial load, by `elements`."""
+    case = CASES["rows"]
+    q = case.rows.rest(case.force, CAGE[1], case.free)
+    found = limits(case.scene, equilibrium(case.scene, [CAGE[1]]))
+    (said,) = [one.sentence for one in found if one.name == "free tilts"]
+    shown, unit = said.partition("tilts by up to ")[2].split()
+    assert unit == "µrad."
+    assert 1e-6 * float(shown) == pytest.approx(np.hypot(*q[3:]), rel=3e-3)
+
+
 OIL = {"viscosity": 0.017, "pressure_viscosity": 1.8e-8}
 
 

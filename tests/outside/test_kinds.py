@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Scene, equilibrium, modes, presets, simulate
-from tests.outside.elements import Array, Defect, Rig, Rows, point_contact
+from tests.outside.elements import Array, Defect, Rows, point_contact
+from tests.outside.march import Problem
 from tests.outside.witness import witness
 
 INCH = 25.4e-3
@@ -174,14 +175,15 @@ def test_natural_frequencies(kind: str) -> None:
         assert np.sort(found.frequency[i]) == pytest.approx(own, rel=1e-5)
 
 
-def rig_of(case: Case, **more: Any) -> Rig:
-    speed = case.scene.shaft_speed
-    return Rig(MASS, GROUND, DAMPING, speed, case.cage * speed, C, **more)
+def problem_of(case: Case, rows: Rows, **more: Any) -> Problem:
+    speed, free = case.scene.shaft_speed, case.free
+    held = MASS[free], GROUND[free], DAMPING[free]
+    return Problem(rows, case.force, tuple(free), *held, case.cage * speed, C, shaft=speed, **more)
 
 
 @witness(
     "* bearing: motion", "function: simulate", "law: *", "balls: massless", "load: unbalance",
-    "load: f*", by="SciPy's DOP853 on the equations of `elements.py`",
+    "load: f*", by="SciPy's DOP853 on the equations of `march.py`",
     compared="displacements of both rings over 2.5 ms, both contact laws, with unbalance",
     within=1e-3,
 )  # fmt: skip
@@ -199,10 +201,10 @@ def test_motion(kind: str, law: str) -> None:
     )
     motion = simulate(scene, 2.5e-3, 65536.0, step_rate=16 * 65536.0)
     turning = unbalance * scene.shaft_speed**2
-    rig = rig_of(case, no_tension=law == "no tension", unbalance=turning)
-    own = rows.march(rig, case.force, case.free, motion.time)
+    one = problem_of(case, rows, no_tension=law == "no tension", unbalance=turning)
+    states, n = 1e-6 * one.solved(one.start(), motion.time), len(case.free)
     rings = motion.inner_displacement, motion.outer_displacement
-    for found, expected in zip(rings, own[:2], strict=True):
+    for found, expected in zip(rings, (states[:, :n], states[:, n : 2 * n]), strict=True):
         for ours, theirs in zip(found.T, expected.T, strict=True):
             swing = max(np.ptp(theirs), 1e-2 * np.ptp(expected))
             assert np.abs(ours - theirs).max() < 1e-3 * swing

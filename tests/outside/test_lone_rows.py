@@ -33,6 +33,7 @@ from bearingcore import (
 )
 from bearingcore.bearings.tapered import USUAL_ANGLE
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
+from bearingcore.scene.scene import TILT_FREE
 from bearingcore.statics.status import StaticStatus
 from bearingcore.sweep import STATUSES, sweep
 from tests.helpers.contact_law import Balls
@@ -46,16 +47,16 @@ Z, ALPHA = 17, USUAL_ANGLE
 BALL = presets["7208-25deg"].healthy()
 LEVEL = ("x", "y", "z")
 OUT = {
-    "free in all directions": (-4000.0, 4000.0, None, "tilts that are held"),
-    "pressed out of its cup": (0.0, -500.0, None, "500 N press the inner ring out"),
+    "free in all directions": (-4000.0, 4000.0, TILT_FREE, "tilts that are held"),
+    "pressed out of its cup": (0.0, -500.0, TILT_FREE, "500 N press the inner ring out"),
     "less thrust than F_r tan α": (-4000.0, 500.0, LEVEL, "more axial load: 500 N let the inner"),
-    "both": (-4000.0, 500.0, None, "tilts that are held, and more axial load"),
+    "both": (-4000.0, 500.0, TILT_FREE, "tilts that are held, and more axial load"),
 }
 """Loads that no lone cone carries: fy, fz [N], free directions, what is said to be missing."""
 
 
 def cone(
-    fy: float, fz: float, dofs: tuple[str, ...] | None = None, bearing: Bearing = CONE
+    fy: float, fz: float, dofs: tuple[str, ...] | str = TILT_FREE, bearing: Bearing = CONE
 ) -> Scene:
     rig = presets["nu208"].healthy()
     return Scene(bearing, rig.defect, Load(0.0, fy, fz), rig.shaft_speed, rig.support, dofs=dofs)
@@ -74,7 +75,7 @@ def of(found: tuple[Limit, ...], name: str) -> Limit:
 
 @pytest.mark.parametrize(("fy", "fz", "dofs", "missing"), OUT.values(), ids=OUT.keys())
 def test_a_cone_that_leaves_its_cup_has_no_equilibrium_anywhere(
-    fy: float, fz: float, dofs: tuple[str, ...] | None, missing: str
+    fy: float, fz: float, dofs: tuple[str, ...] | str, missing: str
 ) -> None:
     """A cone's lines of contact meet on the shaft: no moment about that point (any textbook)."""
     scene = cone(fy, fz, dofs)
@@ -145,9 +146,9 @@ def test_random_cones_converge_where_rollers_can_carry_the_load_and_only_there()
         bearing = CONE.replace(n_balls=n, ball_diameter=4e-3, contact_angle=angle)
         fy, share = -1000.0, float(rng.uniform(-0.5, 3.0))
         cage_angle = float(rng.uniform(0.0, 6.0))
-        dofs = LEVEL if rng.random() < 0.7 else None
+        dofs = LEVEL if rng.random() < 0.7 else TILT_FREE
         scene = cone(fy, share * math.tan(angle) * abs(fy), dofs, bearing)
-        free = [0, 1, 2] if dofs else [0, 1, 2, 3, 4]
+        free = [0, 1, 2] if dofs == LEVEL else [0, 1, 2, 3, 4]
         e, load = directions(n, angle, cage_angle)[:, free], scene.load.vector[free]
         can = linprog(np.ones(n), A_eq=e.T, b_eq=load).status == 0
         found = equilibrium(scene, [cage_angle])
@@ -253,7 +254,7 @@ def test_a_moment_presses_one_row_of_a_tandem_pair_the_wrong_way() -> None:
         [0, 1, 2, 3, 4], at=(-9e-3, 9e-3), facing=(1, 1),
     )  # fmt: skip
     rows = dataclasses.replace(pair.rows, defect=None)
-    scene = presets["7208-tandem"].healthy().replace(load=Load(mx=100.0), dofs=None)
+    scene = presets["7208-tandem"].healthy().replace(load=Load(mx=100.0), dofs="tilt free")
     q = rows.rest(np.array(force), 0.1, [0, 1, 2, 3, 4])
     along = rows.directions(q, 0.1)[2] * rows.load(q, 0.1)
     wrong = max(-along[:14].sum(), -along[14:].sum())

@@ -1,97 +1,37 @@
 """Sampled vibration against a march of its own, sampled at 0.5 MHz.
 
-The witness is written here: the equations of motion of the fan rig's two bodies in the plane
-(Petersen, Howard and Prime 2014, Eqs. 6, 18 and 19), integrated by SciPy's DOP853.
+The witness is `march.py`: the equations of motion by SciPy's DOP853.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
-from numba import njit
-from scipy.integrate import solve_ivp
 from scipy.signal import firwin, freqz, upfirdn, welch
 
 from bearingcore import orbit, presets, simulate
 from bearingcore.dynamics.low_pass import low_passed
 from bearingcore.dynamics.speed_runs import speed_run
+from tests.outside.test_charts import problem
 from tests.outside.witness import witness
 
 RATE, FINE = 65_536.0, 524_288.0
 DURATION, SETTLED = 0.3, 0.1
 BANDS = ((300.0, 2100.0), (2100.0, 5e3), (5e3, 1e4), (1e4, 1.6e4), (1.6e4, 2.4e4), (2.4e4, 2.62e4))
 
-# the rig as printed; the damping is that of the text's range, given to both
-N_BALLS, K, CLEARANCE, DAMPING = 14, 5453e6, 3e-6, 122.0
-MASS, SUPPORT, SUPPORT_DAMPING, LOAD = 2.0, 212.2e6, 1648.2, -100.0
-R_BALL, R_OUTER, DEPTH, EXTENT = 4e-3, 26.5e-3, 50e-6, math.radians(12.9)
-CAGE = 0.5 * 2.0 * math.pi * 7.0 * (1.0 - 8.0 / 45.0)
-
-
-@njit
-def rates(
-    t: float,
-    y: np.ndarray,
-    extent: float = EXTENT,
-    cage: float = CAGE,
-    damping: float = DAMPING,
-    corner: float = 0.5,
-) -> np.ndarray:
-    """Rates of inner x, y, outer x, y [µm] and their velocities [mm/s] (Eqs. 6, 18, 19).
-
-    `corner`: factor of the arc in Eq. 6; 0 for a ball that pivots on the corner of the race.
-    """
-    dx, dy = (y[0] - y[2]) * 1e-6, (y[1] - y[3]) * 1e-6
-    ux, uy = (y[4] - y[6]) * 1e-3, (y[5] - y[7]) * 1e-3
-    fx = fy = 0.0
-    for j in range(N_BALLS):
-        angle = cage * t + 2.0 * math.pi / N_BALLS * j
-        c, s = math.cos(angle), math.sin(angle)
-        away = (angle - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
-        inside, deep, slope = 0.5 * extent - abs(away), 0.0, 0.0
-        if inside > 0.0:
-            deep, way = DEPTH, -1.0 if away > 0.0 else 1.0
-            half = R_OUTER * (corner * inside if corner > 0.0 else math.sin(inside))
-            if half < R_BALL:
-                root = math.sqrt(R_BALL**2 - half**2)
-                if corner > 0.0:
-                    drop, turn = R_BALL - root, corner * R_OUTER * half / root
-                else:
-                    drop = R_OUTER * math.cos(inside) - root - (R_OUTER - R_BALL)
-                    turn = R_OUTER * math.cos(inside) * half / root - R_OUTER * math.sin(inside)
-                if drop < DEPTH:
-                    deep, slope = drop, turn * way
-        delta = dx * c + dy * s - CLEARANCE - deep
-        if delta > 0.0:
-            rate = ux * c + uy * s + cage * (dy * c - dx * s - slope)
-            push = K * delta**1.5 + damping * rate
-            fx += push * c
-            fy += push * s
-    found = np.empty(8)
-    found[:4] = 1e3 * y[4:]
-    found[4] = -1e3 * fx / MASS
-    found[5] = 1e3 * (LOAD - fy) / MASS
-    found[6] = 1e3 * (fx - SUPPORT * 1e-6 * y[2] - SUPPORT_DAMPING * 1e-3 * y[6]) / MASS
-    found[7] = 1e3 * (fy - SUPPORT * 1e-6 * y[3] - SUPPORT_DAMPING * 1e-3 * y[7]) / MASS
-    return found
+DAMPING = 122.0
 
 
 @cache
 def dense() -> np.ndarray:
     """Vertical acceleration of the housing at 0.5 MHz, from rest on the static state."""
-    rig = presets["fan-rig"].replace(contact_damping=DAMPING)
-    first = simulate(rig, 1e-3)  # only where it begins: what it does from there is found here
-    start = np.concatenate([first.inner_displacement[0], first.outer_displacement[0]]) * 1e6
+    one = replace(problem("fan-rig"), c=DAMPING)
     time = np.arange(round(DURATION * FINE)) / FINE
-    made = solve_ivp(
-        rates, (0.0, time[-1]), np.concatenate([start, np.zeros(4)]), "DOP853", time,
-        rtol=1e-9, atol=1e-8,
-    )  # fmt: skip
-    assert made.success
-    return np.array([1e-3 * rates(t, y)[7] for t, y in zip(time, made.y.T, strict=True)])
+    return one.accelerations(time, one.solved(one.start(), time, 1e-9))[:, 1]
 
 
 def bands(signal: np.ndarray, rate: float) -> np.ndarray:

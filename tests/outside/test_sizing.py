@@ -18,7 +18,7 @@ from tests.outside.witness import witness
 @pytest.mark.proof
 @pytest.mark.parametrize("extent", [12.9, 38.6])
 def test_extents_of_the_fan_rig(extent: float) -> None:
-    signal = exact(0.5, 1.4, math.radians(extent))
+    signal = exact("fan-rig", 1.4, "published", math.radians(extent))
     noise = np.random.default_rng(4).standard_normal(signal.shape)
     recording = Recording(signal + 0.05 * signal.std(axis=0) * noise, RATE, ("x", "y"))
     rig = presets["fan-rig"].replace(extent=math.radians(5.0))

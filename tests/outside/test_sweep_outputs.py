@@ -11,7 +11,7 @@ from bearingcore.statics.equilibrium import TERM_INDICES
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import OUTPUTS, Settings
 from tests.outside.test_contacts import gamma, pressures
-from tests.outside.test_kinds import CASES, GROUND, MASS, C, rig_of
+from tests.outside.test_kinds import CASES, GROUND, MASS, C, problem_of
 from tests.outside.witness import witness
 
 PAIR = CASES["rows"]
@@ -119,15 +119,15 @@ def test_bands() -> None:
 
 @witness(
     "output: acceleration_*",
-    by="SciPy's DOP853 on the equations of `elements.py`, low-passed by SciPy's firwin",
+    by="SciPy's DOP853 on the equations of `march.py`, low-passed by SciPy's firwin",
     compared="root mean square and greatest acceleration in five directions, second half of 6 ms",
     within=0.01,
 )  # fmt: skip
 @pytest.mark.proof
 def test_accelerations() -> None:
     times = np.arange(393) / 65_536.0
-    *_, own = PAIR.rows.march(rig_of(PAIR), PAIR.force, PAIR.free, times)
-    late = own[196:]
+    one = problem_of(PAIR, PAIR.rows)
+    late = one.accelerations(times, one.solved(one.start(), times))[196:]
     for i, dof in enumerate(DOF_NAMES):
         rms = math.sqrt(np.mean(late[:, i] ** 2))
         assert swept()[f"acceleration_rms_{dof}"] == pytest.approx(rms, rel=0.01), dof

@@ -141,9 +141,11 @@ class Requests:
                 )
             if "set" in message:
                 self._set(message["set"], confirm=False)
-            if "typed" in message:
-                self._set(message["typed"], confirm=True)
-            rests = "typed" in message or "released" in message
+            typed = [name for name in ("typed", "second") if name in message]
+            for name in typed:
+                own = self.editor.in_own_units(message[name], second=name == "second")
+                self._set(own, confirm=True)
+            rests = typed or "released" in message
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
             self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)

@@ -97,11 +97,15 @@ class BearingTable:
             mark = "yours" if own else ""
             ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
         best = [entry for rank, entry in ranked if rank == 0]
-        # a designation may be the first word of a longer name; what only has its number comes last
+        # the first one is taken by Enter: the bearing of that very name, then the designation,
+        # which may be the first word of longer names; what only has its number comes last
         named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
-        yield from named
+        named.sort(key=lambda one: one["label"].lower() != text.lower())
+        exact = sum(one["label"].lower() == text.lower() for one in named)
+        yield from named[:exact]
         if by_number is not None:
             yield _estimated(by_number)
+        yield from named[exact:]
         yield from (one for one in best if one not in named)
         if by_number is None and len(text) > 1:
             for basic in islice(designations(text), MOST_NUMBERS):

@@ -20,7 +20,7 @@ from bearingcore.bearings.designation import (
     inside_of,
     read_designation,
 )
-from bearingcore.bearings.designation_tables import boundaries, clearance
+from bearingcore.bearings.designation_tables import boundaries, clearance, series_of
 from bearingcore.bearings.inside import (
     INCH,
     MEASURED,
@@ -62,7 +62,7 @@ def lines_of(path: Path) -> list[dict[str, str]]:
 def test_kinds_of_one_dimension_series_have_one_outside() -> None:
     """Tables of four kinds of bearing, read apart, have what ISO 15 gives to all of them."""
     alike = (("62", "72", "12", "NU2"), ("63", "73", "13", "NU3"), ("60", "70", "NU10"))
-    alike += (("22", "NU22"), ("23", "NU23"))
+    alike += (("22", "NU22"), ("23", "NU23"), ("619", "719"))
     compared = 0
     for series in alike:
         for code in range(21):
@@ -76,7 +76,8 @@ def test_kinds_of_one_dimension_series_have_one_outside() -> None:
 def test_bore_follows_from_the_number() -> None:
     for name, one in boundaries().items():
         code = int(name[-2:])
-        assert one.bore == pytest.approx(1e-3 * {0: 10, 1: 12, 2: 15, 3: 17}.get(code, 5 * code))
+        bore = {0: 10, 1: 12, 2: 15, 3: 17}.get(code, 5 * code)
+        assert 1e3 * one.bore == pytest.approx(int(name[-1]) if len(name) == 3 else bore)
 
 
 @pytest.mark.parametrize("kind", [DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS])
@@ -127,6 +128,7 @@ def test_rule_on_published_insides() -> None:
     assert nineteen == pytest.approx(MEASURED.frequency_spread, rel=0.02)
     spread = float(np.quantile([abs(one.ratio) for one in right], 0.95))
     assert spread == pytest.approx(MEASURED.ratio_spread, rel=0.02)
+    assert MEASURED.frequency_spread == pytest.approx(0.018, abs=5e-4)  # as documents say
     assert MEASURED.diameter < 0.04
     assert MEASURED.frequency < 0.01
 
@@ -136,7 +138,8 @@ def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
 
     Four have balls a thirty-second of an inch larger, one runs on a circle of an inch.
     """
-    off = {one.designation: one for one in judged() if one.is_right and abs(one.frequency) > 0.01}
+    found = [one for one in judged() if "NMB" not in one.source]
+    off = {one.designation: one for one in found if one.is_right and abs(one.frequency) > 0.01}
     assert set(off) == {"6202", "6204", "6208", "6307", "6308", "6309"}
     assert all("housed unit" in one.source or "UER204" in one.source for one in off.values())
     for name in ("6208", "6307", "6308", "6309"):
@@ -212,7 +215,8 @@ def test_what_is_no_designation_is_refused_with_the_series(text: str) -> None:
 
 def test_beginnings_of_designations() -> None:
     assert list(designations("nu 23"))[:2] == ["NU2304", "NU2305"]
-    assert len(list(designations("62"))) == 21
+    assert list(designations("62"))[:2] == ["6200", "6201"]
+    assert len(list(designations("62"))) == 21 + 7, "623 to 629 come last"
 
 
 def test_an_angle_that_is_not_said_is_assumed_and_said() -> None:
@@ -269,6 +273,11 @@ def test_tapered_rollers_have_the_outside_of_iso_355() -> None:
                 assert size.static_rating > 0.9 * size.dynamic_rating
             assert wider.width > one.width
             assert wider.dynamic_rating > one.dynamic_rating
+    flat = {basic: one for basic, one in boundaries().items() if series_of(basic) == "320"}
+    assert len(flat) == 14
+    for basic, size in flat.items():
+        assert size[:2] == boundaries()[f"60{basic[3:]}"][:2]
+        assert size.width == size.cone_width > size.cup_width
 
 
 def test_tapered_sizes_as_other_catalogues_print_them() -> None:
@@ -291,7 +300,7 @@ def test_tapered_sizes_as_other_catalogues_print_them() -> None:
 
 
 def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
-    for basic in (name for name in boundaries() if SERIES[name[:-2]] == TAPERED_ROLLERS):
+    for basic in (name for name in boundaries() if SERIES[series_of(name)] == TAPERED_ROLLERS):
         size, bearing = boundaries()[basic], read_designation(basic).bearing
         assert dynamic_load_rating(bearing) == pytest.approx(size.dynamic_rating, rel=1e-9)
         length, cosine = bearing.roller_length or 0.0, math.cos(bearing.contact_angle)
@@ -323,6 +332,8 @@ def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
     assert (OTHER_MAKER.same, OTHER_MAKER.bearings) == (same, len(ratios))
     assert median(ratios) == pytest.approx(OTHER_MAKER.ratio, rel=0.02)
     assert float(np.quantile(ratios, 0.95)) == pytest.approx(OTHER_MAKER.ratio_spread, rel=0.02)
+    said = OTHER_MAKER.ratio, OTHER_MAKER.ratio_spread
+    assert said == pytest.approx((0.006, 0.035), abs=5e-4)  # as documents say
 
 
 def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diameter() -> None:
@@ -364,7 +375,7 @@ def test_tapered_designations(text: str, arrangement: str, centers: float) -> No
 
 @pytest.mark.parametrize("text", ["32206 B", "30308DJR", "30206 C", "HR6208"])
 def test_other_cups_than_those_of_the_number_are_refused(text: str) -> None:
-    with pytest.raises(FieldError, match="302, 303, 322, 323"):
+    with pytest.raises(FieldError, match="302, 303, 320, 322, 323"):
         read_designation(text)
 
 
@@ -374,18 +385,19 @@ def test_passing_frequencies_of_tapered_rollers_say_what_one_roller_more_does() 
     assert off > 1.0 / bearing.n_balls
     more = bearing.replace(n_balls=bearing.n_balls + 1)
     assert more.bpfo(1.0) / bearing.bpfo(1.0) - 1.0 < off
-    assert bearing.frequency_spread("ftf") < 0.005
+    assert bearing.frequency_spread("ftf") < 0.01
     assert more.frequency_spread("bpfo") == pytest.approx(bearing.frequency_spread("ftf"))
 
 
 @pytest.mark.parametrize(
     ("text", "near"),
     [
-        ("608-2RS", "the nearest known is 6000 (10 × 26 × 8 mm)"),
-        ("SKF 625", "the nearest known is 6200 (10 × 30 × 9 mm)"),
+        ("638-2RS", "the nearest known is 628 (8 × 24 × 8 mm)"),
+        ("SKF 688", "the nearest known is 61800 (10 × 19 × 5 mm)"),
         ("6324", "the nearest known is 6320 (100 × 215 × 47 mm)"),
-        ("71908 C", "7008 (40 × 68 × 15 mm, a heavier series of angular-contact ball bearings)"),
-        ("32008 X", "30208 (40 × 80 × 19.75 mm, another series of such rollers)"),
+        ("71808 C", "71908 (40 × 62 × 12 mm, a heavier series of angular-contact ball bearings)"),
+        ("32908", "32008 (40 × 68 × 19 mm, another series of such rollers)"),
+        ("32016 X", "32015 (75 × 115 × 25 mm)"),
         ("22210 E", "NU2210 (50 × 90 × 23 mm, cylindrical rollers of the same dimensions)"),
         ("NU 1003", "NU1005 (25 × 47 × 12 mm)"),
         ("UCP 205", "6205 (25 × 52 × 15 mm, the same inside in usual rings)"),

@@ -14,7 +14,6 @@ from bearingcore.errors import FieldError
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
 UNLOADED = LIEW_LIM.replace(fy=0.0, fz=0.0, extent=0.0)
-LOW_HIGH = {"face-to-face": 15_157.0, "back-to-back": 147_945.0}
 
 
 def preloaded(bearing: Bearing, by: float) -> Bearing:
@@ -24,18 +23,8 @@ def preloaded(bearing: Bearing, by: float) -> Bearing:
     return bearing.replace(rows=rows)
 
 
-@pytest.mark.parametrize("arrangement", list(LOW_HIGH))
-def test_pairs_have_the_stiffness_that_an_independent_program_found(arrangement: str) -> None:
-    pair = preloaded(LIEW_LIM.bearing.paired(16e-3, arrangement), 5e-6)
-    state = equilibrium(UNLOADED.replace(bearing=pair), [0.0, 0.07])
-    assert state.converged.all()
-    assert state.term("k_yy") == pytest.approx(437.4e6, rel=1e-4)
-    assert state.term("k_rxrx") == pytest.approx(LOW_HIGH[arrangement], rel=1e-4)
-    assert np.abs(state.term("k_yrx")).max() < 1e-9 * state.term("k_yy").max()
-
-
 def test_a_preload_by_distance_presses_both_rows_and_not_in_tandem() -> None:
-    for arrangement in LOW_HIGH:
+    for arrangement in ("face-to-face", "back-to-back"):
         pair = LIEW_LIM.bearing.paired(16e-3, arrangement, preload=8e-6)
         state = equilibrium(UNLOADED.replace(bearing=pair), [0.0])
         assert state.converged.all()
@@ -64,31 +53,7 @@ def test_turning_a_self_aligning_bearing_moves_no_ball() -> None:
     assert stiff[0] < 3e-4
 
 
-def test_a_ball_in_a_sphere_is_hertz_for_two_spheres() -> None:
-    D, R, E, nu = 8e-3, 20e-3, 210e9, 0.3
-    radius = 1.0 / (2.0 / D - 1.0 / R)
-    expected = 4.0 / 3.0 * E / (2.0 * (1.0 - nu**2)) * math.sqrt(radius)
-    assert spherical_contact(D, R, E, nu).load_deflection_factor == pytest.approx(expected)
-
-
 ROLLERS = Bearing.cylindrical(12, 10e-3, 10e-3, 50e-3)
-
-
-def test_one_and_two_loaded_rollers_follow_the_line_law() -> None:
-    """Q = 35 948 l^(8/9) δ^(10/9), N and mm; straight below, or half a spacing to either side."""
-    K = 35_948.0 * 10.0 ** (8.0 / 9.0)
-    loose = dataclasses.replace(ROLLERS, radial_clearance=20e-6)  # neighbours stay free
-    scene = FAN_RIG.replace(bearing=loose, extent=0.0, fy=-100.0)
-    below = equilibrium(scene, [math.radians(270.0)])
-    assert (below.ball_load > 0.0).sum() == 1
-    mm = (100.0 / K) ** 0.9
-    assert -below.displacement[0, 1] == pytest.approx(20e-6 + 1e-3 * mm, rel=1e-9)
-    beside = equilibrium(scene, [math.radians(270.0) + 0.5 * ROLLERS.ball_spacing])
-    assert (beside.ball_load > 0.0).sum() == 2
-    lean = math.cos(0.5 * ROLLERS.ball_spacing)
-    mm = (50.0 / lean / K) ** 0.9
-    assert -beside.displacement[0, 1] == pytest.approx((20e-6 + 1e-3 * mm) / lean, rel=1e-9)
-    assert 1e3 * mm < 1.0
 
 
 def test_rollers_carry_radial_loads_only_and_say_so() -> None:
@@ -151,20 +116,6 @@ def test_a_self_aligning_bearing_carries_its_contacts() -> None:
     assert distances[1] == pytest.approx(20e-3 - 3.97e-3)
     scene = FAN_RIG.replace(bearing=made, depth=20e-6)
     assert scene.active_dofs == ("x", "y", "z")
-
-
-def test_pressure_of_a_roller_is_that_of_hertz() -> None:
-    """The load is the pressure over the contact's half ellipse, and b is that of the textbook."""
-    contact = ROLLERS.race_contact("inner")
-    a, b = contact.semi_axes(1000.0)
-    p = contact.greatest_pressure(1000.0)
-    assert float(a) == pytest.approx(5e-3)
-    assert float(0.5 * math.pi * p * b * 2.0 * a) == pytest.approx(1000.0)
-    radius = 1.0 / (1.0 / 5e-3 + 1.0 / 20e-3)  # roller on the inner race of 20 mm
-    E = 210e9 / (2.0 * (1.0 - 0.3**2))
-    assert float(b) == pytest.approx(math.sqrt(4.0 * 1000.0 * radius / (math.pi * 10e-3 * E)))
-    assert ROLLERS.race_contact("outer").greatest_pressure(1000.0) < p
-    assert float(contact.semi_axes(0.0)[0]) == float(contact.semi_axes(0.0)[1]) == 0.0
 
 
 def test_rollers_follow_their_dimensions_and_never_become_balls() -> None:

@@ -17,7 +17,7 @@ HELD = ("x", "y", "z")
 
 
 def of(bearing: Bearing, **changes: object) -> Scene:
-    dofs = None if bearing.rows else HELD
+    dofs = "tilt free" if bearing.rows else HELD
     return dataclasses.replace(PAIR, bearing=bearing, dofs=dofs).replace(**changes)
 
 

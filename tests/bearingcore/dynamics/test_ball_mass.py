@@ -23,7 +23,7 @@ from tests.helpers.contact_law import TwoContacts
 
 RATE = 65536.0
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0, density=7850.0, balls="with mass")
-GENERAL = presets["7208-25deg"].replace(dofs=None, balls="with mass")
+GENERAL = presets["7208-25deg"].replace(dofs="tilt free", balls="with mass")
 
 
 def test_contact_resonance_of_a_6205() -> None:

@@ -8,7 +8,7 @@ from bearingcore import Support, frequency_bands, modes, scene_of, simulate
 
 RADIAL = Support(2.0, 2.0, 2e8, 2e8, 1e3, 1e3)
 """A rotor and a housing without numbers along the shaft and against tilt."""
-SCENE = scene_of("6205").replace(support=RADIAL, fz=200.0)
+SCENE = scene_of("6205").replace(support=RADIAL, fz=200.0, dofs="tilt free")
 
 
 @pytest.mark.parametrize("solve", [modes, frequency_bands, lambda scene: simulate(scene, 0.1)])

@@ -20,16 +20,6 @@ def strongest(spec, lowest=5.0) -> float:
     return float(frequency[inside][density[inside].argmax()])
 
 
-def test_modulation_of_a_carrier_has_the_line_that_theory_gives():
-    """Envelope 1 + m cos: power m²/2 at the modulation's frequency, nothing elsewhere."""
-    signal = (1.0 + 0.3 * np.cos(2.0 * np.pi * 40.0 * TIME)) * np.cos(2.0 * np.pi * 3000.0 * TIME)
-    frequency, density = envelope_spectrum(signal, RATE, (2500.0, 3500.0))
-    step = frequency[1]
-    near = np.abs(frequency - 40.0) < 3.0
-    assert density[near].sum() * step == pytest.approx(0.3**2 / 2.0, rel=0.02)
-    assert density[~near].sum() * step < 0.01 * 0.3**2 / 2.0
-
-
 @pytest.mark.parametrize("rings_at", [2000.0, 4321.0])
 def test_knocks_show_at_their_rate_whatever_rings(rings_at):
     noise = np.random.default_rng(3).standard_normal(TIME.size)

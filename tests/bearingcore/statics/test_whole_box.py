@@ -38,7 +38,7 @@ PLAIN = Point(
     race="outer",
     edge="published",
     loads=(0.0, -1e3, 0.0, 0.0, 0.0),
-    dofs=None,
+    dofs="tilt free",
     cage_angle=0.3,
 )
 """An unremarkable bearing, for the cases below to differ from."""

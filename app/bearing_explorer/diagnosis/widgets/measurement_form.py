@@ -49,8 +49,8 @@ _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
-    Once there is a signal it folds to a line, and unfolds again by a button. The fields about a
-    file are made when there is the first one.
+    Once there is a signal and no question it folds to a line, and unfolds again by a button. The
+    fields about a file are made when there is the first one.
     """
 
     def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
@@ -70,14 +70,14 @@ class MeasurementForm(pn.Column):
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
         self._cancel = button("Cancel", self._give_up, visible=False, align="start")
-        self._in_short = row(self._line, self._change, visible=False)
+        self._in_short = row(self._line, self._join, self._change, visible=False)
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
             css_classes=["ways"],
         )
         self._in_full = pn.Column(
-            self._ways, self._about_file, row(self._facts, self._load, self._join), **_WIDE
+            self._ways, self._about_file, row(self._facts, self._load), **_WIDE
         )
         super().__init__(self._in_short, self._in_full, self._words, self._cancel, **_WIDE)
         self.show(MeasurementState())
@@ -158,7 +158,7 @@ class MeasurementForm(pn.Column):
     def show(self, state: MeasurementState) -> None:
         """Show the state of the measurement."""
         if state.arrival != self._shown.arrival or (self._agreed and not state.bad):
-            self.folded, self._agreed = bool(state.line), False
+            self.folded, self._agreed = bool(state.line) and not state.open, False
         self._fold(state)
         self._about_file.visible = state.columns is not None
         if state.columns is not None:

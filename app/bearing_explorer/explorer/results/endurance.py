@@ -21,7 +21,7 @@ from bearingcore import (
 )
 from bearingcore import limits as limits_of
 from bearingcore.bearings import STEEL_MODULUS, STEEL_POISSON, USUAL_GROOVES
-from bearingcore.statics import NO_DRAWING, state_of_limits, unknown
+from bearingcore.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
@@ -38,7 +38,8 @@ class LifeInputs:
     """Steel, oil and surfaces as entered under Life.
 
     dynamic_load_rating
-        C_r [N] of the catalogue; None: computed by ISO 281.
+        C_r [N] of the catalogue; None: the bearing's own where its number is known, else
+        computed by ISO 281.
     viscosity [Pa·s]
         of the oil where it is drawn in, at its temperature; None: not known, and then a film is
         shown for `ASSUMED_VISCOSITY` but no limit of the scene judged by it.
@@ -90,11 +91,14 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     compiling.need(compiling.STATICS)
     with_grooves = with_usual_grooves(scene)
     told = [ESTIMATED] if scene.bearing.estimated else []
+    of_number = scene.bearing.dynamic_load_rating
     assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
     scene = with_grooves or scene
-    rating, rating_words = inputs.dynamic_load_rating, "given"
+    rating, rating_words = inputs.dynamic_load_rating, GIVEN
     no_life = ""
-    if rating is None:
+    if rating is None and of_number is not None:
+        rating, rating_words = of_number, OF_A_CATALOGUE
+    elif rating is None:
         try:
             rating = dynamic_load_rating(scene.bearing)
             rating_words = "computed from the dimensions by ISO 281"

@@ -50,9 +50,9 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
         for defect in defects_of(scene)
     )
     before, now = scene.bearing.kind.directions, bearing.kind.directions
-    dofs = tuple(name for name in scene.dofs or () if name in now)
-    if set(now) - set(before):
-        dofs = ()  # they were all that the other kind had
+    dofs = scene.dofs
+    if isinstance(dofs, tuple):  # where they were all that the other kind had they are no choice
+        dofs = None if set(now) - set(before) else tuple(name for name in dofs if name in now)
     return dataclasses.replace(
         scene,
         bearing=bearing,
@@ -66,8 +66,8 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
 def held(scene: Scene) -> tuple[Scene, str]:
     """A scene in which rows that face one way are pushed together, and a sentence on it.
 
-    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one, and
-    tilt without another bearing on the shaft: both are added where the scene has no axial load. No
+    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one,
+    which is added where the scene has none; tilts are held, as by the shaft's other bearing. No
     sentence where nothing is.
     """
     bearing, load = scene.bearing, scene.load
@@ -80,7 +80,7 @@ def held(scene: Scene) -> tuple[Scene, str]:
         f"Added, as such a bearing needs it: an axial load of {number(thrust)} N, and a shaft that "
         "another bearing keeps from tilting."
     )
-    return scene.replace(fz=float(f"{thrust:.3g}"), dofs=("x", "y", "z")), words
+    return scene.replace(fz=float(f"{thrust:.3g}"), dofs=None), words
 
 
 def _loads_without(bearing: Bearing) -> list[str]:

@@ -35,7 +35,7 @@ from bearingcore import Scene
 from bearingcore.common import LARGEST_TEXT
 
 _COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in their order
-_STEPS = ("set", "typed", "choose", "reset", "floor")
+_STEPS = ("set", "typed", "second", "choose", "reset", "floor")
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ checked here, and a refused one leaves all as it was, with a sentence.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -52,6 +53,7 @@ from bearingcore import (
     preset_notes,
     presets,
     read_floor,
+    scene_of,
 )
 from bearingcore.bearings import (
     BALL_MATERIAL,
@@ -62,7 +64,8 @@ from bearingcore.bearings import (
 )
 from bearingcore.common import number, refuse
 from bearingcore.fields import Range
-from bearingcore.scene import preset_labels
+from bearingcore.scene import TILT_FREE, preset_labels
+from bearingcore.units import read_number
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -72,6 +75,10 @@ ESTIMATED = "inside estimated"
 LARGEST_FILE = 1_000_000
 """Characters of a file with a measured floor."""
 
+_USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
+"""Parts of a scene that come with a bearing out of a list, and their names in a sentence."""
+_SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
+"""No defect yet: a longer one lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _NO_FILE = "No file yet: the floor is flat."
 _OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
@@ -115,6 +122,7 @@ class Snapshot:
     kinds: tuple[str, ...]
     own_name: str
     origin: CatalogueOrigin | None
+    begun: Scene = field(compare=False)
     selected: int = field(compare=False)
     values: Values = field(compare=False)
     limits: dict[str, Range] = field(compare=False)
@@ -140,6 +148,8 @@ class SceneEditor:
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
     """The entry of a list that the bearing was taken from."""
+    begun: Scene = field(init=False)
+    """The preset, or the usual scene of a listed bearing, from which changes began."""
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
@@ -182,6 +192,7 @@ class SceneEditor:
         for index in range(len(defects)):
             check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
+        self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
         self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
@@ -198,6 +209,7 @@ class SceneEditor:
             kinds=tuple(floor.kind for floor in self.floors),
             own_name=self.own_name,
             origin=self.origin,
+            begun=self.begun,
             selected=self.selected,
             values=dict(self.values),
             limits=dict(self.limits),
@@ -208,7 +220,7 @@ class SceneEditor:
     def restore(self, kept: Snapshot) -> None:
         """All as it was when the snapshot was taken."""
         self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
-        self.own_name, self.origin = kept.own_name, kept.origin
+        self.own_name, self.origin, self.begun = kept.own_name, kept.origin, kept.begun
         self.drop_draft()
         self.values, self.limits = dict(kept.values), dict(kept.limits)
         self.usual = dict(kept.usual)
@@ -257,14 +269,25 @@ class SceneEditor:
     def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
         """Put a bearing out of a list in the place of the one that is shown.
 
-        ValueError, and nothing changed, where the scene's defects do not go with it.
+        It comes sound, with a load, a speed and a support that are usual for it (`scene_of`); what
+        was changed of these before stays as it was changed.
+
+        ValueError, and nothing changed, where the defects that stay do not go with it.
         """
-        scene, effect = held(scene_with(self.scene, bearing))
+        usual = scene_of(bearing).replace(defect=_SOUND)
+        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
+        fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
+        before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
+        if before.dofs == self.begun.dofs:
+            before = before.replace(dofs=None)
+        scene, effect = held(scene_with(before, bearing).replace(**fresh))
+        floors = self.floors if "defect" in kept else [FloorChoice()]
+        selected = self.selected if "defect" in kept else 0
+        self.floors, self.selected, self.begun = floors, selected, usual
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        if effect:
-            self.effects["preset"] = effect
+        self.effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
@@ -277,6 +300,29 @@ class SceneEditor:
         return 0 if defect.is_none else len(before)
 
     # Numbers
+
+    def in_own_units(self, given: Mapping[str, Any], second: bool) -> dict[str, Any]:
+        """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
+
+        A number may name either unit in both boxes. What is a number in neither stays as it is, to
+        be refused.
+        """
+        units = second_units(self.scene, self.selected, self.draft)
+
+        def in_own_unit(name: str, text: str) -> str:
+            word, _, _ = units[name]["unit"].partition(" ")  # of "µm dia."; "× ball" is a ratio
+            other = (word.removeprefix("×"), units[name]["factor"])
+            ways = [(FIELD_BY_KEY[name].shown_unit, 1.0), other]
+            for unit, factor in reversed(ways) if second else ways:
+                with contextlib.suppress(ValueError):
+                    value = read_number(text[:40], unit) / factor
+                    return text if factor == 1.0 else f"{value:.12g}"
+            return text
+
+        return {
+            name: in_own_unit(name, text) if name in units and isinstance(text, str) else text
+            for name, text in given.items()
+        }
 
     def set(self, given: Mapping[Any, Any]) -> tuple[Refused, Values]:
         """Take numbers, dragged or typed; returns what was refused and all that changed."""
@@ -452,10 +498,11 @@ class SceneEditor:
         self.floors[self.selected] = new
 
     def _take_dofs(self, dofs: str) -> None:
-        free = None if dofs == "auto" else tuple(name for name in DOF_NAMES if name in dofs.split())
-        if free == ():
+        named = tuple(name for name in DOF_NAMES if name in dofs.split())
+        known = {"auto": None, TILT_FREE: TILT_FREE}
+        if not named and dofs not in known:
             raise ValueError("Choose at least one direction that can move.")
-        self._change(dofs=free)
+        self._change(dofs=known.get(dofs, named))
 
     def _take_defect(self, which: str) -> None:
         if which == "add":
@@ -585,7 +632,9 @@ class SceneEditor:
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,
                 "floor": floor.kind,  # of a file that could not be read there is no floor
-                "dofs": "auto" if scene.dofs is None else " ".join(scene.dofs),
+                "dofs": " ".join(scene.dofs)
+                if isinstance(scene.dofs, tuple)
+                else scene.dofs or "auto",
             },
             "defects": {
                 "names": [
@@ -627,6 +676,21 @@ def _with_rows(
         raise refuse("rows of balls", len(bearing.all_rows), "two of them")
     low, high = bearing.rows
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
+
+
+def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
+    """Sentence on what came with a bearing out of a list, and on what was kept."""
+    loads = ((-scene.load.fy, "down"), (scene.load.fz, "along the shaft"))
+    words = {
+        "defect": "no defect",
+        "load": " and ".join(f"{number(load)} N {where}" for load, where in loads if load),
+        "shaft_speed": f"{number(scene.shaft_speed * 30.0 / math.pi, 4)} turns a minute",
+        "support": f"a rotor and a housing of {number(scene.support.inner_mass)} kg each",
+    }
+    came = [words[part] for part in _USUAL if part not in kept]
+    stays = [name for part, name in _USUAL.items() if part in kept]
+    usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
+    return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

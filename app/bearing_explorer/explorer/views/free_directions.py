@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import facts_pane
 from bearing_explorer.kit.widgets.form import Fields, button
 from bearingcore import DOF_NAMES
-from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.scene import DOF_SYMBOLS, FREE_TILT_WORDS, TILT_FREE
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
@@ -30,14 +31,22 @@ _WORDS = {
 }
 
 
+_CHOICES = {
+    "auto": "A shaft on two bearings: tilt held",
+    TILT_FREE: "This bearing alone holds the shaft: tilt free",
+}
+
+
 class FreeDirections(View):
     """A form for the free directions of the inner ring."""
 
     name = "dofs"
     title = "Degrees of freedom"
     about = (
-        "Directions in which the rings can move. The scene takes the fewest that are exact; force "
-        "others on it. The Accuracy tab says what fewer would change."
+        "Directions in which the rings can move. A shaft on two bearings does not tilt: the scene "
+        "takes the fewest directions that are exact for it. One that this bearing alone holds may "
+        "tilt, and a bearing carries less then. Or choose them one by one; the Accuracy tab says "
+        "what fewer would change."
     )
     in_report = False
 
@@ -50,9 +59,13 @@ class FreeDirections(View):
             stylesheets=[asset_text("form.css")],
         )
         self._fields.add("dofs", boxes)
-        self._automatic = button("As the scene needs", lambda: self._ask("auto"), align="start")
+        self._choices = {
+            dofs: button(words, partial(self._ask, dofs), align="start")
+            for dofs, words in _CHOICES.items()
+        }
         self._refusal = facts_pane("", visible=False)
-        return pn.Column(self._automatic, boxes, self._refusal, styles={"gap": "7px"}, margin=0)
+        parts = (*self._choices.values(), boxes, self._refusal)
+        return pn.Column(*parts, styles={"gap": "7px"}, margin=0)
 
     def force(self, dofs: Sequence[str]) -> None:
         """Force directions on the scene."""
@@ -72,14 +85,17 @@ class FreeDirections(View):
         scene = results.scene
         free = style.list_words([DOF_SYMBOLS[dof] for dof in scene.active_dofs])
         words = f"{free} {'is' if len(scene.active_dofs) == 1 else 'are'} free"
-        return f"{words}. {reasons.not_needed(scene)}".rstrip()
+        tilt = FREE_TILT_WORDS if {"rx", "ry"} & set(scene.active_dofs) else ""
+        return " ".join(filter(None, (f"{words}.", reasons.not_needed(scene), tilt)))
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if results is not None:
             scene = results.scene
             self._fields.put({"dofs": list(scene.active_dofs)})
-            self._automatic.disabled = scene.active_dofs == scene.needed_dofs
+            for dofs, choice in self._choices.items():
+                with_it = scene.replace(dofs=None if dofs == "auto" else dofs)
+                choice.disabled = with_it.active_dofs == scene.active_dofs
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         free = [float(dof in results.scene.active_dofs) for dof in DOF_NAMES]

@@ -75,6 +75,8 @@ class Caption(LiveComponent):
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
     leads_to = param.String()
+    #: what that tab shows beyond it
+    lead = param.String()
 
     #: whether there are no numbers behind it yet, so that none are offered
     empty = param.Boolean(default=False)
@@ -133,6 +135,7 @@ class View(Generic[C]):
     #: "unseen": for screen readers alone
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
+    lead: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen
     cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
     #: parts of the session that its half has, on the page alone
@@ -180,6 +183,7 @@ class View(Generic[C]):
             cells=[list(cell) for cell in self.cells],
             compact=self.compact,
             leads_to=self.leads_to,
+            lead=self.lead,
         )
         self._caption.on_msg(self._answer)
         #: the names of compared scenes, a key a figure that draws them
@@ -263,13 +267,20 @@ class View(Generic[C]):
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None:
-            bearing = results.scene.bearing
-            about = self.caption(results.grey.name)
-            line, rest = parts_of(with_elements_of(bearing, about))
-            title = with_elements_of(bearing, self.title)
-            self._caption.put(title=title, line=line, rest=rest)
             for key in self._keys:
                 key.show([one.name for one in results.compared])
+
+    def put_head(self, content: C) -> None:
+        """Title and caption in the words of the bearing: its balls may be rollers."""
+        bearing = content.scene.bearing
+        line, rest = parts_of(with_elements_of(bearing, self.caption(content.grey.name)))
+        self._caption.put(
+            title=with_elements_of(bearing, self.title_of(content)), line=line, rest=rest
+        )
+
+    def title_of(self, content: C) -> str:
+        """The title over this content."""
+        return self.title
 
     @classmethod
     def caption(cls, grey: str = WITHOUT_DEFECT) -> str:

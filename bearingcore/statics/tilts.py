@@ -1,4 +1,4 @@
-"""Moment on the shaft where a scene holds its tilts: what another bearing is taken to carry."""
+"""Tilts: what another bearing is taken to carry where they are held, how far they go where not."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ import numpy as np
 
 from bearingcore.common.numbers import with_prefix
 from bearingcore.scene import packing
+from bearingcore.scene.scene import FREE_TILT_WORDS
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
 
-HELD_TILTS = "held tilts"
+HELD_TILTS, FREE_TILTS = "held tilts", "free tilts"
 
 _NOTICED = 1e-6
 """Moment over that of all loads at the pitch circle, from which on it is more than rounding."""
@@ -47,3 +48,13 @@ def held_tilts(state: Equilibrium) -> Limit | None:
         f"the {bearing.kind.elements} would carry other loads."
     )
     return Limit(HELD_TILTS, math.nan, math.nan, "N·m", False, sentence)
+
+
+def free_tilts(state: Equilibrium) -> Limit | None:
+    """The tilt of a shaft that nothing but this bearing holds; None where there is none."""
+    tilt = np.hypot(state.displacement[:, 3], state.displacement[:, 4])
+    most = float(tilt[np.isfinite(tilt)].max(initial=0.0))
+    if not {"rx", "ry"} & set(state.scene.free_dofs(state.dofs)) or most == 0.0:
+        return None
+    sentence = f"{FREE_TILT_WORDS} Here it tilts by up to {with_prefix(most, 'rad')}."
+    return Limit(FREE_TILTS, math.nan, math.nan, "rad", False, sentence)

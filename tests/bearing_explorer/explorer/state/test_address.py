@@ -288,7 +288,7 @@ def test_a_link_that_cannot_be_read_still_opens_its_tab() -> None:
     place = opened("v=1&extent_deg=400&tab=orbits", SceneEditor("fan-rig"))
     assert place.scene == presets["fan-rig"]
     assert place.tab == "over-speed"
-    assert "extent" in place.note
+    assert "length of the defect" in place.note
 
 
 @pytest.mark.parametrize(

@@ -22,8 +22,9 @@ export function render({ model }) {
   const part = (id) => root.querySelector(`#${id}`)
   const { title } = model, head = root.querySelector("h2"), code = part("code"), menu = part("exports")
   head.append(model.leads_to
-    ? button(title, () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
-    : title)
+    ? button(model.lead ? `${title}: ${model.lead}` : title, () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
+    : "")
+  if (!model.leads_to) follow(model, ["title"], () => { head.textContent = model.title })
   if (model.compact) {  // the figure says it itself; the rest is a tooltip
     follow(model, ["line", "rest"], () => { head.title = `${model.line} ${model.rest}`.trim() })
     root.className = "compact"
@@ -49,7 +50,12 @@ export function render({ model }) {
   part("lines").querySelector("strong").append(`${title} in Python`)
   part("reading").querySelector("strong").append(title)
 
-  const file = (ending) => `bearing-${model.name_of_files}.${ending}`
+  // with the scene: "bearing-load-fan-rig-defect-12.9deg-50-um-load-100-N.png"
+  const file = (ending) => {
+    const scene = (document.documentElement.dataset.scene ?? "").replaceAll("°", "deg").replaceAll("µ", "u")
+      .replace(/[^\p{L}\p{N}.]+/gu, "-").slice(0, 90)
+    return `bearing-${model.name_of_files}${scene && `-${scene}`.replace(/-$/, "")}.${ending}`
+  }
   // Bokeh's figures, or the drawing that the view has instead.
   const views = () => model.picture
     ? [drawing_of([...inside(root.getRootNode().host.getRootNode())].find((one) => one.matches("svg.picture")))]

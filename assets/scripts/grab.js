@@ -1,10 +1,21 @@
 // What can be grabbed in a drawing of the bearing: the ends and the middle of a defect, the tip of
 // the arrow. It says how far each was turned and stretched; the controls move (see controls.js).
+// By keys a handle is a slider: Tab comes to it, arrow keys move it, of the arrow up and down its size.
 // See app/bearing_explorer/explorer/views/bearing_handles.py.
 const NEAR = { mouse: 12, pen: 18, touch: 26 }  // [px]
 const KINDS = ["start", "end", "middle", "load"]
-const CUES = { start: "Drag: extent of the defect", end: "Drag: extent of the defect",
+const CUES = { start: "Drag: length of the defect", end: "Drag: length of the defect",
   middle: "Drag: place of the defect", load: "Drag: load and its direction" }
+const NAMES = { start: "Beginning of the defect", end: "End of the defect", middle: "Place of the defect", load: "Load" }
+const STEP = 0.5          // [°] a key turns a handle by, ten times as much with Page up and down ...
+const LARGER = 0.05       // ... and what it adds to a load
+const GRABBED = "bearing-explorer.grabbed"
+const LOOK = `
+.handle { position: absolute; left: 0; top: 0; width: 18px; height: 18px; margin: -9px; border-radius: 50%; pointer-events: none; outline: none; }
+.handle:focus-visible { outline: 3px solid var(--accent); outline-offset: 1px; }
+.cue { position: absolute; left: 0; top: 0; width: 66px; margin: -1.3em -33px; font: 11px/1.25 var(--font); text-align: center; color: var(--ink-soft); pointer-events: none; }
+.cue::after { content: "drag arrow or defect"; }`
+if (plot.__grabbed?.el.isConnected) plot.__grabbed.place_handles()
 const view = plot.__grabbed?.el.isConnected ? null : Bokeh.index.find_one_by_id(plot.id)
 if (view?.frame?.bbox?.width > 0) {
   plot.__grabbed = view
@@ -25,7 +36,70 @@ if (view?.frame?.bbox?.width > 0) {
     }
     return found
   }
-  const say = (detail) => window.dispatchEvent(new CustomEvent("explorer-grabbed", { detail }))
+  const say = (detail) => {
+    if (detail.began && detail.hand !== false) {
+      try { localStorage.setItem(GRABBED, "1") } catch { /* said again next time */ }
+      cue.hidden = true
+    }
+    window.dispatchEvent(new CustomEvent("explorer-grabbed", { detail }))
+  }
+  // the handles for keys, which lie over those that are drawn, and a cue where the arrow is not
+  const handles = [], cue = document.createElement("div"), look = document.createElement("style")
+  look.textContent = LOOK
+  cue.className = "cue"
+  cue.setAttribute("aria-hidden", "true")
+  try { cue.hidden = localStorage.getItem(GRABBED) !== null } catch { /* then it is said */ }
+  view.shadow_el.append(look, cue)
+  const attribute = (element, name, value) => {
+    if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value)
+  }
+  const make_handle = () => {
+    const one = document.createElement("div")
+    one.className = "handle"
+    for (const [name, value] of [["role", "slider"], ["tabindex", "0"], ["aria-valuemin", "0"]]) one.setAttribute(name, value)
+    let moved = null
+    const done = () => {
+      if (moved) say({ released: true })
+      moved = null
+    }
+    one.addEventListener("focus", () => say({ kind: one.kind, defect: one.defect, began: true, hand: false }))
+    one.addEventListener("keydown", (event) => {
+      const side = { ArrowRight: 1, ArrowUp: 1, PageUp: 10, ArrowLeft: -1, ArrowDown: -1, PageDown: -10 }[event.key]
+      if (!side || event.ctrlKey || event.altKey || event.metaKey) return
+      event.preventDefault()
+      event.stopPropagation()
+      if (!moved) say({ kind: one.kind, defect: one.defect, began: true })
+      moved ??= { turn: 0, stretch: 1 }
+      if (one.kind === "load" && !/Left|Right/.test(event.key)) moved.stretch = Math.max(0, moved.stretch + side * LARGER)
+      else moved.turn += side * STEP * ({ start: -1, load: 2 }[one.kind] ?? 1)  // to the right is longer
+      say({ kind: one.kind, defect: one.defect, ...moved })
+    })
+    one.addEventListener("keyup", done)
+    one.addEventListener("blur", done)
+    view.shadow_el.append(one)
+    return one
+  }
+  view.place_handles = () => {
+    const { x, y, x0, kind, defect, value, angle } = source.data, { bbox } = view.frame
+    const unit = bbox.width / (plot.x_range.end - plot.x_range.start)
+    const at = (right, up) => `translate(${(bbox.left + (right - plot.x_range.start) * unit).toFixed(1)}px, ${(bbox.top + (plot.y_range.end - up) * unit).toFixed(1)}px)`
+    while (handles.length > x.length) handles.pop().remove()
+    while (handles.length < x.length) handles.push(make_handle())
+    handles.forEach((one, i) => {
+      const [number, place] = [value[i], angle[i]].map((one) => Number(one.toPrecision(3)))
+      one.kind = KINDS[kind[i]]
+      one.defect = defect[i]
+      one.style.transform = at(x[i], y[i])
+      const load = one.kind === "load", middle = one.kind === "middle"
+      attribute(one, "aria-label", NAMES[one.kind])
+      attribute(one, "aria-valuenow", middle ? place : number)
+      attribute(one, "aria-valuemax", load ? 1e6 : 360)
+      attribute(one, "aria-valuetext", load ? `${number} N at ${place}\u00b0` : middle ? `at ${place}\u00b0`
+        : `at ${place}\u00b0; defect ${number}\u00b0 long`)
+      if (load) cue.style.transform = at(x0[i] - 0.42 * (x[i] - x0[i]), -0.42 * y[i])
+    })
+  }
+  view.place_handles()
   const polar = (event) => {
     const at = place(event)
     return { angle: Math.atan2(at.y, at.x - grabbed.middle), radius: Math.hypot(at.y, at.x - grabbed.middle) }

@@ -246,12 +246,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       if (given >= least && given <= most) refuse(name, "")
     })
     second.number.addEventListener("blur", () => show_second(name))
-    second.number.addEventListener("change", () => {
-      const given = number_in(second.number)
-      const text = isFinite(given)
-        ? String(Number((given / second_units[name].factor).toPrecision(12))) : second.number.value
-      send({ typed: { [name]: text } })
-    })
+    second.number.addEventListener("change", () => send({ second: { [name]: second.number.value } }))
     number.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         refuse(name, "")

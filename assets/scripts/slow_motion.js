@@ -26,7 +26,7 @@ export function render({ model }) {
   const now = element("output"), note = element("p", { class: "note" })
   const root = element("div", { class: "slow", role: "group", "aria-label": "Slow motion" }, play,
     element("label", {}, "Speed", speed), place, now,
-    element("label", { class: "volume" }, "Volume", volume), note)
+    element("label", { class: "volume" }, "Sound", volume), note)
 
   // An instant: numbers of frames are taken between those of its neighbours.
   const show = (wanted) => {
@@ -111,9 +111,10 @@ export function render({ model }) {
     if (playing) requestAnimationFrame(step)
   }
   const say = () => {
-    const low = Number(volume.value) && Number(speed.value) > LOWEST
-    note.hidden = !low
-    note.textContent = `Slower than 1/${LOWEST} the sound is too low to hear.`
+    const low = Number(speed.value) > LOWEST
+    note.hidden = Number(volume.value) > 0 && !low
+    note.textContent = !Number(volume.value) ? "The sound is off: turn it up to hear the acceleration."
+      : `Slower than 1/${LOWEST} the sound is too low to hear.`
     be_heard()
   }
   speed.addEventListener("change", say)

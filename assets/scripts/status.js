@@ -1,8 +1,8 @@
 // The status line: a chip whose words say what its colour says, and details. Where the line is
-// folded, the details are a list that opens above it.
+// folded, a click on the chip opens them as a list above it.
 export function render({ model }) {
   const chip = element("strong")
-  const more = element("button", { type: "button", "aria-controls": "status-list" }, "Details")
+  const more = element("button", { type: "button", class: "chip", "aria-controls": "status-list", title: "Details of the computation" })
   const list = model.folded ? element("ul", { id: "status-list", class: "list" }) : element("span")
   const line = element("div", { class: "line" }, chip, ...(model.folded ? [more] : []), list)
   // of a folded line only the chip is live: reading out each residual would be noise
@@ -13,8 +13,8 @@ export function render({ model }) {
     const { mood, words, details, tab, resting } = model.line
     if (tab) Object.assign(window, { __tab: tab, __resting: resting })  // for tests and benchmarks
     line.dataset.mood = mood
-    if (chip.textContent !== words) chip.textContent = words
-    more.hidden = !details.length
+    if (chip.textContent !== words) chip.textContent = more.textContent = words
+    more.disabled = !details.length
     if (open && !details.length) open(false)
     if (model.folded) list.replaceChildren(...details.map((detail) => element("li", {}, detail)))
     else list.textContent = details.join("  ·  ")

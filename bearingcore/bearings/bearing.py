@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from itertools import accumulate
 from typing import Any, Self, cast
 
 from bearingcore.bearings import ball, drawing, inside, roller, self_aligning, tapered
 from bearingcore.bearings.contact import Contact
 from bearingcore.bearings.hertz import RaceContact
+from bearingcore.bearings.in_rows import InRows
 from bearingcore.bearings.kind import Kind
 from bearingcore.bearings.kinds import kind_of
-from bearingcore.bearings.kinematics import Kinematics
 from bearingcore.bearings.line_contact import RollerContact
 from bearingcore.bearings.material import BALL_MATERIALS, STEEL_DENSITY
 from bearingcore.bearings.rows import (
@@ -21,10 +20,8 @@ from bearingcore.bearings.rows import (
     paired,
     pressure_centers_apart,
     respaced,
-    with_own,
 )
 from bearingcore.common import checks, scene_file
-from bearingcore.errors import FieldError
 
 ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
 """Fields that may be estimates."""
@@ -35,11 +32,10 @@ _ABOVE_0 = (
     *("groove_center_radius", "load_deflection_factor"),
     *("outer_raceway_radius", "inner_raceway_radius"),
 )
-_ONE_ROW = (Row(),)
 
 
 @dataclass(frozen=True)
-class Bearing(Kinematics):
+class Bearing(InRows):
     """A ball or roller bearing as the contact model sees it (SI units, angles in rad).
 
     Parameters
@@ -192,83 +188,6 @@ class Bearing(Kinematics):
         return abs(high.offset - low.offset)
 
     @property
-    def all_rows(self) -> tuple[Row, ...]:
-        """The rows, also where there is but one."""
-        return self.rows or _ONE_ROW
-
-    def of_row(self, row: int) -> Bearing:
-        """The bearing with the numbers of a row and what follows from them, without rows.
-
-        The bearing itself where all rows are alike.
-
-        Raises
-        ------
-        ValueError
-            for dimensions of the row that do not fit each other, or that nothing follows from as
-            the bearing does not carry its drawing.
-        """
-        if self.rows_are_alike:
-            return self
-        try:
-            return with_own(self, tuple(self.unlike(self.rows[row]).items()))
-        except FieldError as refused:
-            raise refused.inside(f"row {row + 1}") from None
-
-    @property
-    def rows_are_alike(self) -> bool:
-        """True where no row has balls or dimensions of its own; places and turns may differ."""
-        return not any(row.own and self.unlike(row) for row in self.rows)
-
-    def unlike(self, row: Row) -> dict[str, float]:
-        """Numbers of a row that differ from the bearing's."""
-        return {name: held for name, held in row.own.items() if held != getattr(self, name)}
-
-    @property
-    def unlike_rows(self) -> tuple[tuple[Bearing, slice], ...]:
-        """The bearing of each row, see `of_row`, and the places of its balls among all of them.
-
-        Rows that are alike are listed once: the bearing with all balls.
-        """
-        if self.rows_are_alike:
-            return ((self, slice(0, self.total_balls)),)
-        return tuple((self.of_row(k), own) for k, own in enumerate(self.balls_of_rows))
-
-    @property
-    def balls_of_rows(self) -> tuple[slice, ...]:
-        """Places of the balls of each row among all of them: row after row."""
-        ends = list(accumulate(row.n_balls or self.n_balls for row in self.all_rows))
-        return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
-
-    def row_of_ball(self, ball: int) -> tuple[int, int]:
-        """Row of a ball out of all of them, and its number in the row, both counted from 0."""
-        for row, own in enumerate(self.balls_of_rows):
-            if own.start <= ball < own.stop:
-                return row, ball - own.start
-        raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
-
-    def pace(self, row: int) -> float:
-        """Speed of a row's cage, over that of the bearing's own numbers."""
-        own = self.of_row(row)
-        return 1.0 if own.size_ratio == self.size_ratio else own.cage_ratio / self.cage_ratio
-
-    @property
-    def has_one_cage_speed(self) -> bool:
-        """True where the cages of all rows turn at one speed."""
-        return len({self.pace(k) for k in range(len(self.all_rows))}) == 1
-
-    @property
-    def period(self) -> float:
-        """Cage angle [rad] after which balls are again where balls were.
-
-        A ball spacing where all rows have as many balls; else what the spacings of the rows have in
-        common. Cages that turn at speeds of their own come back at no angle: then a whole turn.
-        """
-        if not self.has_one_cage_speed:
-            return 2.0 * math.pi
-        counts = (row.n_balls or self.n_balls for row in self.all_rows)
-        return 2.0 * math.pi / math.gcd(*counts) / self.pace(0)
-
-    @property
     def arrangement(self) -> str:
         """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
         return self.kind.arrangement(self)
@@ -284,11 +203,6 @@ class Bearing(Kinematics):
         return self.contact_angle == 0.0 and all(
             row.place == 0.0 and not self.unlike(row) for row in self.all_rows
         )
-
-    @property
-    def total_balls(self) -> int:
-        """Balls or rollers of all rows."""
-        return self.balls_of_rows[-1].stop
 
     def replace(self, **changes: Any) -> Self:
         """A bearing with fields changed. What follows from a drawing, or of rollers, follows.

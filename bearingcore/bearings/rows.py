@@ -9,12 +9,10 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bearingcore.bearings.ball import BALL, SECTION, Ball
 from bearingcore.bearings.contact import Contact
-from bearingcore.bearings.drawing import GROOVES
 from bearingcore.bearings.kind import Variant
 from bearingcore.bearings.kinematics import check_contact_angle
 from bearingcore.common import checks
@@ -213,23 +211,6 @@ def pressure_centers_apart(bearing: Bearing) -> float | None:
         for row, own in ((row, bearing.of_row(k)) for k, row in enumerate(bearing.rows))
     ]
     return abs(meets[1] - meets[0])
-
-
-@lru_cache(maxsize=256)
-def with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
-    """The bearing without rows and with what one of them has of its own."""
-    values: dict[str, Any] = dict(own)
-    if not bearing.is_drawn:
-        for name in LENGTHS:
-            if name in values:
-                raise checks.refuse(
-                    f"{name} of a row", values[name], "None, unless the bearing has groove radii"
-                )
-    elif "ball_diameter" in values:
-        larger = values["ball_diameter"] / bearing.ball_diameter
-        for name in GROOVES:
-            values.setdefault(name, larger * getattr(bearing, name))
-    return bearing.replace(rows=()).replace(**values)
 
 
 class Rows(Ball):

@@ -113,7 +113,8 @@ def _factor(inner: RaceContact, outer: RaceContact) -> float:
 
 def inner_groove(bearing: Bearing) -> float:
     """Inner groove radius r_i = A0 + D_b − R_e [m]."""
-    distance = drawing.center_distance(bearing.groove_center_distance)
+    distance = bearing.groove_center_distance
+    assert distance is not None  # as recognized
     return distance + bearing.ball_diameter - bearing.outer_raceway_radius
 
 

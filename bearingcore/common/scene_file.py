@@ -151,8 +151,8 @@ def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
 
 
 def short(value: object) -> str:
-    """A value of a file, short enough for a sentence."""
-    text = value if isinstance(value, str) else repr(value)
+    """A value of a file, short enough for a sentence, on one line."""
+    text = " ".join(value.split()) if isinstance(value, str) else repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

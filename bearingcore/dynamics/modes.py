@@ -29,10 +29,13 @@ from bearingcore.statics.positions import (
     equilibrium_over_all,
     extremes,
     positions_of,
-    turns,
 )
 
 Array = NDArray[np.float64]
+
+MIXED = 0.25
+"""Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
+nearly: right to 1e-4 then."""
 
 
 @shown_as_table
@@ -144,8 +147,8 @@ def frequency_bands(
 
     Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
     them: see `bearingcore.statics.positions`. Around each least and greatest sample it is looked
-    for ever closer; coarsely, and where a defect turns with the shaft, without damping, and the
-    frequency there is the damped one, as in `Modes`.
+    for ever closer: with damping nearly, coarsely and where a defect turns with the shaft without.
+    The frequency there is the damped one, as in `Modes`.
 
     Parameters
     ----------
@@ -167,7 +170,7 @@ def frequency_bands(
         where the support lacks a number, by its name.
     """
     checks.instance("scene", scene, Scene)
-    n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
+    n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
     found = positions_of(packed, n)
@@ -175,23 +178,21 @@ def frequency_bands(
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(state)
-    undamped = turns(scene) or coarse  # many samples, or few that have to be quick
+    undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""
         if undamped:
             return search.frequencies(known)
         # dampers that come in with a ball make frequencies jump, which undamped ones do not show
-        return modes_at(known, search.template).frequency.T
+        return modes_at(known, search.template, nearly=True).frequency.T
 
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
     ends = extremes(found, frequencies(state), closer, rounds=rounds)
-    least, greatest = ends.least, ends.greatest
-    if undamped:
-        there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
-        least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 
@@ -203,15 +204,15 @@ class BandSearch:
         scene, weights = state.scene, state.shares
         dofs = scene.active_dofs
         self._terms = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
-        self._support, self._mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
+        self._support, mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
         terms = self._of(state)
         known = np.isfinite(terms).all(axis=0) * weights
         mean = np.zeros((len(dofs), len(dofs)))
         row, column = np.triu_indices(len(dofs))
         share = max(float(known.sum()), 1e-300)
         mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / share
-        self.template = _undamped(two_body_matrix(mean, self._support), self._mass)[1]
-        self.labels = _labels(self.template, self._mass, dofs)[0]
+        self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
+        self.labels = _labels(self.template, mass, dofs)[0]
 
     def _of(self, state: Equilibrium) -> Array:
         return np.stack([state.term(name) for name in self._terms])
@@ -221,16 +222,15 @@ class BandSearch:
         terms = self._of(state)
         known = np.asarray(np.isfinite(terms).all(axis=0))
         found = np.full((len(self.template), known.size), math.nan)
-        found[:, known] = _frequencies_like(
-            self.template, terms[:, known], self._support, self._mass
-        )
+        found[:, known] = _frequencies_like(self.template, terms[:, known], self._support)
         return found
 
 
-def modes_at(state: Equilibrium, template: Array | None = None) -> Modes:
+def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
     """The modes at static states that are already known.
 
     They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
+    `nearly`: damping by `_nearly_damped`, which is quicker.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -263,7 +263,8 @@ def modes_at(state: Equilibrium, template: Array | None = None) -> Modes:
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
-        frequency[known], ratio[known] = _damped(K[known], C[known], mass, shape[known])
+        damped = _nearly_damped if nearly else _damped
+        frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
     return Modes(
         scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
@@ -319,7 +320,7 @@ def undamped_bands(
     for i, template in enumerate(templates):
         labels.append(_labels(template, mass, dofs)[0])
         if count[i]:
-            frequency = _frequencies_like(template, chosen[:, i, known[i]], support, mass)
+            frequency = _frequencies_like(template, chosen[:, i, known[i]], support)
             least[i], greatest[i] = frequency.min(axis=1), frequency.max(axis=1)
     return least, greatest, labels
 
@@ -328,7 +329,6 @@ def _frequencies_like(
     template: NDArray[np.float64],
     terms: NDArray[np.float64],
     support: NDArray[np.float64],
-    mass: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
 
@@ -485,6 +485,38 @@ def _damped(
     chosen = np.take_along_axis(values, picked, axis=1)
     size = np.abs(chosen)
     return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
+
+
+def _nearly_damped(
+    K: NDArray[np.float64],
+    C: NDArray[np.float64],
+    mass: NDArray[np.float64],
+    shape: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
+
+    In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
+    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
+    by more than MIXED, or one hardly swings, as `_damped` has it.
+    """
+    c = shape @ C @ np.swapaxes(shape, 1, 2)
+    own = np.diagonal(c, axis1=1, axis2=2)
+    squared = np.einsum("nij,nij->ni", shape @ K, shape)
+    between = np.where(np.eye(len(mass), dtype=bool), 0.0, c)
+    rest = squared
+    for _ in range(3):
+        rate = -0.5 * own + 1j * np.sqrt(rest - 0.25 * own**2 + 0j)
+        there = rate[:, :, None]
+        D = there**2 + own[:, None] * there + squared[:, None]
+        part = between / np.where(between == 0.0, 1.0, D)
+        pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
+        rest = squared - rate**2 * pull
+    size = np.abs(rate)
+    frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
+    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (own**2 < squared).all(axis=1)
+    if not near.all():
+        frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
+    return frequency, ratio
 
 
 def _labels(

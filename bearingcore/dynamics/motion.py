@@ -14,28 +14,24 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
-    ball_step_rate,
     loads_of_races,
     march_balls,
     place_parts,
 )
-from bearingcore.dynamics.damping import damped, packed_motion
+from bearingcore.dynamics.damping import damped
 from bearingcore.dynamics.low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.status import MotionStatus
+from bearingcore.dynamics.step_rate import step_rate_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedMotion, PackedScene
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium_of
-from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 from bearingcore.statics.status import StaticStatus
 
-STEPS_A_CYCLE = 16.0
-"""Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
-error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim bearing, in five
-directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
-that needs them, as steps stay stable down to 2.2."""
+SETTLING = 0.12
+"""[s] of motion before what counts as steady: several times the slowest mode's decay."""
 
 MOST_STEPS = 1_000_000
 """Steps that a motion, or the periods of one orbit, take at most by default: up to
@@ -308,10 +304,9 @@ def simulate(
     ball_loads
         whether to return the balls' loads too.
     step_rate
-        [Hz] steps a second: a multiple or a whole fraction of the sample rate. None takes enough
-        for STEPS_A_CYCLE steps in a period of the highest natural frequency and STEPS_A_PASSAGE
-        while a ball passes the defect. Samples between steps come from quintic interpolation.
-        Balls with mass take a multiple of the sample rate, see `ball_step_rate`.
+        [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
+        balls a multiple. None takes that of `default_step_rate`. Samples between steps come from
+        quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -484,34 +479,6 @@ def too_many_in_all(steps: float, where: str, most: int) -> str:
         f"{MotionStatus.TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
         f"most_steps_in_all = {thousands(most)}"
     )
-
-
-def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
-    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
-
-    Where balls have mass a multiple, see `ball_step_rate`. Raises ValueError where none is finite.
-    """
-    return step_rate_of(packed_motion(scene), sample_rate, highest)
-
-
-def step_rate_of(packed: PackedMotion, sample_rate: float, highest: float) -> float:
-    """`default_step_rate` of a scene that is packed."""
-    scene = packed.scene
-    needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
-    needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
-    if scene.balls == WITH_MASS:
-        needed = max(needed, ball_step_rate(packed, sample_rate))
-    if not math.isfinite(needed):
-        raise checks.refuse("the step rate that the scene needs", needed, "a finite one [Hz]")
-    if needed <= sample_rate:
-        return sample_rate / math.floor(sample_rate / needed)
-    return sample_rate * math.ceil(needed / sample_rate - 1e-9)
-
-
-def fine_step_rate(scene: Scene, sample_rate: float) -> float:
-    """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
-    packed = packed_motion(scene)
-    return max(step_rate_of(packed, sample_rate, highest_frequency_of(packed)), sample_rate)
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:

@@ -30,14 +30,9 @@ from bearingcore.dynamics.low_pass import (
     hermite_weights,
 )
 from bearingcore.dynamics.modes import highest_frequency_of
-from bearingcore.dynamics.motion import (
-    MOST_SAMPLES,
-    MOST_STEPS,
-    moving_system,
-    static_start,
-    step_rate_of,
-)
+from bearingcore.dynamics.motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.dynamics.step_rate import step_rate_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedMotion
 from bearingcore.scene.scene import Scene
@@ -337,7 +332,7 @@ def common_ball_passes(scene: Scene) -> int | None:
         bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
         for k in range(len(bearing.all_rows))
     }
-    if scene.turning_force > 0.0 or any(defect.race == "inner" for defect in scene.defects):
+    if scene.turning_force > 0.0 or scene.defect_turns:
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
     for turned in rounds:

@@ -19,13 +19,12 @@ from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
     MOST_STEPS_IN_ALL,
-    default_step_rate,
-    fine_step_rate,
     simulate,
     too_many_in_all,
 )
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.status import MotionStatus
+from bearingcore.dynamics.step_rate import default_step_rate, fine_step_rate
 from bearingcore.scene.scene import MASSLESS, Scene
 
 SETTLING_SHARE = 0.5
@@ -145,7 +144,7 @@ def speed_run(
     segment = round(sample_rate / resolution)
     frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
     frequency = frequency[frequency <= PASSED * sample_rate]
-    inner = any(defect.race == "inner" for defect in scene.defects)
+    inner = scene.defect_turns
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
 
     def run_of(density: NDArray[np.float64], **more: Any) -> SpeedRun:

@@ -22,7 +22,8 @@ from bearingcore.dynamics.ball_motion import ball_start, ball_system, place_part
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.low_pass import low_passed, rows_needed
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate, simulate
+from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.points import (
     NOT_WATCHED,
     Experiment,
@@ -42,7 +43,7 @@ Array = NDArray[np.float64]
 
 BANDS = {"0.3-2.1 kHz": (300.0, 2100.0), "2.1-5 kHz": (2100.0, 5e3), "5-10 kHz": (5e3, 1e4)}
 
-ERRORS = {
+BALL_ERRORS = {
     name: f"greatest error of a third octave of the housing's spectrum in {name}, x and y [dB]"
     for name in BANDS
 }
@@ -276,7 +277,7 @@ def balls_experiment(
     experiment = Experiment(
         "balls",
         f"Methods for balls with mass over {duration:g} s, and balls without",
-        ERRORS,
+        BALL_ERRORS,
         "evaluations of all contacts",
         {"": reference},
         (),

@@ -12,8 +12,8 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
 from bearingcore.dynamics.low_pass import hermite_weights
 from bearingcore.dynamics.modes import highest_natural_frequency
-from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.problem import motion_problem
+from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.integrators import HAS_CVODE, METHODS, Method, usable_methods
 from bearingcore.experiments.points import (
     NOT_WATCHED,

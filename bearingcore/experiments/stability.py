@@ -21,10 +21,10 @@ from bearingcore.dynamics.modes import (
     loaded_directions,
     two_body_matrix,
 )
-from bearingcore.dynamics.motion import default_step_rate
 from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.status import MotionStatus
+from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import at_rate
 from bearingcore.experiments.points import NOT_WATCHED, RIGHT, Reference, Watch

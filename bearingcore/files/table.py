@@ -261,7 +261,8 @@ def files_inside(name: str, content: bytes) -> list[str]:
         return [name]
     about, _ = read_file(name, content)
     inside = sorted(about.get("inside", ()), key=_in_order)
-    return [f"{name}/{one}" for one in inside] or [name]
+    packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
+    return [f"{packed}/{one}" for one in inside] or [name]
 
 
 def _in_order(name: str) -> list[tuple[int, str]]:

@@ -150,7 +150,6 @@ class Defect:
 
     def edge_row(self, bearing: Bearing) -> NDArray[np.float64]:
         """Path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
-        self.check_depth(bearing)
         R, r_b, h = self.raceway_radius(bearing), bearing.ball_radius, self.depth
         # where there is no edge left the floor is everywhere
         s_floor = self.edge_width(bearing, h) if self.extent < TWO_PI else 0.0
@@ -191,8 +190,10 @@ class Defect:
         """Drop d(φ) [m] of the ball's centre at the ball angles [rad] (Eq. 6, mended).
 
         `cage_angle` [rad] says how far the cage has turned, and with it the shaft: it moves an
-        inner-race defect and leaves an outer-race one where it is. Shapes broadcast.
+        inner-race defect and leaves an outer-race one where it is. Shapes broadcast. ValueError
+        for a defect that is too deep for the balls.
         """
+        self.check_depth(bearing)
         return drop_into((self,), bearing, ball_angle, cage_angle)
 
 
@@ -259,8 +260,6 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
         first = group[0]
         row = first.edge_row(bearing)
         if len(group) > 1 or first.floor is not None:
-            for defect in group:
-                defect.check_depth(bearing)
             center, half, table = (
                 _joined_path(group, bearing) if len(group) > 1 else _floor_path(first, bearing)
             )

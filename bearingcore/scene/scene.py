@@ -215,6 +215,11 @@ class Scene:
         return self.bearing.cage_speed(self.shaft_speed)
 
     @property
+    def defect_turns(self) -> bool:
+        """True where a defect turns with the shaft."""
+        return any(defect.race == "inner" for defect in self.defects)
+
+    @property
     def turning_force(self) -> float:
         """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
         return self.unbalance * self.shaft_speed**2
@@ -239,8 +244,11 @@ class Scene:
         """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+        # what says nothing had free tilts before there was a choice: see `with_former_dofs`
         if self.holds_tilt_unasked:
             data["dofs"] = TILT_HELD
+        elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
+            del data["dofs"]
         kind = data["bearing"].pop("kind")
         if kind is not recognized(self.bearing):
             data["bearing"]["kind"] = kind.name

@@ -13,6 +13,9 @@ from bearingcore.common.numbers import count
 
 DIRECTIONS = ("x", "y")
 
+SWINGS = (1e-12, 1e12)
+"""Least and greatest swing, in any unit: squares of squares outside are no numbers any more."""
+
 FEWEST_SAMPLES = 256
 
 
@@ -80,12 +83,15 @@ class Recording:
                 f"not a finite number in {count(bad.size, 'sample')}, first in number {bad[0] + 1}",
                 "finite numbers",
             )
-        swings = zip(self.directions, np.ptp(signal, axis=0), strict=True)
-        still = [direction for direction, swing in swings if not swing]
-        if still:
-            raise checks.refuse(
-                "acceleration", f"the same number throughout along {still[0]}", "a signal"
-            )
+        with np.errstate(over="ignore"):
+            swings = np.ptp(signal, axis=0)
+        for direction, swing in zip(self.directions, swings, strict=True):
+            if not swing:
+                what = f"the same number throughout along {direction}"
+                raise checks.refuse("acceleration", what, "a signal")
+            if not SWINGS[0] <= swing <= SWINGS[1]:
+                what = f"swinging by {swing:.1g} along {direction}"
+                raise checks.refuse("acceleration", what, "from {:g} to {:g}".format(*SWINGS))
         signal.setflags(write=False)
         keep("acceleration", signal)
 

@@ -8,13 +8,7 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     has_long_period,
 )
-from bearingcore.statics.life import (
-    GIVEN,
-    LEFT_OUT,
-    OF_A_CATALOGUE,
-    hours_in_words,
-    turns_in_words,
-)
+from bearingcore.statics.life import GIVEN, LEFT_OUT, OF_A_CATALOGUE, hours_in_words, turns_in_words
 from bearingcore.statics.limit import NO_OIL, summary, unknown
 from bearingcore.statics.passes import (
     Crossing,
@@ -25,7 +19,7 @@ from bearingcore.statics.passes import (
     passing_rate,
     path_kinks,
 )
-from bearingcore.statics.positions import ROUNDS, turns
+from bearingcore.statics.positions import ROUNDS
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, ranges_of, static_ranges
 from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 
@@ -56,7 +50,6 @@ __all__ = [
     "state_of_limits",
     "static_ranges",
     "summary",
-    "turns",
     "turns_in_words",
     "unknown",
 ]

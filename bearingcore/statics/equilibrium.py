@@ -182,11 +182,7 @@ class Equilibrium:
         Of cage angle i; None: the mean in time over all angles that have an equilibrium.
         """
         if i is None:
-            known = np.isfinite(self.stiffness).all(axis=(1, 2))
-            share = np.where(known, self.shares, 0.0)
-            stiffness = np.tensordot(share, np.nan_to_num(self.stiffness), 1) / (
-                share.sum() or np.nan
-            )
+            stiffness = self._mean(self.stiffness)
         else:
             at_most = len(self.cage_angles) - 1
             stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
@@ -202,6 +198,33 @@ class Equilibrium:
                 for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
             ),
         )
+
+    def displacement_table(self) -> ResultTable:
+        """Displacement of the inner ring over all angles: a row a direction, in m and rad.
+
+        Least, mean in time and greatest, of the angles that have an equilibrium.
+        """
+        known = np.isfinite(self.displacement)
+        ends = [
+            np.where(known.any(axis=0), end, math.nan)
+            for end in (
+                self.displacement.min(axis=0, initial=math.inf, where=known),
+                self.displacement.max(axis=0, initial=-math.inf, where=known),
+            )
+        ]
+        return table_of(
+            ("direction", "", list(DOF_NAMES)),
+            ("unit", "", ["rad" if dof.startswith("r") else "m" for dof in DOF_NAMES]),
+            ("least", "", ends[0]),
+            ("mean", "", self._mean(self.displacement)),
+            ("greatest", "", ends[1]),
+        )
+
+    def _mean(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Mean in time (...) of numbers (n, ...) over the angles at which all are known."""
+        known = np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
+        share = np.where(known, self.shares, 0.0)
+        return np.tensordot(share, np.nan_to_num(values), 1) / (share.sum() or np.nan)
 
     def reason(self, i: int) -> str:
         """In words, what became of cage angle i."""
@@ -223,14 +246,14 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.fl
     what holds for all is in `bearingcore.statics.positions`.
     """
     period = scene.bearing.period
-    if any(defect.race == "inner" for defect in scene.defects):
+    if scene.defect_turns:
         period = 2.0 * math.pi * scene.bearing.cage_ratio
     return np.linspace(0.0, period, 8 * (n - 1) + 1 if has_long_period(scene) else n)
 
 
 def has_long_period(scene: Scene) -> bool:
     """True where a ball spacing is not the period of the scene's curves."""
-    turning = any(defect.race == "inner" for defect in scene.defects)
+    turning = scene.defect_turns
     return turning or scene.bearing.period != scene.bearing.ball_spacing
 
 

@@ -8,6 +8,7 @@ angle of the ball's own axis to the shaft's           | β      | rad
 speed of the shaft, the cage, the ball about its axis | ω_s, ω_c, ω_r | rad/s
 moment of inertia of a ball, m D²/10                  | J      | kg·m²
 load at the outer race                                | Q_o    | N
+distances of a ball's centre from its grooves' centres | l_i, l_o | m
 
 A ball rolls about an axis that the cage carries round, for which it takes the moment
 
@@ -18,8 +19,15 @@ A ball rolls about an axis that the cage carries round, for which it takes the m
     ω_c = ω_s (1 − γ' cos α_i)/(1 + cos(α_o − α_i)),
 
 where the ball does not spin on the outer race. Friction at that race gives it as a force
-T = 2 M_g/D across the groove: T/Q_o is the friction that it takes, and nearly the angle by which
-the outer contact turns.
+T = 2 M_g/D across the groove: T/Q_o is the friction that it takes, and at most the angle by which
+the outer contact turns. Under thrust that is less: as it turns, the ball rises or sinks between the
+grooves, and the inner contact turns the other way, by (l_o sin α_o)/(l_i sin α_i) times as much.
+What a ball carries along the shaft stays, so that its radial part at the inner race changes, and
+with it the direction of its load at the outer one:
+
+    dα_o = T/Q_o / (1 + (l_o/l_i) (sin α_o/sin α_i)³).
+
+Beside a radial load as large as the thrust, in which the ring moves too, it is up to twice this.
 
 Source: A. B. Jones, J. Basic Engineering 82 (1960) 309-322; Harris, Rolling Bearing Analysis,
 chapter "Bearing deflections, preloading": "Race control".
@@ -42,8 +50,8 @@ from bearingcore.statics.limit import Limit, unknown, upper_limit
 GYROSCOPIC_MOMENT = "gyroscopic moment"
 
 LIMIT = 0.02
-"""Of the load: friction between ball and race holds so much (Harris), and the outer contact angle
-turns by one degree."""
+"""Of the load: friction between ball and race holds so much (Harris), and the outer contact turns
+by a degree at the most."""
 
 HEAVY = 0.5
 """Part of the heaviest load from which a ball counts: what others carry matters little."""
@@ -52,11 +60,14 @@ _ANGLES, _ROUNDS = 13, 3
 
 
 class _Gyroscopic(NamedTuple):
-    """The greatest T/Q_o of heavily loaded balls, M_g [N·m] of that ball, and its load Q_o [N]."""
+    """The greatest T/Q_o of heavily loaded balls, M_g [N·m] and Q_o [N] of that one, and the
+    greatest turn [rad] under thrust.
+    """
 
     share: float
     moment: float
     load: float
+    turn: float
 
 
 def gyroscopic_limit(scene: Scene) -> Limit | None:
@@ -80,7 +91,8 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
         "The gyroscopic moment of a heavily loaded ball, "
         f"{with_prefix(found.moment, 'N·m')}, takes a force across the groove of "
         f"{percent(found.share, 3)} of its load of {with_prefix(found.load, 'N')}; left out, it "
-        f"would turn the outer contact by up to about {number(math.degrees(found.share), 2)}°"
+        f"would turn the outer contact by {number(math.degrees(found.turn), 3)}° under thrust "
+        f"alone, at most by {number(math.degrees(found.share), 2)}°"
     )
     speed = _speed_of_limit(scene, found.share)
     if found.share <= LIMIT and math.isfinite(speed):
@@ -122,7 +134,7 @@ def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic
     carries = load > HEAVY * state.load[1][state.converged].max()
     carries &= state.load[0][state.converged, balls] > 0.0
     if not carries.any():
-        return _Gyroscopic(0.0, 0.0, 0.0)
+        return _Gyroscopic(0.0, 0.0, 0.0, 0.0)
     inner, outer = (np.abs(state.contact_angle[i][state.converged, balls][carries]) for i in (0, 1))
     g, D = bearing.ball_diameter / bearing.pitch_diameter, bearing.ball_diameter
     tan = np.sin(outer) / (np.cos(outer) + g)
@@ -133,5 +145,13 @@ def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic
     cage = state.scene.shaft_speed * (1.0 - g * np.cos(inner)) / (1.0 + np.cos(outer - inner))
     moment = 0.1 * bearing.ball_mass * D**2 * about * cage
     share = 2.0 * moment / (D * load[carries])
+    l_i, l_o = bearing.kind.race_distances(bearing)
+    risen = l_i * np.sin(inner) ** 3
+    back = np.divide(l_o * np.sin(outer) ** 3, risen, out=np.zeros_like(risen), where=risen > 0.0)
     worst = int(np.argmax(share))
-    return _Gyroscopic(float(share[worst]), float(moment[worst]), float(load[carries][worst]))
+    return _Gyroscopic(
+        float(share[worst]),
+        float(moment[worst]),
+        float(load[carries][worst]),
+        float((share / (1.0 + back)).max()),
+    )

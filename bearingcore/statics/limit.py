@@ -10,8 +10,13 @@ from bearingcore.common.numbers import count
 
 NO_DRAWING = "the groove radii of this bearing are not known"
 NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
-_SHORTLY = {NO_DRAWING: "groove radii", NO_OIL: "oil"}
-"""Reasons for which a value is not known, and what is missing then."""
+NO_MOTION = "no motion of this scene has been simulated yet"
+_SHORTLY = {
+    NO_DRAWING: "groove radii unknown",
+    NO_OIL: "oil unknown",
+    NO_MOTION: "no motion yet",
+}
+"""Reasons for which a value is not known, and the same in short."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +59,7 @@ def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
 
 
 def summary(found: Sequence[Limit]) -> str:
-    """The limits in a line: "No limit exceeded (4 cannot be checked: groove radii unknown)"."""
+    """The limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
     crossed = sum(one.crossed for one in found)
     words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
     open_ones = [one.sentence for one in found if math.isnan(one.value)]
@@ -62,5 +67,5 @@ def summary(found: Sequence[Limit]) -> str:
         return words
     causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
     known = all(any(why in one for why in causes) for one in open_ones)
-    because = f": {', '.join(causes.values())} unknown" if known else ""
-    return f"{words} ({len(open_ones)} cannot be checked{because})"
+    because = f": {', '.join(causes.values())}" if known else ""
+    return f"{words} ({len(open_ones)} unchecked{because})"

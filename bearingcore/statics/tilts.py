@@ -51,7 +51,7 @@ def held_tilts(state: Equilibrium) -> Limit | None:
 
 
 def free_tilts(state: Equilibrium) -> Limit | None:
-    """How far the shaft tilts where nothing but this bearing holds it; None where it does not."""
+    """The tilt of a shaft that nothing but this bearing holds; None where there is none."""
     tilt = np.hypot(state.displacement[:, 3], state.displacement[:, 4])
     most = float(tilt[np.isfinite(tilt)].max(initial=0.0))
     if not {"rx", "ry"} & set(state.scene.free_dofs(state.dofs)) or most == 0.0:

@@ -29,7 +29,7 @@ def scene_of(bearing: BearingLike) -> Scene:
 
     The load is a fifteenth of the dynamic rating, downwards; a bearing that carries thrust one way
     only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min, on
-    two bearings: its tilts are held. Loads and speed are rounded to three digits.
+    two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
 
     Rotor and support are assumed, as no number of a bearing says them: the part of the rotor that
     weighs the radial load, a housing as heavy, on the springs of the fan rig, which damp it as much
@@ -51,7 +51,7 @@ def scene_of(bearing: BearingLike) -> Scene:
     --------
     >>> scene = scene_of("6205")
     >>> round(scene.load.fy), round(scene.shaft_speed * 30.0 / math.pi)
-    (-933, 3900)
+    (-933, 3894)
     """
     own = bearing_of(bearing)
     rated = own.replace(ball_youngs_modulus=None, ball_poisson=None) if own.is_hybrid else own
@@ -61,7 +61,7 @@ def scene_of(bearing: BearingLike) -> Scene:
         bearing=own,
         defect=Defect.none(),
         load=Load(fy=-load),
-        shaft_speed=_rounded(SPEED_FACTOR / (1e3 * own.pitch_diameter)) * math.pi / 30.0,
+        shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * own.pitch_diameter)),
         support=_carrying(load),
     )
     way = facing(own)

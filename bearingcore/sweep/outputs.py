@@ -37,7 +37,6 @@ from bearingcore.statics.positions import (
     extremes,
     over_all_positions,
     positions,
-    turns,
 )
 from bearingcore.statics.pressure import contact_pressures
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, static_ranges
@@ -267,7 +266,8 @@ class Settings:
     sample_rate
         [Hz] of simulated motions and records.
     dynamic_load_rating
-        C_r [N] that lives are computed with; None: that of each bearing by ISO 281.
+        C_r [N] that lives are computed with; None: that of each bearing, of the catalogue where its
+        number is known, else by ISO 281.
     band_low, band_high
         [Hz] of the band whose share of the power that mass adds is asked for.
     """
@@ -327,7 +327,7 @@ def of_scene(
             scene,
             [name for name in (*STIFFNESS_TERMS, BALL_LOAD) if _ends_of(name) & set(outputs)],
             settings.cage_angles,
-            rounds=ROUNDS if turns(scene) else 0,
+            rounds=ROUNDS if scene.defect_turns else 0,
         )
         code, numbers = _of_ranges(found)
         ended.append(STATUSES[int(code)])
@@ -387,7 +387,7 @@ def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
 def _bands_over_all_positions(found: StaticRanges, labels: tuple[str, ...], n: int) -> Numbers:
     """Edges (len(labels),) of the bands of one scene."""
     scene = found.state.scene
-    if not turns(scene):
+    if not scene.defect_turns:
         terms = np.stack([found.state.term(name) for name in STIFFNESS_TERMS])
         return {name: values[0] for name, values in _bands(scene, terms[:, None], labels).items()}
     search = BandSearch(found.state)
@@ -480,7 +480,8 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
     lives, where nothing is carried, are not known to a map.
     """
-    rating = settings.dynamic_load_rating or dynamic_load_rating(scene.bearing)
+    own = scene.bearing.dynamic_load_rating
+    rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
     found = life(scene, rating, positions="all")
     turns = 1e6 * found.million_revolutions
     known = math.isfinite(turns)

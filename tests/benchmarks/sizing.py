@@ -32,6 +32,7 @@ import numpy as np
 import pandas as pd
 
 from bearingcore import Scene, contact_damping, measure_extent, presets, simulate
+from bearingcore.diagnosis.extent.measure import ExtentStatus
 from bearingcore.diagnosis.size.answer import AT_MOST
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.record import PathEffects, drawn_resonances, simulated_record
@@ -223,23 +224,29 @@ def passages(family: int, number: int) -> list[Answer]:
         scene.shaft_speed,
         race=scene.defects[0].race,
     )
-    low = found.low if found.measured else 0.0
-    alike = truth + SPACING * np.arange(-2, 3)
-    alike = alike if found.measured else np.abs(alike)
-    middle, half = math.degrees(0.5 * (low + found.high)), math.degrees(0.5 * (found.high - low))
-    right = float(alike[np.abs(alike - 0.5 * (low + found.high)).argmin()])
-    bounded = math.isfinite(found.high) and not found.measured
-    apart = (found.measured or bounded) and not low <= truth <= found.high
+    bounded, either = (found.status == one for one in (ExtentStatus.SHORTER, ExtentStatus.EITHER))
+    said = [part[1:] for part in found.alternatives if found.measured or either]
+    said = [(-found.high, found.high)] if bounded else said[: 2 if either else 1]
+    apart = bool(said) and not any(low <= truth <= high for low, high in said)
+    # what was said that is nearest to the truth, or to it with whole ball spacings
+    _, low, high, right = min(
+        (
+            (max(low - one, one - high), low, high, one)
+            for low, high in np.degrees(said)
+            for one in np.degrees(truth + SPACING * np.arange(-4, 3))
+        ),
+        default=(math.nan,) * 4,
+    )
     return [
         Answer(
-            f"{scene.defects[0].race} race{', but for spacings' * apart}",
-            math.degrees(right),
-            middle,
-            half / 4.0,
+            f"{scene.defects[0].race} race{', x or y' * either}{', but for spacings' * apart}",
+            right,
+            0.5 * (low + high),
+            0.125 * (high - low),
             math.nan,
-            found.measured,
+            found.measured or either,
             AT_MOST if bounded else "",
-            math.degrees(found.high),
+            high,
             0.0,
             found.sentence or str(found.status),
             time.perf_counter() - begin,

@@ -271,14 +271,16 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     opened(page, explorer, "stiffness")
     helps = page.locator("aside .control .symbol")
     assert helps.count() >= 10
-    expect(page.locator("aside .control-depth_um .named")).to_have_attribute(
+    expect(page.locator("aside .control-fy_n .named")).to_have_attribute(
         "title",
-        re.compile(r"Depth of its floor\..*\nIn µm; the slider goes from 0 to 500\sµm\."),
+        re.compile(
+            r"Vertical force on the inner ring\..*\nIn N; the slider goes from −500 to 500\sN"
+        ),
     )
-    about = page.get_by_role("button", name="About depth")
-    note = page.locator("#control-depth_um-about")
+    about = page.get_by_role("button", name="About load, downwards")
+    note = page.locator("#control-fy_n-about")
     expect(note).to_be_hidden()
-    slider(page, "depth_um").focus()  # the symbol of a slider comes with the focus
+    slider(page, "fy_n").focus()  # the symbol of a slider comes with the focus
     about.press("Enter")
     expect(note).to_be_visible()
     expect(about).to_have_attribute("aria-expanded", "true")
@@ -319,7 +321,7 @@ def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -
     expect(items.nth(0)).to_be_hidden()
     page.keyboard.press("Escape")
 
-    details = page.locator("footer .status").get_by_role("button", name="Details")
+    details = page.locator("footer .status").get_by_role("button", name="Computed without problems")
     listed = status(page).locator(".list")
     expect(listed).to_be_hidden()
     expect(page.locator("footer .status strong[role=status]")).to_have_text(

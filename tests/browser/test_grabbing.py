@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.explorer_page import open_page, settle, value
 from tests.browser.helpers import Server, unfold
@@ -81,3 +83,34 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page, explorer: Serve
     page.get_by_role("button", name="Undo", exact=True).click()
     settle(page)
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0), "a drag is one step"
+
+
+def test_handles_are_sliders_for_keys_and_screen_readers(page: Page, explorer: Server) -> None:
+    open_page(page, explorer)
+    unfold(page)
+
+    def handle(name: str) -> Locator:
+        return page.get_by_role("main").get_by_role("slider", name=name, exact=True)
+
+    end = handle("End of the defect")
+    expect(end).to_have_attribute("aria-valuetext", "at 276°; defect 12.9° long")
+    handle("Beginning of the defect").focus()
+    page.keyboard.press("Tab")
+    expect(end).to_be_focused()
+    assert end.evaluate("one => getComputedStyle(one).outlineStyle") == "solid"
+    page.keyboard.press("PageUp")
+    expect(end).to_have_attribute("aria-valuetext", "at 281°; defect 17.9° long")
+    assert value(page, "extent_deg") == pytest.approx(17.9, abs=0.01)
+    page.keyboard.press("Tab")
+    expect(handle("Place of the defect")).to_be_focused()
+    page.keyboard.press("ArrowLeft")
+    expect(handle("Place of the defect")).to_have_attribute("aria-valuetext", "at 272°")
+    assert value(page, "extent_deg") == pytest.approx(17.9, abs=0.01)
+    page.keyboard.press("Tab")
+    expect(handle("Load")).to_be_focused()
+    page.keyboard.press("ArrowUp")
+    expect(handle("Load")).to_have_attribute("aria-valuetext", "105 N at 270°")
+    assert value(page, "fy_n") == 105.0
+    page.keyboard.press("PageDown")
+    page.keyboard.press("ArrowRight")
+    expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^52\.5 N at 271°"))

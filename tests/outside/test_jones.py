@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
@@ -73,26 +74,35 @@ def test_a_7208_at_speed(angle: int, rpm: int) -> None:
 @witness(
     "ball bearing: limits", "function: limits",
     by="Jones's equations with the gyroscopic moment held at the outer race (λ_o = 2)",
-    compared="by how much it turns the outer contact of the five spindles of OpenJones",
-    within=0.4,
+    compared="turn of the outer contact of the five spindles of OpenJones",
+    within=0.05,
 )  # fmt: skip
 @spindles
 def test_the_limit_says_by_how_much_the_gyroscopic_moment_turns_the_contacts(name: str) -> None:
-    """0.7 to 3.6°: said is at least what it is, and at most 1.4 times as much."""
+    """0.7 to 3.6°, and at half the speed 0.2 to 2.1°, off by up to 12 %.
+
+    What is judged is the most that it can be, here up to 1.6 times as much. A 7208 whose radial
+    load is as large as the thrust turns by more than under thrust, and by no more than that.
+    """
     case, thrust, radial, rpm = CASES[name]
-    speed = rpm * math.pi / 30.0
-    without, with_moment = (
-        case.solve(thrust, radial, speed, gyroscopic=one) for one in (False, True)
-    )
-    heavy = without[0][1] > 0.5 * without[0][1].max()
-    turned = float(np.abs(with_moment[1][1] - without[1][1])[heavy].max())
-    scene = scene_of(case, thrust, radial, speed)
-    (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
-    assert turned <= said.value <= (1.0 + 0.4) * turned
-    assert said.crossed == (said.value > 0.02)
+    full = rpm * math.pi / 30.0
+    for speed, within in ((full, 0.05), (0.5 * full, 0.12)):
+        without, with_moment = (
+            case.solve(thrust, radial, speed, gyroscopic=one) for one in (False, True)
+        )
+        heavy = without[0][1] > 0.5 * without[0][1].max()
+        turned = float(np.abs(with_moment[1][1] - without[1][1])[heavy].max())
+        scene = scene_of(case, thrust, radial, speed)
+        (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+        estimate, most = re.findall(r"([0-9.]+)° under thrust alone, at most by ([0-9.]+)°",
+                                    said.sentence)[0]  # fmt: skip
+        assert math.radians(float(estimate)) == pytest.approx(turned, rel=within)
+        assert math.radians(float(most)) == pytest.approx(said.value, rel=0.05)
+        assert turned <= said.value <= 1.6 * turned
+        assert said.crossed == (said.value > 0.02)
     slow = [
         one
-        for one in limits(scene.replace(shaft_speed=0.05 * speed))
+        for one in limits(scene.replace(shaft_speed=0.05 * full))
         if one.name == GYROSCOPIC_MOMENT
     ]
     assert not slow[0].crossed
@@ -104,3 +114,20 @@ def test_radial_balls_rollers_and_standing_shafts_have_none() -> None:
     still = presets["7208-25deg"].replace(shaft_speed=0.0)
     for scene in (presets["6205"], presets["nu208"], still):
         assert not [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+
+
+@pytest.mark.parametrize(
+    ("thrust", "radial", "rpm"),
+    [(1500.0, 300.0, 16e3), (1500.0, 1500.0, 12e3), (3000.0, 3000.0, 16e3)],
+)
+def test_beside_a_radial_load_contacts_turn_by_no_more_than_the_limit_says(
+    thrust: float, radial: float, rpm: float
+) -> None:
+    steel, speed = (210e9, 0.3), rpm * math.pi / 30.0
+    case = Jones(14, 11.90625e-3, 60e-3, math.radians(25.0), (0.52, 0.53), 7800.0, steel, steel)
+    without, turned = (case.solve(thrust, radial, speed, gyroscopic=one) for one in (False, True))
+    heavy = without[0][1] > 0.5 * without[0][1].max()
+    scene = presets["7208-25deg"].healthy().replace(fy=radial, fz=thrust, shaft_speed=speed)
+    (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+    most = float(np.abs(turned[1][1] - without[1][1])[heavy].max())
+    assert 0.5 * said.value < most <= said.value

@@ -51,8 +51,8 @@ def test_other_makers_print_nearly_the_same() -> None:
 @witness(
     "tapered bearing: stiffness",
     by="cones at a fixed angle in three dimensions",
-    compared="k_rxrx of pairs of five numbers",
-    within=0.07,
+    compared="k_rxrx over k_yy of six pairs, at the distance of their pressure centres",
+    within=1e-9,
 )
 @pytest.mark.parametrize("number", CENTRES_MM)
 @pytest.mark.parametrize("way", ["DB", "DF"])
@@ -60,14 +60,16 @@ def test_a_pair_resists_tilt_by_its_pressure_centres(number: str, way: str) -> N
     """Source: statics of cones whose contacts keep their angle, in three dimensions.
 
     Forces along lines through (0, 0, ±c) make k_rxrx = Σ k (p × n)_x² and k_yy = Σ k n_y² with one
-    stiffness k of all contacts, whatever it is.
+    stiffness k of all contacts, whatever it is. c is half the distance that the pair has. With the
+    distances at CENTRES_MM, of makers whose a differ by 0.1 to 0.2 mm, the same ratio is up to 7 %
+    off face to face, where that is the small difference 2 (T − a).
     """
     pair = _pair(number, way).respaced(preload=5e-6)
     scene = presets["30206-back-to-back"].replace(bearing=pair, extent=0.0, fy=0.0, fz=0.0)
     state = equilibrium(scene, [0.0])
     assert state.converged.all()
     phi, alpha = 2.0 * math.pi / pair.n_balls * np.arange(pair.n_balls), pair.contact_angle
-    half = 0.5e-3 * CENTRES_MM[number][way == "DF"]
+    half = 0.5 * (pair.pressure_centers_apart or 0.0)
     tilt = radial = 0.0
     for end in (-1.0, 1.0):
         n = np.stack([np.cos(phi), np.sin(phi), end * math.tan(alpha) + 0.0 * phi], axis=1)
@@ -75,7 +77,7 @@ def test_a_pair_resists_tilt_by_its_pressure_centres(number: str, way: str) -> N
         tilt += (np.cross(p, n)[:, 0] ** 2).sum()
         radial += (n[:, 1] ** 2).sum()
     own = state.term("k_rxrx")[0] / state.term("k_yy")[0]
-    assert own == pytest.approx(tilt / radial, rel=0.07)
+    assert own == pytest.approx(tilt / radial, rel=1e-9)
 
 
 def _pair(number: str, way: str) -> Bearing:

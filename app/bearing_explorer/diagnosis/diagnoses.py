@@ -208,6 +208,11 @@ class Answers(Generic[Found]):
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
 
+    @property
+    def busy(self) -> bool:
+        """Whether a question waits for its answer."""
+        return self.wanted is not None and self.wanted not in self._known
+
     def latest(self, about: Question) -> Found | str | None:
         """The newest answer about a recording, its bearing and speed, whatever else was asked."""
         known = reversed(self._known.items())
@@ -232,6 +237,7 @@ class Answers(Generic[Found]):
         except RuntimeError:  # a view is drawn outside of a session
             return
         self._task = loop.create_task(self._work())
+        self._draw()  # the status says that something is under way
 
     def stop(self) -> None:
         """The session is over."""

@@ -56,7 +56,7 @@ class DiagnosisOfSignal:
     def inputs(self) -> Inputs:
         assert self._page is not None, "a half is joined to its session first"
         self.measurement.take_scene()
-        return Inputs(self._scene(), self._page.mark)
+        return Inputs(self._scene(), self._page.mark, at_work=self.measurement.at_work)
 
     # What the page connects with the scene's half
 

@@ -31,10 +31,14 @@ class _Nothing:
 
 @dataclass(frozen=True)
 class Model:
-    """All that views of a signal draw at one moment: the scene, and whether a slider moves it."""
+    """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
+
+    `at_work` says what is under way with the signal.
+    """
 
     scene: Scene
     moving: bool = False
+    at_work: str = ""
 
     compared = ()
     grey = _Nothing()
@@ -47,7 +51,9 @@ class Model:
         """The status line: a signal has no equilibrium to converge."""
         details = [f"{1e3 * seconds:.1f} ms of computing"]
         resting = not self.moving
-        return {"mood": "good", "words": "Ready", "details": details, "resting": resting}
+        mood = "busy" if self.at_work else "good"
+        words = self.at_work or "Ready"
+        return {"mood": mood, "words": words, "details": details, "resting": resting}
 
     def is_finer_at_rest(self, needed: frozenset[str]) -> bool:
         """Only what is simulated is, and that says so by itself."""
@@ -65,6 +71,7 @@ class Inputs:
     scene: Scene
     mark: int
     rested: bool = False
+    at_work: str = ""
 
     slow = frozenset[str]()
 
@@ -79,7 +86,7 @@ class Inputs:
 
     def content(self, give_up: Callable[[], bool] | None = None) -> Model:
         """The model of these inputs."""
-        return Model(self.scene, moving=not self.rested)
+        return Model(self.scene, moving=not self.rested, at_work=self.at_work)
 
 
 @cached

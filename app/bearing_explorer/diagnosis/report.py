@@ -102,12 +102,14 @@ def measured_report(
             continue
         if not any(column.size for columns in data.values() for column in columns.values()):
             continue
+        # the trend is in words above
+        caption = "" if view is TrendOfFiles else html_text(figure.sentence)
         first.height = HEIGHT
         drawn.append(first.id)
         items.append(json_item(figure.layout))
         figures.append(
             f"<figure><h2>{html_text(title)}</h2><div class='drawing'>{mark_of(first.id)}</div>"
-            f"<figcaption>{html_text(figure.sentence)}</figcaption></figure>"
+            f"<figcaption>{caption}</figcaption></figure>"
         )
         if len(drawn) == MOST_FIGURES:
             break
@@ -133,11 +135,13 @@ def measured_report(
         f"<p>Measuring point: {html_text(said.point or NOT_SAID)}. "
         f"Recorded: {html_text(measurement.recorded)}.</p>",
         part_html(state),
-        f"<p class='do'>{html_text(steps)}</p>",
+        f"<h2>What to do next</h2><p class='do'>{html_text(steps)}</p>",
         html_table([], _escaped(findings(question, answer, measurement, kind, trend)), named=True),
         f"<div class='figures'>{''.join(figures)}</div>",
         "<h2>Assumptions</h2>",
-        html_table(["", "Value", "From"], _escaped(assumptions(question, answer, measurement))),
+        html_table(
+            ["", "Value", "From"], _escaped(assumptions(question, answer, measurement, kind))
+        ),
         "<h2>Not answered by this signal</h2>",
         f"<p>{html_text(' '.join(limits(question, answer)))}</p>",
     ]
@@ -172,7 +176,7 @@ def findings(
                 for name in FREQUENCIES)  # fmt: skip
         frequencies = f"{', '.join(each)}, at {part_words.turns(answer)}, without slip"
     files = len(measurement.series.tables)
-    grown = "one record is none"
+    grown = "one record shows none"
     if trend is not None and len(trend.trend.points) > 1:
         grown = words_on(trend.trend)
     elif files > 1:
@@ -189,7 +193,7 @@ def _escaped(rows: Iterable[Iterable[str]]) -> Iterable[list[str]]:
 
 
 def assumptions(
-    question: Question, answer: Diagnosis, measurement: Measurement
+    question: Question, answer: Diagnosis, measurement: Measurement, kind: str = ""
 ) -> list[tuple[str, str, str]]:
     """Assumptions of the answer: name, value, and whether that is given, from the file, ..."""
     measured, bearing = question.measured, question.bearing
@@ -211,6 +215,7 @@ def assumptions(
         ("Bearing", given["Bearing"], machine.source_of("bearing").capitalize()),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          machine.source_of("bearing").capitalize()),
+        ("Machine and support", kind or "not said: no zone", "Given" if kind else ""),
         ("Load", "typical ones, for the extent" if load is None
          else with_prefix(load, "N"), "Assumed" if load is None else "From the file"),
         ("Radial clearance", f"{clearance}, for the extent", "Assumed: usual of the bearing"),

@@ -343,6 +343,15 @@ class Measurement:
             return CHANGED
         return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
 
+    @property
+    def at_work(self) -> str:
+        """Work that is under way, for the status line; empty where nothing is."""
+        if self.state.busy:
+            return "Reading the signal"
+        if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
+            return "Analysing the signal"
+        return "Searching the list of bearings" if self.listed.busy else ""
+
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
         named = {one.name: one.bearing for one, _ in self._bearings.all()}
@@ -507,13 +516,16 @@ class Measurement:
         """The recordings of the series; for any thread."""
         given = self.state.values
         kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
-        changed = {
-            name: text for name, text in given.items()
-            if text != self._first.get(name) and name not in kept
-        }  # fmt: skip
+        changed = {name: text for name, text in self._changed.items() if name not in kept}
         return recordings_of(
             self.series, shown, changed, kept, direction, self._scene, self._bearings.find
         )
+
+    @property
+    def _changed(self) -> dict[str, str]:
+        """The fields that are not as the file filled them in."""
+        first = self._first
+        return {name: text for name, text in self.state.values.items() if text != first.get(name)}
 
     @property
     def _given_machine(self) -> dict[str, str]:
@@ -541,11 +553,15 @@ class Measurement:
             return
         self._latest += 1
         self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
-        scene, find, kept = self._scene, self._bearings.find, self._given_machine
+        scene, find, changed = self._scene, self._bearings.find, self._changed
 
         def join() -> _Read:
-            return replace(read_of(join_tables(tables), scene, find, kept),
-                           parts=tuple(table.name for table in tables))  # fmt: skip
+            try:
+                joined = join_tables([fill(table, changed)[0] for table in tables])
+            except FieldError as error:
+                raise ValueError(f"These files are not joined: {sentence_of(error)}") from None
+            found = read_of(joined, scene, find, {}, changed)
+            return replace(found, parts=tuple(table.name for table in tables))
 
         def take(found: _Read) -> None:
             self.series = Series((found.table,))
@@ -807,9 +823,11 @@ class Measurement:
         )
 
     def _tell(self, **news: Any) -> None:
-        self.state = replace(self.state, **news)
+        before, self.state = self.at_work, replace(self.state, **news)
         self.show(self.state)
         self.show_machine(self.state)
+        if self.at_work != before:
+            self._draw()
 
     def _in_background(
         self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
@@ -932,13 +950,15 @@ def read_of(
     scene: Machine,
     find: Callable[[str], CatalogueBearing],
     kept: Mapping[str, str],
+    changed: Mapping[str, str] = MappingProxyType({}),
 ) -> _Read:
-    """The same of a table that was read."""
+    """The same of a table that was read; what a person `changed` stays so."""
     name = table.name
     table, cut = _shortened(table)
     (_, first), asks = fill(table, {}), questions(table)
     kept = kept_answers(first, kept)
-    form = {**first, **kept}
+    form = {**first, **kept, **changed}
+    asks = {field: words for field, words in asks.items() if field not in changed}
     sizes = size_questions(table, form)
     found, refused = _tried(table, form, scene, find), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):

@@ -19,6 +19,7 @@ from bearing_explorer.explorer.views.bearing import BearingDrawing
 from bearing_explorer.explorer.views.bearing_editor import BearingEditor
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.explorer.views.depth_profile import DepthProfile
+from bearing_explorer.explorer.views.displacement import Displacement, OperatingPoint
 from bearing_explorer.explorer.views.explore import ExplorePlane
 from bearing_explorer.explorer.views.free_directions import FreeDirections
 from bearing_explorer.explorer.views.life import LifeOfBearing
@@ -63,7 +64,7 @@ SECTIONS = (
         "Overview",
         (OverviewBearing, LastChange, OverviewStiffness, OverviewSpectrum),
     ),
-    Section("load", "Load", (BearingDrawing, LoadDistribution, DepthProfile)),
+    Section("load", "Load", (BearingDrawing, LoadDistribution, Displacement, DepthProfile)),
     Section("stiffness", "Curves", (Stiffness,), "Stiffness"),
     Section("maps", "Maps", (StiffnessMaps,), "Stiffness"),
     Section("modes", "Frequencies", (NaturalFrequencies,)),
@@ -73,7 +74,7 @@ SECTIONS = (
         (VibrationInTime, VibrationSpectra, SlowPassage, MassInTime, WhichMechanism),
     ),
     Section("bearing", "Bearing", (BearingEditor,), "Machine"),
-    Section("model", "Rotor and support", (ModelEditor, FreeDirections), "Machine"),
+    Section("model", "Rotor and support", (ModelEditor, FreeDirections, OperatingPoint), "Machine"),
     Section("life", "Life", (LifeOfBearing,), "Machine"),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels)),
     Section("explore", "Explore", (ExplorePlane,), "More"),

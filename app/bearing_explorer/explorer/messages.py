@@ -18,8 +18,9 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     ----------
     mark
         number of the change; the picture that shows it carries the same.
-    set, typed
-        numbers by the keys of their fields, in the units of the page: dragged, or as text.
+    set, typed, second
+        numbers by the keys of their fields, in the units of the page: dragged, or as text, or as
+        text in the second unit of the field.
     choose
         options by the names of their lists.
     released
@@ -33,6 +34,7 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     mark: Mark | None = None
     set: dict[str, Any] | None = None
     typed: dict[str, Any] | None = None
+    second: dict[str, str] | None = None
     choose: dict[str, str] | None = None
     reset: bool = False
     released: bool = False
@@ -47,6 +49,8 @@ class LinksChange(SceneChange, omit_defaults=True):
 
     Attributes
     ----------
+    back
+        to where one was before a figure of the paper or a lesson.
     open, file, compare
         a scene that is to be opened, from the browser or from a file, or drawn too.
     compare_here
@@ -65,6 +69,7 @@ class LinksChange(SceneChange, omit_defaults=True):
 
     undo: bool = False
     redo: bool = False
+    back: bool = False
     open: TextFile | None = None
     file: TextFile | None = None
     compare: TextFile | None = None

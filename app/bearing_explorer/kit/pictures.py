@@ -61,6 +61,8 @@ def picture_of(
     try:
         checked = content.limits if limits else None
         status = content.status(work, shown)
+        if status["mood"] == "good" and any(drawing.data is None for drawing in drawings):
+            status |= {"mood": "busy", "words": "Not all can be shown"}
     except compiling.StillCompiling as wait:
         status = {"mood": "busy", "words": f"Not ready: {wait}", "details": []}
     return Picture(content, drawings, status, checked, time.perf_counter() - started, work)

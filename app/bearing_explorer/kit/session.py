@@ -304,6 +304,7 @@ class Session:
         def change() -> None:
             self.packed.send(sources, ranges, self._drawn_mark, picture.seconds)
             for drawing in picture.drawings:
+                drawing.view.put_head(picture.content)
                 drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
             self.status.put(line={**picture.status, "tab": self.tabs.active})
             if picture.limits is not None:

@@ -22,6 +22,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.diagnosis.part.listened_signal import MOST_DROPPED
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.filter_bank import Band, split, squared_envelopes
@@ -94,15 +95,15 @@ whose ratio of heights hardly changes over the bands (four fifths of its natural
 within the first number), and that are not equally high (the logarithm of their ratio is more than
 the second), are a blow and its echo: a ball that bounces."""
 
-EXIT_GROWS = (0.5, 0.75)
-"""Power of frequency with which one peak outgrows the other. As a strike is sharper than a release,
-the one that grows is the exit: certainly so above the second number, and below the first it may be
-the path of the sound. There the shorter way round is taken, between the two neither."""
-
 RARE = 5.0
-"""Times the shorter way that the longer one is, from which it is not believed: spalls that nearly
-reach the next ball are rare, blows whose echo or rebound is duller are not. Between the two numbers
-the shorter way is taken then, and beyond them nothing is."""
+"""Times the shorter way from one peak to the other that the longer one is, from which the shorter
+is taken: spalls that nearly reach the next ball are rare. Below, either way may be from entry to
+exit. Spectra do not decide it: struck structures ring higher as a ball leaves, but in the model
+without mass the entry is mostly the sharper of the two, and with mass now one, now the other."""
+
+FADES = 0.75
+"""Power of frequency with which the later peak fades against the earlier, from which the two are no
+entry and exit: blows whose echo or rebound is duller are not rare."""
 
 STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
 """Of a ball pass, by which one pass may be longer than the mean: a cage has inertia. Where passes
@@ -193,12 +194,11 @@ class Knocks:
     seen
         what the bands show together.
     separation, deviation
-        from entry to exit as a share of a ball pass, and its standard deviation; NaN where there
-        are no two knocks. The shorter way where it may be either way round.
+        from entry to exit as a share of a ball pass, the shorter way round, and its standard
+        deviation; NaN where there are no two knocks.
     entry, exit
-        places of the two peaks in the first of `passes`, as shares of a ball pass; NaN without.
-    trend
-        power of frequency with which the later peak, the shorter way round, outgrows the earlier.
+        places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
+        round; NaN without.
     hidden
         share of a ball pass within which a second knock may hide in what the first makes ring; NaN
         where it may be anywhere, or where there are two.
@@ -212,7 +212,6 @@ class Knocks:
     deviation: float = math.nan
     entry: float = math.nan
     exit: float = math.nan
-    trend: float = math.nan
     hidden: float = math.nan
 
 
@@ -233,6 +232,8 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
         where the recording holds too few ball passes.
     """
     names, envelopes, rate = _envelopes(recording, nominal)
+    if not names:
+        return Knocks((), nominal, 0, Seen.NOTHING)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
     highest = min(20.0 * nominal, widest)
     left = envelopes
@@ -278,7 +279,10 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
     for direction, samples in zip(
         recording.directions, recording.acceleration[:kept].T, strict=True
     ):
-        dropped = signal_faults(samples).dropped
+        faults = signal_faults(samples)
+        if faults.dropped_share > MOST_DROPPED:
+            continue
+        dropped = faults.dropped
         left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
         for found in squared_envelopes(
             left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
@@ -360,17 +364,13 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     deviation = max(spread, 0.25 / HARMONICS)
     best, pair = max(agreeing, key=lambda one: one[1].height)
     trend = _trend([one.band for one, _ in agreeing], ratios, height)
-    entry, leave, seen = pair.first, pair.second, Seen.TWO
     rare = 1.0 - separation > RARE * separation
-    if trend < -EXIT_GROWS[1] and not rare:  # the earlier one is the exit: the longer way round
-        entry, leave, separation = leave, entry, 1.0 - separation
-    elif trend < -EXIT_GROWS[1] or (trend < 0.0 and _fades(passes, reached, ratios)):
+    if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
         return Knocks(passes, frequency, n_passes, Seen.ALIKE)
-    elif trend < -EXIT_GROWS[0] and not rare:
-        seen = Seen.EITHER
+    seen = Seen.TWO if rare else Seen.EITHER
     others = tuple(one for one in passes if one is not best)
     return Knocks(
-        (best, *others), frequency, n_passes, seen, separation, deviation, entry, leave, trend
+        (best, *others), frequency, n_passes, seen, separation, deviation, pair.first, pair.second
     )
 
 

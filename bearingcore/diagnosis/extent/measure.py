@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +13,12 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
-from bearingcore.diagnosis.extent.release import plausible_offsets
+from bearingcore.diagnosis.extent.release import Offsets, plausible_offsets
 from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.errors import Status
-from bearingcore.scene.defect import RACES
+from bearingcore.scene.defect import EDGES, RACES
 from bearingcore.signals.averaging import least_passes
 from bearingcore.signals.recording import Recording
 
@@ -90,20 +90,22 @@ class MeasuredExtent:
     race
         "outer" or "inner"; "" where no race is named.
     extent, low, high
-        [rad] and the interval in which it lies with 95 %. NaN where there is none; where there is
-        only a bound, `extent` is NaN and `high` is the bound.
+        [rad] and the interval in which it lies with 95 %. NaN where there is none, or two that
+        are alike: see `alternatives`. Where there is only a bound, `extent` is NaN and `high` is
+        the bound.
     separation, deviation
-        [rad] of the race between the peaks of entry and exit, and its standard deviation. Where
-        either may be the entry, the shorter way.
-    offset
-        [rad] added to it: the median of the angle over which a ball carries nothing yet or no
-        longer, see `release`.
+        [rad] of the race between the peaks of entry and exit, the shorter way round, and its
+        standard deviation.
+    offset, offset_low, offset_high
+        [rad] added to it, with the interval in which it lies with 95 %: the angle over which a
+        ball carries nothing yet or no longer, see `release`.
     ball_spacing
         [rad]. A longer spall with whole ball spacings more gives the same passes.
     passes
         mean ball passes of the bands that decided, the best first; empty where there are none.
     entry, exit
-        places of the two peaks in the first of `passes`, as shares of a ball pass; NaN without.
+        places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
+        round; NaN without. Where either may be the entry, so may these.
     frequency
         ball passes a second over the race [Hz].
     n_passes
@@ -121,6 +123,8 @@ class MeasuredExtent:
     separation: float
     deviation: float
     offset: float
+    offset_low: float
+    offset_high: float
     ball_spacing: float
     passes: tuple[MeanPass, ...] = field(repr=False)
     entry: float
@@ -136,6 +140,24 @@ class MeasuredExtent:
         return self.status == ExtentStatus.MEASURED
 
     @property
+    def alternatives(self) -> tuple[tuple[float, float, float], ...]:
+        """Extents [rad], each with its interval, that the two peaks may mean, the likelier first.
+
+        The shorter way round and the longer one, which is rare where the shorter one `measured`;
+        none where no two peaks are seen. Whole ball spacings more are as possible.
+        """
+        if not math.isfinite(self.separation):
+            return ()
+        spread = 1.96 * self.deviation
+        below = math.hypot(self.offset - self.offset_low, spread)  # offsets lean towards long ones
+        above = math.hypot(self.offset_high - self.offset, spread)
+        return tuple(
+            (extent, max(extent - below, 0.0), extent + above)
+            for apart in (self.separation, self.ball_spacing - self.separation)
+            for extent in [apart + self.offset]
+        )
+
+    @property
     def answer(self) -> str:
         """The answer in a few words: "5.0° (4.3-5.9°), 2.0 mm, outer race"."""
         return f"{self.size}, {self.race} race" if self.size else NO_ANSWER
@@ -143,17 +165,15 @@ class MeasuredExtent:
     @property
     def size(self) -> str:
         """The answer without its race: "5.0° (4.3-5.9°), 2.0 mm"; empty where there is none."""
-        extent, low, high = np.degrees([self.extent, self.low, self.high])
         if self.status == ExtentStatus.MEASURED:
+            extent, low, high = np.degrees([self.extent, self.low, self.high])
             long = f", {1e3 * self.length:.1f} mm" if math.isfinite(self.length) else ""
             return f"{extent:.1f}° ({low:.1f}-{high:.1f}°){long}"
         if self.status == ExtentStatus.EITHER:
-            one, other = np.degrees(
-                [self.separation + self.offset, self.ball_spacing - self.separation + self.offset]
-            )
-            return f"{one:.1f}° or {other:.1f}°"
+            one, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
+            return f"about {one:.0f}° or {other:.0f}°"
         if self.status == ExtentStatus.SHORTER:
-            return f"shorter than about {high:.0f}° or near whole ball spacings"
+            return f"shorter than about {math.degrees(self.high):.0f}° or near whole ball spacings"
         return ""
 
     @property
@@ -164,8 +184,11 @@ class MeasuredExtent:
         spacing = math.degrees(self.ball_spacing)
         if self.status == ExtentStatus.SHORTER:
             return f"{self.answer} ({spacing:.1f}° each). {self.status.sentence}"
-        words = f"{self.answer}; or that and whole ball spacings of {spacing:.1f}°."
-        return words if self.measured else f"{words} {self.status.sentence}"
+        words = f"{self.answer}; or about that and whole ball spacings of {spacing:.1f}°."
+        if not self.measured:
+            return f"{words} {self.status.sentence}"
+        other = math.degrees(self.alternatives[1][0])
+        return f"{words} {other:.0f}° would show alike, but spalls so near the next ball are rare."
 
     def table(self) -> ResultTable:
         """One row with the answer; below it the mean ball pass of the best band over angle."""
@@ -178,6 +201,8 @@ class MeasuredExtent:
             ("separation", "rad", [self.separation], "from the entry's peak to the exit's"),
             ("separation_deviation", "rad", [self.deviation]),
             ("offset", "rad", [self.offset], "over which a ball is not loaded at the edges"),
+            ("offset_low", "rad", [self.offset_low], "of the interval with 95 %"),
+            ("offset_high", "rad", [self.offset_high], "of the interval with 95 %"),
             ("length", "m", [self.length], "along the race"),
             ("frequency", "Hz", [self.frequency], "of ball passes"),
             ("ball_passes", "", [self.n_passes]),
@@ -201,15 +226,16 @@ def measure_extent(
     race: str | None = None,
     load: float | None = None,
     clearance: float | None = None,
+    edge: str | None = None,
     diagnosis: Diagnosis | None = None,
 ) -> MeasuredExtent:
     """The extent of a spall from the knocks of balls that enter and leave it.
 
     The envelope of the signal is averaged over the ball passes, aligned against slip, in the bands
-    that show them best. Two peaks on which bands agree are entry and exit; the exit is the one that
-    grows with frequency, else the one that follows sooner. Their separation and the angle over
-    which statics say that a ball carries nothing beside the edges are the extent, but for whole
-    ball spacings, of which the pass itself says nothing.
+    that show them best. Two peaks on which bands agree are entry and exit. Their separation and
+    the angle over which statics say that a ball carries nothing beside the edges are the extent,
+    but for whole ball spacings, of which the pass itself says nothing. Nor does it say which peak
+    is the entry: where one way round is not much longer than the other, both are given.
 
     Parameters
     ----------
@@ -224,7 +250,10 @@ def measure_extent(
         unknown speed always asks `diagnose`.
     load, clearance
         radial load on the bearing [N] and radial clearance [m] where they are known: they narrow
-        the interval.
+        the interval. A load that is not given is taken to be 0.1 to 5 % of the dynamic rating.
+    edge
+        how a ball rolls over the edges, see `Defect`, where that is known, as of a simulated
+        signal; None: as measured spalls suggest.
     diagnosis
         what `diagnose` says, where that is known already.
 
@@ -236,7 +265,7 @@ def measure_extent(
     Raises
     ------
     ValueError
-        for a race, load, clearance or speed that cannot be, and for rows that are not alike.
+        for a race, load, clearance, edge or speed that cannot be, and for rows that are not alike.
     """
     checks.instance("recording", recording, Recording)
     bearing = bearing_of(bearing)
@@ -246,6 +275,8 @@ def measure_extent(
         load = checks.real_number("load", load, above=0.0, unit="N")
     if clearance is not None:
         clearance = checks.real_number("clearance", clearance, at_least=0.0, unit="m")
+    if edge is not None:
+        checks.choice("edge", edge, EDGES)
     if race is None or not isinstance(shaft_speed, int | float):
         found = diagnosis or diagnose(recording, bearing, shaft_speed)
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
@@ -266,7 +297,11 @@ def measure_extent(
     # the inner race turns with the shaft
     turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
     knocks = find_knocks(recording, nominal, slip, turns)
-    return _answer(knocks, bearing, race, load, clearance)
+    needed = math.isfinite(knocks.separation) or math.isfinite(knocks.hidden)
+    offsets = plausible_offsets(bearing, race, load, clearance, edge) if needed else None
+    if offsets is not None and not len(offsets.values):
+        raise checks.refuse("load", load, "one that balls lose in a spall", "N")
+    return _answer(knocks, bearing, race, offsets)
 
 
 _STATUS = {
@@ -279,34 +314,24 @@ _STATUS = {
 }
 
 
-def _answer(
-    knocks: Knocks, bearing: Bearing, race: str, load: float | None, clearance: float | None
-) -> MeasuredExtent:
-    status = _STATUS[knocks.seen]
+def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None) -> MeasuredExtent:
     spacing = bearing.ball_spacing
-    separation, deviation = spacing * knocks.separation, spacing * knocks.deviation
-    extent = low = high = length = offset = math.nan
-    if math.isfinite(knocks.hidden):
-        high = spacing * knocks.hidden + plausible_offsets(bearing, race, load, clearance).quantile(
-            0.975
-        )
-        if high < LONGEST_BOUND * spacing:
-            status, low = ExtentStatus.SHORTER, 0.0
-        else:
-            high = math.nan
-    if math.isfinite(separation):
-        offsets = plausible_offsets(bearing, race, load, clearance)
-        least, offset, most = (offsets.quantile(share) for share in (0.025, 0.5, 0.975))
-    if status == ExtentStatus.MEASURED:
-        extent = separation + offset
-        # both sides separately: offsets lean towards long ones
-        low = max(extent - math.hypot(offset - least, 1.96 * deviation), 0.0)
-        high = extent + math.hypot(most - offset, 1.96 * deviation)
-        length = extent * _raceway_radius(bearing, race)
-    return MeasuredExtent(
-        race, extent, low, high, separation, deviation, offset, spacing, knocks.passes,
-        knocks.entry, knocks.exit, knocks.frequency, knocks.n_passes, length, status,
+    least, offset, most = (
+        math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
+    )
+    found = MeasuredExtent(
+        race, math.nan, math.nan, math.nan, spacing * knocks.separation, spacing * knocks.deviation,
+        offset, least, most, spacing, knocks.passes, knocks.entry, knocks.exit, knocks.frequency,
+        knocks.n_passes, math.nan, _STATUS[knocks.seen],
     )  # fmt: skip
+    bound = spacing * knocks.hidden + most
+    if bound < LONGEST_BOUND * spacing:
+        return replace(found, low=0.0, high=bound, status=ExtentStatus.SHORTER)
+    if not found.measured:
+        return found
+    extent, low, high = found.alternatives[0]
+    length = extent * _raceway_radius(bearing, race)
+    return replace(found, extent=extent, low=low, high=high, length=length)
 
 
 def without_extent(
@@ -315,8 +340,8 @@ def without_extent(
     """A measurement that gave no extent; the ball spacing is in [rad]."""
     none = math.nan
     return MeasuredExtent(
-        race, none, none, none, none, none, none, ball_spacing, (), none, none, none, 0,
-        none, status,
+        race, none, none, none, none, none, none, none, none, ball_spacing, (), none, none, none,
+        0, none, status,
     )  # fmt: skip
 
 

@@ -78,7 +78,9 @@ class Offsets:
     weights: NDArray[np.float64]
 
     def quantile(self, share: float) -> float:
-        """The offset [rad] below which a share of the weight lies, interpolated."""
+        """The offset [rad] below which a share of the weight lies, interpolated; NaN of none."""
+        if not len(self.values):
+            return math.nan
         order = np.argsort(self.values)
         weights = self.weights[order]
         reached = np.cumsum(weights) - 0.5 * weights
@@ -129,13 +131,18 @@ def release_offset(
 def _falls_to_zero(
     place: NDArray[np.float64], compression: NDArray[np.float64], last: int, away: int
 ) -> float:
-    """Where a compression reaches 0 beyond its `last` value, straight on."""
+    """Where a compression reaches 0 between its `last` value and the next place, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
-    return float(place[last] - compression[last] / slope)
+    step = abs(compression[last] / slope) if slope else math.inf
+    return float(place[last] - away * min(step, abs(place[last + away] - place[last])))
 
 
 def plausible_offsets(
-    bearing: Bearing, race: str, load: float | None, clearance: float | None
+    bearing: Bearing,
+    race: str,
+    load: float | None,
+    clearance: float | None,
+    edge: str | None = None,
 ) -> Offsets:
     """Offsets over loads, clearances and edges that are plausible where they are not given.
 
@@ -145,6 +152,8 @@ def plausible_offsets(
         radial load on the bearing [N], or None where it is not known.
     clearance
         radial clearance [m], or None: that of the bearing, known to its half.
+    edge
+        the edge model, or None: all, by `EDGE_WEIGHTS`.
     """
     steel = bearing.with_balls_of(BALL_MATERIALS["steel"]) if bearing.is_hybrid else bearing
     middle = TYPICAL_LOAD * dynamic_load_rating(steel) if load is None else load
@@ -155,12 +164,12 @@ def plausible_offsets(
     else:
         typical, clearance_spread = clearance, CLEARANCE_SPREAD
     values, weights = [], []
-    for edge, edge_weight in EDGE_WEIGHTS.items():
+    for model, edge_weight in (EDGE_WEIGHTS if edge is None else {edge: 1.0}).items():
         for deviation, weight in zip(_NORMAL, _WEIGHTS, strict=True):
             force = middle * math.exp(spread * deviation)
             for other, other_weight in zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True):
                 gap = max(typical * (1.0 + clearance_spread * other), 0.0)
-                offset = release_offset(bearing, race, force, gap, edge)
+                offset = release_offset(bearing, race, force, gap, model)
                 if not math.isfinite(offset):
                     continue
                 for share, share_weight in SEEN_SHARES.items():

@@ -86,12 +86,16 @@ def _undecided_speed(
     for one in hypotheses:
         readings.setdefault(one.judged.own.part, one.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
+    # each reading is as probable as the others: what holds at one speed counts by its share
+    share = SURE / max(2, len(readings))
+    evidence = [replace(one, probability=share * one.probability) for one in decided.evidence]
     return replace(
         decided,
         fault=CANNOT_TELL,
         status=DiagnosisStatus.SPEED_OPEN,
         detail=say.which_speed(frequency, list(readings.items())),
-        probability=SURE / max(2, len(readings)),
+        probability=share,
+        evidence=tuple(evidence),
     )
 
 

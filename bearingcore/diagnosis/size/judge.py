@@ -171,9 +171,16 @@ def confirmed(sized: Sizing, knocks: MeasuredExtent) -> Judgement:
 
 
 def _agree(sized: Sizing, knocks: MeasuredExtent) -> bool:
-    """Whether an extent from entry to exit, if any, holds the best one but for whole spacings."""
-    if not knocks.measured:
+    """Whether two peaks, if any, may be entry and exit of the best extent but for whole spacings.
+
+    Either way round: the envelope does not say which of them is the entry.
+    """
+    if knocks.status not in (ExtentStatus.MEASURED, ExtentStatus.EITHER):
         return True
-    room, spacing = 2.0 * sized.extent_uncertainty, knocks.ball_spacing
-    over = (sized.best.extent - knocks.low + room) % spacing
-    return over <= knocks.high - knocks.low + 2.0 * room
+    best, room = sized.best, 2.0 * sized.extent_uncertainty
+    # with two balls over the defect at once the others carry more, and so are lost for longer
+    more = 2.0 * room + (knocks.offset_high if best.turns else 0.0)
+    return any(
+        (best.extent - low + room) % knocks.ball_spacing <= high - low + more
+        for _, low, high in knocks.alternatives
+    )

@@ -192,7 +192,12 @@ def _with_judgement(sized: Sizing, scene: Scene) -> Sizing:
     sized = dataclasses.replace(sized, status=status, sentence=sentence)
     if not (sized.bound or sized.conclusive):
         return sized
-    knocks = measure_extent(sized.recording, scene.bearing, scene.shaft_speed, race="outer")
+    best = sized.best
+    knocks = measure_extent(
+        sized.recording, scene.bearing, scene.shaft_speed, race="outer", edge=best.edge,
+        load=math.hypot(best.scene.load.fx, best.scene.load.fy) or None,
+        clearance=scene.bearing.radial_clearance,
+    )  # fmt: skip
     status, sentence = confirmed(sized, knocks)
     return dataclasses.replace(sized, status=status, sentence=sentence)
 

@@ -426,13 +426,15 @@ def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
     assert made.measured.recording.name == "rig.zip/run5.csv"
     assert made.state.parts == 6
 
+    answer(made, columns="time s;y;x")
+
     async def join() -> None:
         made.join_parts()
         await settled(made)
 
     run(join())
     np.testing.assert_allclose(
-        made.measured.recording.acceleration / 9.80665, NOISE[::-1][:1800], rtol=1e-4
+        made.measured.recording.acceleration[:, ::-1] / 9.80665, NOISE[::-1][:1800], rtol=1e-4
     )
     assert "6 files are joined" in made.state.remarks
     assert len(made.measured.origin.parts) == 6

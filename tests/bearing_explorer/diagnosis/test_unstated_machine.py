@@ -257,6 +257,29 @@ def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
     run(steps())
 
 
+def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
+    halves = Halves()
+    measurement = halves.diagnosis.measurement
+    measurement._draw = lambda: None
+
+    def words() -> str:
+        return str(halves.diagnosis.inputs().content().status(0.0, frozenset())["words"])
+
+    assert words() == "Ready"
+    measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    question = measurement.question()
+    assert question is not None
+    assert words() == "Analysing the signal"
+    measurement.diagnoses.keep(question, "none")
+    assert words() == "Ready"
+    measurement.extents.wanted = question
+    assert words() == "Analysing the signal"
+    measurement.extents.keep(question, "none")
+    assert words() == "Ready"
+    measurement.begin_upload("signal.csv", 100)
+    assert words() == "Reading the signal"
+
+
 def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
     halves = Halves()
     halves.session.draw = lambda: None  # type: ignore[method-assign]

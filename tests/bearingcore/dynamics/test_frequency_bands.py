@@ -41,6 +41,16 @@ def test_they_are_those_of_the_modes_one_matrix_after_the_other(scene: Scene) ->
     np.testing.assert_allclose(greatest[0], np.nanmax(found.undamped_frequency, axis=0), rtol=1e-10)
 
 
+@pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])
+def test_damping_nearly_is_damping_where_modes_meet_and_balls_come_in(extent: float) -> None:
+    scene = ANGULAR.replace(extent=extent)
+    state = equilibrium(scene, np.linspace(0.0, scene.bearing.period, 1001))
+    exact, nearly = modes_at(state), modes_at(state, nearly=True)
+    assert np.abs(exact.frequency / exact.undamped_frequency - 1.0).max() > 1e-3
+    np.testing.assert_allclose(nearly.frequency, exact.frequency, rtol=1e-4)
+    np.testing.assert_allclose(nearly.damping_ratio, exact.damping_ratio, atol=2e-3)
+
+
 def symmetric(rng: np.random.Generator, nd: int, n: int, spread: float) -> np.ndarray:
     """Upper triangles (nd (nd + 1)/2, n) of matrices about one that is positive definite."""
     root = rng.standard_normal((nd, nd))
@@ -84,7 +94,7 @@ def test_any_matrices_have_the_frequencies_of_lapack_and_the_best_assignment(
     support = np.zeros(nd) if free else 10.0 ** rng.uniform(5.0, 10.0, nd)
     mass = 10.0 ** rng.uniform(-3.0, 1.0, 2 * nd)
     template = template_of(terms, support, mass)
-    found = _frequencies_like(template, terms, support, mass)
+    found = _frequencies_like(template, terms, support)
     root = np.sqrt(mass)
     values, vectors = np.linalg.eigh(full(terms, support) / (root[:, None] * root))
     expected = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)

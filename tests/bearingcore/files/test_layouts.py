@@ -462,6 +462,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     two = zipped(a_csv=text, b_npy=numpy_file(np.save, SIGNAL[:, 0]))
     with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
         read(two, "rig.zip")
+    assert table.files_inside("RIG.ZIP", two)[0] == "RIG.zip/a.csv"
     assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
     assert table.files_inside("a.csv", text) == ["a.csv"]
     check_one_signal(read(two, "rig.zip/a.csv"))

@@ -18,6 +18,8 @@ SIGNAL = np.random.default_rng(5).standard_normal((3000, 2))
         (SIGNAL[:100], {}, "100 samples long"),
         (SIGNAL * [1.0, np.inf], {}, "finite"),
         (SIGNAL * [1.0, 0.0], {}, "the same number throughout along y"),
+        (SIGNAL * [1.0, 1e-300], {}, "swinging by .*e-300 along y"),
+        (SIGNAL * 1e300, {}, "swinging by .*e.300 along x"),
     ],
 )
 def test_recordings_refuse_what_is_no_signal(signal, changes, told):

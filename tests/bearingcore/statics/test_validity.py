@@ -8,6 +8,7 @@ import pytest
 
 from bearingcore import Limit, Scene, equilibrium, film, limits, presets, simulate
 from bearingcore.statics.ball_positions import ball_positions, centrifugal_effect
+from bearingcore.statics.limit import NO_DRAWING, NO_OIL, summary, unknown, upper_limit
 from bearingcore.statics.positions import over_all_positions
 from bearingcore.statics.validity import state_of_limits
 
@@ -214,3 +215,17 @@ def test_a_state_at_hand_gives_the_same() -> None:
 def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
     with pytest.raises(ValueError, match=said):
         limits(HEALTHY_6205, **choices)  # type: ignore[arg-type]
+
+
+def test_limits_in_a_line_say_what_is_unchecked_and_why() -> None:
+    def one(value: float, why: str = "") -> Limit:
+        return unknown("film", 1.0, "", why) if why else upper_limit("film", value, 1.0, "", *"abc")
+
+    assert summary([one(0.5)]) == "No limit exceeded"
+    assert summary([one(2.0), one(0.5)]) == "1 limit exceeded"
+    assert summary([one(0.5), one(0.0, NO_DRAWING), one(0.0, f"{NO_DRAWING}; so")]) == (
+        "No limit exceeded (2 unchecked: groove radii unknown)"
+    )
+    assert summary([one(2.0), one(2.0), one(0.0, NO_OIL), one(0.0, "it turns")]) == (
+        "2 limits exceeded (2 unchecked)"
+    ), "a reason that is not all of it is none"

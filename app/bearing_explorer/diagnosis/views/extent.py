@@ -44,7 +44,7 @@ FIELDS: list[FieldSpec] = [
     }
 ]
 
-EDGE_WORDS = "return row.exit ? 'ball leaves' : 'ball enters'"
+EDGE_WORDS = "return ['ball enters', 'ball leaves', 'enters or leaves'][row.exit]"
 
 
 def layers() -> list[Layer]:
@@ -227,7 +227,7 @@ def _edges(found: MeasuredExtent, spacing: float) -> dict[str, np.ndarray]:
     angle = np.array([0.0, apart])
     return {
         "angle": angle,
-        "exit": np.array([0.0, 1.0]),
+        "exit": np.array([0.0, 1.0] if found.measured else [2.0, 2.0]),
         "row": np.array([0.93, 0.82]),
         "shift": np.where(angle > (0.8 - BEFORE) * spacing, -66.0, 4.0),
     }

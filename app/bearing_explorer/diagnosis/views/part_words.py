@@ -83,7 +83,7 @@ def extent(found: MeasuredExtent) -> str:
     """The length of a spall in a few words."""
     if found.measured:
         return f"{found.size} long, or that and whole ball spacings"
-    return found.size if math.isfinite(found.high) else LENGTH_HIDDEN
+    return found.size or LENGTH_HIDDEN
 
 
 def explained(one: ListedBearing) -> str:
@@ -241,9 +241,16 @@ def slip(value: float) -> str:
 
 
 def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
-    """The evidence of each part as the browser lists it."""
+    """The evidence of each part as the browser lists it.
+
+    Without a clear result no part has a probability or leads: it would look like a verdict.
+    """
     lead = leading(found)
-    return [_row(one, one is lead, lead is not None) for one in found.evidence]
+    rows = [_row(one, one is lead and found.conclusive, lead is not None) for one in found.evidence]
+    if found.conclusive:
+        for row, one in zip(rows, found.evidence, strict=True):
+            row["probability"] = probability(one.probability)
+    return rows
 
 
 def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
@@ -274,7 +281,6 @@ def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
         else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
         "band": band(one.band.low, one.band.high),
         "direction": one.direction,
-        "probability": probability(one.probability),
     }
 
 

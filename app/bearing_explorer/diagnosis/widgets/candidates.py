@@ -64,7 +64,7 @@ def table_html(rows: list[dict[str, Any]], looked: int) -> str:
     lines = []
     for index, one in enumerate(rows):
         truth = f'<span class="truth">true {one["truth"]}</span>' if one["truth"] else ""
-        width = max(100.0 * one["probability"], 0.4)
+        width = max(100.0 * one["probability"], 0.4) if one["percent"] else 0.0
         lines.append(
             f'<tr class="{"looked" if index == looked else ""}"><th scope="row">{one["extent"]}'
             f"<small>{one['length']}</small></th><td>{one['made_of']}</td>"
@@ -79,7 +79,10 @@ def table_html(rows: list[dict[str, Any]], looked: int) -> str:
 
 
 def rows(sized: Sized) -> list[dict[str, Any]]:
-    """The candidates as the browser lists them."""
+    """The candidates as the browser lists them.
+
+    Without a clear size they show no probability: it would look like a verdict.
+    """
     candidates = sized.sizing.candidates
     spacing = sized.scene.bearing.ball_spacing
     truth = sized.measured.true_extent
@@ -93,7 +96,7 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
             "extent_deg": round(math.degrees(candidate.extent), 2),
             "made_of": made_of(candidate, spacing),
             "probability": candidate.probability,
-            "percent": probability(candidate.probability),
+            "percent": probability(candidate.probability) if sized.sizing.conclusive else "",
             "explains": "explains "
             f"{100.0 * max(1.0 - float(candidate.waveform_misfit.mean()), 0.0):.0f} % of the mean "
             "ball pass",

@@ -61,9 +61,9 @@ class PartPanel(pn.Column):
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
-        self._copy = button("Copy the summary", lambda: None, align="start")
+        self._copy = button("Copy the summary", lambda: None)
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
-        self._report = button("Report on one page", lambda: None, align="start")
+        self._report = button("Report on one page", lambda: None)
         self._report.js_on_click(code=_REPORT)
         self._why_not = _words("")
         fields = Fields(lambda _: report_on(dict(fields.values)))
@@ -252,7 +252,8 @@ def evidence_html(rows: Sequence[Mapping[str, Any]]) -> str:
     heads = [
         ("Part", ""), ("Order", "nominal"), ("Line", "slip"),
         *((f"{k}×", "dB" if k == 1 else "") for k in harmonics),
-        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""), ("Probability", ""),
+        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""),
+        *([("Probability", "")] if "probability" in rows[0] else []),
     ]  # fmt: skip
     head = "".join(_cell(words, below, 'th scope="col"') for words, below in heads)
     body = "".join(_row(row) for row in rows)
@@ -276,7 +277,7 @@ def _row(row: Mapping[str, Any]) -> str:
         _cell(row["together"], f"noise {row['noise']}"),
         _cell(row["sidebands"], row["spacing"]),
         _cell(row["band"], f"along {row['direction']}"),
-        _cell(row["probability"]),
+        *([_cell(row["probability"])] if "probability" in row else []),
     ]
     return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'
 

@@ -64,6 +64,9 @@ class Chain:
     peaks
         loudest line of the housing's acceleration along x and y, where they are free; empty
         without a motion, and `silent` then says why.
+    upright
+        mean cos²α of the contact angles of loaded balls, each by what it carries: the share of the
+        stiffness of a contact that is radial.
     """
 
     answered: float
@@ -76,6 +79,7 @@ class Chain:
     bands: dict[str, tuple[float, float]]
     peaks: dict[str, Peak]
     silent: str
+    upright: float = 1.0
 
     @property
     def loudest(self) -> str:
@@ -139,7 +143,18 @@ def chain(results: Results) -> Chain:
         bands=bands,
         peaks=peaks,
         silent=silent,
+        upright=upright(found),
     )
+
+
+def upright(found: Equilibrium) -> float:
+    """Mean cos²α of loaded balls, each by what it carries; NaN where none does."""
+    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    total = carried.sum()
+    if not total > 0.0:
+        return math.nan
+    radial = np.where(carried > 0.0, np.cos(found.contact_angle) ** 2, 0.0)
+    return float((carried * radial).sum() / total)
 
 
 def off_line(found: Equilibrium, scene: Scene) -> float:

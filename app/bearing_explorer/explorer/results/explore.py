@@ -98,6 +98,15 @@ class MapOutput:
             return _SETTINGS
         return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
 
+    @property
+    def fineness(self) -> dict[str, float]:
+        """Settings that say how finely each point is computed, by their names with units."""
+        if not self.in_sweep:
+            return {}
+        if self.needs in _QUICK:
+            return {"cage_angles_a_period": self.settings.cage_angles}
+        return {"motion_s": self.settings.duration, "sample_rate_hz": self.settings.sample_rate}
+
     def in_band(self, low: float, high: float) -> MapOutput:
         """The same between two frequencies [Hz]; ValueError with a sentence for others."""
         most = 0.5 * _SETTINGS.sample_rate

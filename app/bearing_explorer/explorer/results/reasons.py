@@ -214,13 +214,30 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:
-        return f"Not needed here: {names}."
+        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)}."
     kind = scene.bearing.kind
     why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
     if scene.active_dofs != kind.needed_directions:
         tilts = "rx" in kind.needed_directions
         why.append("no load along the shaft" + (", no moment" if tilts else ""))
     return f"Not needed here: {names} ({'; '.join(why)})." if why else f"Not needed here: {names}."
+
+
+def play(now: Bearing, before: Bearing) -> str:
+    """Effect of contact angle and clearance on the play 2·(A₀·(1 − cos α₀) + r_L), in words."""
+    old, new = before.diametral_play, now.diametral_play
+    if abs(new - old) < ALIKE * max(abs(new), abs(old)):
+        return ""
+    text = f"the play {'grows' if new > old else 'shrinks'} from {_micro(old)} to {_micro(new)}"
+    of_angle = new - 2.0 * now.radial_clearance
+    if abs(of_angle) < ALIKE * abs(new):
+        return text
+    rest = f", {_micro(2.0 * now.radial_clearance)} the clearance" if now.radial_clearance else ""
+    return f"{text} ({_micro(of_angle)} of it the contact angle{rest})"
+
+
+def _micro(length: float) -> str:
+    return style.with_prefix(length, "m", 2) if length else "0"
 
 
 # --- natural frequencies --------------------------------------------------------------------------
@@ -269,10 +286,7 @@ def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
         return ""
     if rate < SEPARATE * spacing:
         if briefly:
-            return (
-                f"None at {hertz}, how often balls pass: lines are {spacing:.0f} Hz apart (see "
-                "Vibration)."
-            )
+            return f"None at {hertz} (ball passes): lines {spacing:.0f} Hz apart, see Vibration."
         return (
             f"No peak at {hertz}, as often as balls pass: lines are {spacing:.0f} Hz apart. See "
             f"each pass in time (Vibration, every {style.with_prefix(1.0 / rate, 's')}) or in the "
@@ -304,7 +318,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
     if own := [label for label in inside if label[:-1] == dof]:
         if briefly:
-            return f"Largest peak in {mode_symbol(own[0])}: balls make it swing."
+            return f"Peak in {mode_symbol(own[0])}: balls excite it."
         return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0

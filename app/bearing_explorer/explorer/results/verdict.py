@@ -8,7 +8,7 @@ import numpy as np
 
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.sentences import words_of
-from bearingcore.common import count, scientific
+from bearingcore.common import count, number, scientific
 from bearingcore.dynamics import OrbitStatus
 from bearingcore.scene import DOF_SYMBOLS
 
@@ -53,6 +53,8 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     static = of_statics(results)
     if static.mood == "good" and "now" in shown:
         static = of_now(results)
+    if static.mood == "good" and "chain" in shown:
+        static = of_chain(results)
     if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
         return static
     try:
@@ -89,6 +91,15 @@ def of_now(results: Results) -> Verdict:
     if now.converged[0]:
         return Verdict("good", "Computed without problems")
     return Verdict("bad", f"No answer at this cage angle: {now.reason(0)}")
+
+
+def of_chain(results: Results) -> Verdict:
+    """Whether the equilibrium was found wherever the change is followed: the shaft may turn too."""
+    chain = results.chain
+    if chain.answered == 1.0:
+        return Verdict("good", "Computed without problems")
+    share = number(100.0 * (1.0 - chain.answered), 2)
+    return Verdict("bad", f"No answer at {share} % of the cage angles: {chain.reason}")
 
 
 def of_motion(results: Results) -> Verdict:

@@ -9,8 +9,8 @@ be mended. Only the points of a measured floor are packed.
 
 The rules of version 1, which later versions go on reading:
 
-- `v` is 1, `preset` a name of `bearingcore.presets`. What follows is left out where it is as in the
-  preset; so the numbers of a preset must not change (a test holds them).
+- `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
+  out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
 - A number is in the unit of its name, or in SI with ``SI`` behind it where no number in that unit
   stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
   read back to the last bit.
@@ -134,6 +134,15 @@ def read(text: str) -> Place | None:
     ValueError
         with a sentence for the page.
     """
+    given, note = _known_pairs(text)
+    if not given:
+        return None
+    place = _read(given)
+    return dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
+
+
+def _known_pairs(text: str) -> tuple[dict[str, str], str]:
+    """Values of a text under names that are known, and a sentence on those that are not."""
     if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
     if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one
@@ -151,13 +160,13 @@ def read(text: str) -> Place | None:
             raise ValueError(f"“{_shown(name)}” is given twice.")
         if _is_known(name):
             given[name] = value
-    if not given:
-        return None
-    place = _read(given)
-    if strange:
-        note = f"“{_shown(strange[0])}” in the address is not known and was ignored."
-        place = dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
-    return place
+    if not strange:
+        return given, ""
+    more = f", like {len(strange) - 1} more," if len(strange) > 1 else ""
+    return given, f"“{_shown(strange[0])}” in the address{more} is not known and was ignored."
+
+
+_TAB = re.compile(r"(?:^|[?&])tab=([a-z-]{1,40})(?=&|$)")
 
 
 def opened(text: str, editor: SceneEditor) -> Place:
@@ -166,6 +175,7 @@ def opened(text: str, editor: SceneEditor) -> Place:
     compared: tuple[Reference, ...] = ()
     try:
         place = read(text)
+        note = "" if place else _known_pairs(text)[1]
         if place is not None:
             tab, note, compared = place.tab, place.note, place.compared
             editor.take_scene(
@@ -173,6 +183,8 @@ def opened(text: str, editor: SceneEditor) -> Place:
             )
     except ValueError as error:
         why = sentence_of(error)
+        if found := _TAB.search(text[:LONGEST_TEXT]):
+            tab = FORMER_TABS.get(found[1], found[1])
         note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
@@ -336,12 +348,10 @@ def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
 
 def _read(given: dict[str, str]) -> Place:
     compared = _compared(given)
-    version = given.pop("v", None)
-    if version is None:
-        raise ValueError("Its version is missing (v=1).")
+    version = given.pop("v", "")
     if version == TOO_LONG:
         raise ValueError("It is far too long.")
-    if version != VERSION:
+    if version not in ("", VERSION):
         raise ValueError(
             f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
         )
@@ -354,12 +364,13 @@ def _read(given: dict[str, str]) -> Place:
     cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = given.pop("tab", "")
     name = one_line(given.pop("name", ""), LONGEST_NAME)
-    defects, note = [], ""
+    defects = []
+    note = "" if version else f"The address names no version; it was read as v={VERSION}."
     for number in range(count):
         here = {name: _behind(number) + name for name in _DEFECT_NAMES}
         own = {name: given.pop(there) for name, there in here.items() if there in given}
         if own.get("floor") == "left-out":
-            note = "A measured floor was too long for the address; here it is flat."
+            note += " A measured floor was too long for the address; here it is flat."
         defects.append(_defect(own, defects_of(base)[0]))
     fields = {part: _taken(entries, given) for part, entries in _SCENE.items()}
     if given:
@@ -378,7 +389,7 @@ def _read(given: dict[str, str]) -> Place:
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
     scene = scene if held else scene.with_former_dofs()
     tab = FORMER_TABS.get(tab, tab)[:40]
-    return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
+    return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
 
 def _taken(entries: Iterable[Entry], given: dict[str, str]) -> dict[str, Any]:

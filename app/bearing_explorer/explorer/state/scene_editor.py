@@ -6,6 +6,7 @@ checked here, and a refused one leaves all as it was, with a sentence.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -64,6 +65,7 @@ from bearingcore.bearings import (
 from bearingcore.common import number, refuse
 from bearingcore.fields import Range
 from bearingcore.scene import TILT_FREE, preset_labels
+from bearingcore.units import read_number
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
@@ -298,6 +300,29 @@ class SceneEditor:
         return 0 if defect.is_none else len(before)
 
     # Numbers
+
+    def in_own_units(self, given: Mapping[str, Any], second: bool) -> dict[str, Any]:
+        """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
+
+        A number may name either unit in both boxes. What is a number in neither stays as it is, to
+        be refused.
+        """
+        units = second_units(self.scene, self.selected, self.draft)
+
+        def in_own_unit(name: str, text: str) -> str:
+            word, _, _ = units[name]["unit"].partition(" ")  # of "µm dia."; "× ball" is a ratio
+            other = (word.removeprefix("×"), units[name]["factor"])
+            ways = [(FIELD_BY_KEY[name].shown_unit, 1.0), other]
+            for unit, factor in reversed(ways) if second else ways:
+                with contextlib.suppress(ValueError):
+                    value = read_number(text[:40], unit) / factor
+                    return text if factor == 1.0 else f"{value:.12g}"
+            return text
+
+        return {
+            name: in_own_unit(name, text) if name in units and isinstance(text, str) else text
+            for name, text in given.items()
+        }
 
     def set(self, given: Mapping[Any, Any]) -> tuple[Refused, Values]:
         """Take numbers, dragged or typed; returns what was refused and all that changed."""

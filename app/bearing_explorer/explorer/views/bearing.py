@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import numpy as np
-from bokeh.models import Circle, CustomJS, LinearColorMapper, Range1d
+from bokeh.models import Circle, CustomJS, LayoutDOM, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -14,7 +15,7 @@ from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
-from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots import color_scales, compared_curves, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import color_bar
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
@@ -27,7 +28,7 @@ from bearingcore.scene import ball_angles
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
-HEIGHT, SCALE_HEIGHT = 520, 60  # [px], the second of the scale of colours
+HEIGHT, STILL_HEIGHT = 250, 520  # [px] at least, with the scale of colours; outside of the page
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
 ROW_NAMES = 1.5  # below the middle of the rows: their names
@@ -81,15 +82,10 @@ try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not
 if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
-const unit = Math.min(w/shown.end, h/half, of_rows), x = w/unit, y = h/unit
+// and larger numbers on bars need more below the lowest
+const unit = Math.min(w/shown.end, (h - 28*(larger - 1))/half, of_rows), x = w/unit, y = h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
-"""
-
-
-_NO_HIGHER = """
-const high = Math.round(Math.min(most, Math.max(least, cb_obj.inner_width + scale)))
-if (cb_obj.min_height !== high) cb_obj.setv({min_height: high}, {sync: false})
 """
 
 
@@ -181,8 +177,8 @@ class BearingDrawing(View):
     title = "The bearing"
     about = (
         "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
-        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. The keyway "
-        "turns with the shaft; z points towards you."
+        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. "
+        "Compared scenes have dashed rims. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "now", "drop"})
     equal_aspect = True
@@ -232,16 +228,18 @@ class BearingDrawing(View):
             if layer.source in (f"{self.prefix}_bars", f"{self.prefix}_healthy_loads"):
                 renderer.tags = [ANSWER]
         if self.grabbed:
+            draw(plot, packed, compared_curves.curves(f"{self.prefix}_loads", "x", "y"))
             let_grab(plot, packed, f"{self.prefix}_handles")
         self._add_scale(plot, colors, load)
         return plot
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
-        plot = style.bare_figure(x, y, height=HEIGHT)
-        # on a phone no higher than it is wide, or half of it is empty
-        sizes = {"least": 320, "most": HEIGHT, "scale": SCALE_HEIGHT}
-        plot.js_on_change("inner_width", CustomJS(args=sizes, code=_NO_HIGHER))
-        return plot
+        return style.bare_figure(x, y, height=HEIGHT)
+
+    def still_figures(self) -> Sequence[LayoutDOM]:
+        if self.grabbed:
+            self.figures[0].min_height = STILL_HEIGHT
+        return self.figures
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
         bar = color_bar(
@@ -260,8 +258,9 @@ class BearingDrawing(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now
+        compared = [load for one in results.compared_results for _, load in one.load_curves]
         load_range = self._load_range.fit(
-            results.equilibrium.ball_load, results.reference.equilibrium.ball_load
+            results.equilibrium.ball_load, results.reference.equilibrium.ball_load, *compared
         )
         top = load_range[1]
         rows = scene.bearing.all_rows
@@ -283,6 +282,20 @@ class BearingDrawing(View):
             )
             for name in several[0]
         }
+
+        def rims(other: Results) -> dict[str, NDArray[np.float64]]:
+            curves = zip(range(len(rows)), other.load_curves, strict=False)
+            lines = [
+                moved(
+                    {"": Shapes(scene, 0.0, row).load_line(*one, top)}, (2 * row + 1) * half - wide
+                )
+                for row, one in curves
+            ]
+            return one_after_other([line[""] for line in lines], gaps=True)
+
+        sources |= compared_curves.sources(
+            f"{self.prefix}_loads", ("x", "y"), results.compared_results, rims
+        )
         sources |= {
             f"{self.prefix}_load_words": load_words(scene.load, drawn.depth_scale),
             f"{self.prefix}_row_words": row_words(scene, wide),
@@ -551,16 +564,23 @@ class Shapes:
         self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
     ) -> dict[str, np.ndarray]:
         """The area that the bars of a ball sweep as it goes round, at each half degree or more."""
+        angle, end = self._load_ends(angle, load, top)
+        start = np.full_like(angle, self.rim + BAR_START)
+        return polar((np.concatenate([angle, angle[::-1]]), np.concatenate([start, end[::-1]])))
+
+    def load_line(
+        self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
+    ) -> dict[str, np.ndarray]:
+        """The outer edge of that area, where there is a load."""
+        angle, end = self._load_ends(angle, load, top)
+        return polar((angle, np.where(end > self.rim + BAR_START, end, np.nan)))
+
+    def _load_ends(
+        self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         every = max(1, angle.size // 720)
-        angle, load = angle[::every], load[::every]
-        start = self.rim + BAR_START
-        end = start + BAR_LENGTH * np.nan_to_num(load) / top
-        return polar(
-            (
-                np.concatenate([angle, angle[::-1]]),
-                np.concatenate([np.full_like(angle, start), end[::-1]]),
-            )
-        )
+        angle, load = angle[::every], np.nan_to_num(load[::every])
+        return angle, self.rim + BAR_START + BAR_LENGTH * load / top
 
     def handles(self) -> dict[str, np.ndarray]:
         """Where the defects and the arrow can be grabbed."""

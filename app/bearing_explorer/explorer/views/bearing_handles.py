@@ -1,4 +1,7 @@
-"""Handles of the drawing of the bearing: the ends and middles of defects, the tip of the arrow."""
+"""Handles of the drawing of the bearing: the ends and middles of defects, the tip of the arrow.
+
+Each is dragged, or moved by arrow keys once it has the focus, and the sliders follow.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from bearing_explorer.kit.plots.layers import Glyph, add_all, sources_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import Scene
 
-COLUMNS = ("x", "y", "x0", "kind", "defect")
+COLUMNS = ("x", "y", "x0", "kind", "defect", "value", "angle")
 START, END, MIDDLE, LOAD = range(4)
 """Kinds of handles, as `grab.js` numbers them."""
 
@@ -28,6 +31,8 @@ def handles(
 ) -> dict[str, np.ndarray]:
     """Columns of the handles of a row, about its middle at 0.
 
+    `value` is the extent of the defect [deg], or the load [N], `angle` [deg] where the handle is.
+
     Parameters
     ----------
     spans
@@ -38,29 +43,36 @@ def handles(
         distance of the tip of the arrow from the middle.
     """
     met = [k for k, one in enumerate(scene.defects) if one.row in (None, row)]
-    places: list[tuple[float, float, int, int]] = []
+    places: list[tuple[float, float, int, int, float]] = []
     for number, span in zip(met, spans, strict=True):
         if span.extent > 0.0:
             turns = ((START, 0.0), (END, span.extent), (MIDDLE, 0.5 * span.extent))
-            places += [(race[span.race], span.start + turn, kind, number) for kind, turn in turns]
-    if np.hypot(scene.load.fx, scene.load.fy) > 0.0:
-        places.append((tip, float(np.arctan2(scene.load.fy, scene.load.fx)), LOAD, 0))
-    radius, angle, kind, defect = np.array(places, dtype=float).reshape(-1, 4).T
+            long = float(np.degrees(span.extent))
+            places += [
+                (race[span.race], span.start + turn, kind, number, long) for kind, turn in turns
+            ]
+    size = float(np.hypot(scene.load.fx, scene.load.fy))
+    if size > 0.0:
+        places.append((tip, float(np.arctan2(scene.load.fy, scene.load.fx)), LOAD, 0, size))
+    radius, angle, kind, defect, value = np.array(places, dtype=float).reshape(-1, 5).T
     return {
         "x": radius * np.cos(angle),
         "y": radius * np.sin(angle),
         "x0": np.zeros(angle.size),
         "kind": kind,
         "defect": defect,
+        "value": value,
+        "angle": np.degrees(angle) % 360.0,
         "size": np.where(kind <= END, 9.0, 0.0),
     }
 
 
 def let_grab(plot: figure, packed: PackedSource, name: str) -> None:
-    """Draw the handles of this source, and let them be dragged."""
+    """Draw the handles of this source, and let them be moved."""
     glyph = dots(name)
     sources = sources_of(packed, [glyph])
     add_all(plot, sources, [glyph])
     grab = CustomJS(args={"plot": plot, "source": sources[name]}, code=asset_text("grab.js"))
     sources[name].js_on_change("data", grab)
     plot.js_on_change("inner_width", grab)
+    plot.x_range.js_on_change("end", grab)

@@ -123,7 +123,7 @@ class ExplorePlane(SceneJobView[Plane]):
         """The map of the form; ValueError with a sentence where there can be none."""
         if given["output"] not in MAP_OUTPUTS:
             raise ValueError("There is no such output.")
-        if given["grid"] not in [value for value, _ in _GRIDS]:
+        if given["grid"] not in map(str, SIZES):
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
         output = MAP_OUTPUTS[given["output"]]
@@ -149,7 +149,11 @@ class ExplorePlane(SceneJobView[Plane]):
     # Outside of the page
 
     def choices(self) -> dict[str, Any]:
-        return {} if self._request is None else dict(self._request.given)
+        if self._request is None:
+            return {}
+        found = self.found  # as fine as its numbers in the file are, whatever was asked for
+        stride = self._request.stride if found is None else found.stride
+        return {**self._request.given, "grid": str(stride)}
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
         editor = editor_of(results)
@@ -199,6 +203,10 @@ class ExplorePlane(SceneJobView[Plane]):
             **table_of_places(found.x, found.y),
             found.question.output.column: found.values.ravel(),
             "no_answer_because": found.reasons.ravel(),
+            **{
+                name: np.full(found.values.size, value)
+                for name, value in found.question.output.fineness.items()
+            },
         }
 
     def _newest(self, results: Results) -> tuple[Plane | None, str]:

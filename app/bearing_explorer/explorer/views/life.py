@@ -10,7 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.results.endurance import ASSUMED_VISCOSITY, Endurance, LifeInputs
+from bearing_explorer.explorer.results.endurance import (
+    ASSUMED_GROOVES,
+    ASSUMED_VISCOSITY,
+    Endurance,
+    LifeInputs,
+)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
@@ -283,7 +288,12 @@ def _pressures(results: Results, found: Endurance) -> FactGroup:
         f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: "
         "Hertz theory does not hold at an edge."
     )
-    return FactGroup(title, words, facts)
+    return FactGroup(title + _assuming(found), words, facts)
+
+
+def _assuming(found: Endurance) -> str:
+    """Words that a title adds where groove radii are assumed, by which no limit is judged."""
+    return ", with usual groove radii" if ASSUMED_GROOVES in found.assumed else ""
 
 
 def _film(results: Results, found: Endurance) -> FactGroup:
@@ -313,4 +323,4 @@ def _film(results: Results, found: Endurance) -> FactGroup:
         viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
         words = words[0].lower() + words[1:]
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
-    return FactGroup(title, words, facts)
+    return FactGroup(title + _assuming(found), words, facts)

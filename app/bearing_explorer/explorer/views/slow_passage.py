@@ -68,8 +68,8 @@ class SlowPassage(BearingDrawing):
     title = "A ball crosses the defect, slowly"
     about = (
         "Ball loads in motion, and the housing acceleration. Blue: x. Orange: y. Line: the instant "
-        "drawn. Arrow keys step; with the volume up the acceleration is played as sound, at the "
-        "speed of the picture."
+        "drawn. Arrow keys step; turn the sound up to hear the acceleration, at the speed of the "
+        "picture."
     )
     needs = frozenset({"excerpt"})
     prefix = "slow"

@@ -130,6 +130,7 @@ class SpeedRunSpectra(SweptView):
         "Horizontal line: current speed. Click to go to a speed."
     )
     nothing_yet = "There is no run yet."
+    first_comes = "The first run is being computed."
     start = "Run up"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 
@@ -312,7 +313,7 @@ def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
     number, last = number[drawn], last[drawn]
     first, gap = np.full(number.size, low), np.full(number.size, np.nan)
     places = np.stack([first, last, gap], axis=1)  # of each line along the speeds
-    inner = any(defect.race == "inner" for defect in run.scene.defects)
+    inner = run.scene.defect_turns
     return {
         "speed_run_harmonics": {
             "frequency": (places * (ratio * number)[:, None]).ravel(),

@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.value_range import Sweep, alike_but_for, focused
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.compute.jobs import JobState, Work
+from bearing_explorer.kit.widgets.facts import sentence_html
 from bearingcore import Scene
 from bearingcore.common import Progress
 
@@ -67,8 +68,9 @@ def compute_in_levels(
 class SweptView(SceneJobView[Swept]):
     """A view of such a result; it is faint where it is that of another scene."""
 
-    #: sentence before the first result
+    #: sentence before the first result, and while that is computed
     nothing_yet: ClassVar[str] = "There is no map yet."
+    first_comes: ClassVar[str] = "The first map is being computed."
 
     def scene_of(self, results: Results) -> Scene:
         """The scene on screen as the computation takes it."""
@@ -83,9 +85,18 @@ class SweptView(SceneJobView[Swept]):
         """The sentence on a result of the scene on screen."""
         raise NotImplementedError
 
+    @property
+    def _words_of_nothing(self) -> str:
+        return self.first_comes if self.job.state.running else self.nothing_yet
+
+    def report(self, state: JobState) -> None:
+        super().report(state)
+        if self.found is None:
+            self._sentence.put(text=sentence_html(self._words_of_nothing))
+
     def sentence(self, results: Results) -> str:
         if self.found is None:
-            return self.nothing_yet
+            return self._words_of_nothing
         words = self.words_of(results, self.found)
         if self.opacity(results, self.found) < 1.0:
             return f"Faint, as the scene has changed since this was computed. Then: {words}"

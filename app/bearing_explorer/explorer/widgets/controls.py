@@ -84,7 +84,7 @@ class Rows(LiveComponent):
         self.send(news)
 
 
-MAIN = ("extent_deg", "depth_um", "fy_n", "shaft_speed_hz")
+MAIN = ("extent_deg", "fy_n", "shaft_speed_hz")
 """Sliders that are always seen; all others are folded."""
 
 

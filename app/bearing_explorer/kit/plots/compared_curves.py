@@ -20,14 +20,20 @@ MOST_COMPARED = len(COLORS)
 WITHOUT_DEFECT = "the bearing without its defect"
 """The scene that is drawn in grey."""
 
+THIN = "thin: horizontal"
+"""Tag of a figure that has two curves a scene, with the horizontal one thin; its key says so."""
+
 _SLOT = "_compared_"
 _LONGEST_NAME = 28
 
 
-def curves(name: str, x: str, *ys: str, width: float = 1.6) -> list[Glyph]:
-    """Layers: for each compared scene its columns `ys` over `x`, of the sources of `sources`."""
+def curves(name: str, x: str, *ys: str, width: float = 1.6, thin: str = "") -> list[Glyph]:
+    """Layers: for each compared scene its columns `ys` over `x`, of the sources of `sources`.
+
+    `thin`: the one of `ys` that has half the width.
+    """
     return [
-        curve(f"{name}{_SLOT}{slot}", x, y, color, width, dash)
+        curve(f"{name}{_SLOT}{slot}", x, y, color, 0.5 * width if y == thin else width, dash)
         for slot, (color, dash) in enumerate(zip(COLORS, DASHES, strict=True))
         for y in ys
     ]
@@ -73,6 +79,7 @@ class CurveKey:
     """
 
     def __init__(self, plot: Plot) -> None:
+        self._note = f" ({THIN})" if THIN in plot.tags else ""
         lines: dict[int, GlyphRenderer] = {}
         for drawn in plot.renderers:
             named = (isinstance(drawn, GlyphRenderer) and drawn.data_source.name) or ""
@@ -88,7 +95,7 @@ class CurveKey:
 
     def show(self, names: Sequence[str]) -> None:
         """Show these names; none hides the key."""
-        shown = [_short(name) for name in names]
+        shown = [_short(name) + self._note for name in names]
         if shown == [item.label.value for item in self.items if item.visible]:
             return
         for slot, item in enumerate(self.items):

@@ -40,7 +40,7 @@ HTTP_OPTIONS = {
 """Options of Tornado's server."""
 
 _TOO_LONG = message_page(
-    "This address is too long", "A scene with a long measured floor is shared as a file: Download."
+    "This address is too long", "A scene with a long measured floor is shared as a file: Share."
 ).encode()
 TOO_LONG_ANSWER = (
     b"HTTP/1.1 431 Request Header Fields Too Large\r\nContent-Type: text/html; charset=utf-8\r\n"

@@ -75,6 +75,8 @@ class Caption(LiveComponent):
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
     leads_to = param.String()
+    #: what that tab shows beyond it
+    lead = param.String()
 
     #: whether there are no numbers behind it yet, so that none are offered
     empty = param.Boolean(default=False)
@@ -133,6 +135,7 @@ class View(Generic[C]):
     #: "unseen": for screen readers alone
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
+    lead: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen
     cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
     #: parts of the session that its half has, on the page alone
@@ -145,7 +148,7 @@ class View(Generic[C]):
     def __init__(self, packed: PackedSource) -> None:
         self._results: C | None = None
         self._has_drawn = False
-        self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        self._sentence = Sentence(css_classes=["sentence", *self.sentence_looks])
         #: parts of the content that are hidden without numbers
         self._pictures: list[pn.Column] = []
         self._withheld: list[tuple[pn.Column, list[pn.viewable.Viewable]]] = []
@@ -180,6 +183,7 @@ class View(Generic[C]):
             cells=[list(cell) for cell in self.cells],
             compact=self.compact,
             leads_to=self.leads_to,
+            lead=self.lead,
         )
         self._caption.on_msg(self._answer)
         #: the names of compared scenes, a key a figure that draws them
@@ -253,7 +257,8 @@ class View(Generic[C]):
         if self._pictures:
             for picture in self._pictures:
                 picture.visible = self._has_drawn
-            self._sentence.css_classes = list(self.sentence_looks) if self._has_drawn else []
+            looks = self.sentence_looks if self._has_drawn else ()
+            self._sentence.css_classes = ["sentence", *looks]
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
@@ -262,13 +267,20 @@ class View(Generic[C]):
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None:
-            bearing = results.scene.bearing
-            about = self.caption(results.grey.name)
-            line, rest = parts_of(with_elements_of(bearing, about))
-            title = with_elements_of(bearing, self.title)
-            self._caption.put(title=title, line=line, rest=rest)
             for key in self._keys:
                 key.show([one.name for one in results.compared])
+
+    def put_head(self, content: C) -> None:
+        """Title and caption in the words of the bearing: its balls may be rollers."""
+        bearing = content.scene.bearing
+        line, rest = parts_of(with_elements_of(bearing, self.caption(content.grey.name)))
+        self._caption.put(
+            title=with_elements_of(bearing, self.title_of(content)), line=line, rest=rest
+        )
+
+    def title_of(self, content: C) -> str:
+        """The title over this content."""
+        return self.title
 
     @classmethod
     def caption(cls, grey: str = WITHOUT_DEFECT) -> str:

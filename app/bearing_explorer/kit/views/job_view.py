@@ -246,7 +246,11 @@ class JobView(View[C], Generic[C, Found, E]):
             self._found_for = asked
             self._take(found)
 
-        self._jobs.start(work, take, self.job.show)
+        self._jobs.start(work, take, self.report)
+
+    def report(self, state: JobState) -> None:
+        """Show the state of the job, on the event loop."""
+        self.job.show(state)
 
     def scene_drawn(self, results: C) -> Scene:
         return results.scene if self._found_for is None else self._found_for[1]

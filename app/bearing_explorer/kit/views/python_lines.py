@@ -79,7 +79,7 @@ def scene_code(scene: Scene) -> str:
         return line if len(line) <= 80 else broken
     text = scene.to_toml()
     if len(text) > LONGEST_SCENE:
-        return f'Scene.from_toml(Path("{FILE}").read_text())  # “Scene (TOML)” of Download'
+        return f'Scene.from_toml(Path("{FILE}").read_text())  # “Scene (TOML)” of Share'
     escaped = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
     return f'Scene.from_toml("""\n{escaped}""")'
 

@@ -23,6 +23,7 @@ from bearing_explorer.diagnosis.views.part_lines import (
     named,
     window,
 )
+from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
 from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -259,6 +260,12 @@ def test_the_evidence_is_listed_for_each_part():
     assert lead["probability"] == "99 %"
     assert rows[0]["sidebands"] == "none expected"
     assert not any(row["leads"] for row in part_words.evidence_rows(diagnosed("none")))
+    assert re.search("Probability.*99 %", evidence_html(rows))
+    # below "No clear result" nothing looks like a verdict
+    unclear = dataclasses.replace(diagnosed("inner race"), fault="cannot tell", probability=0.4)
+    rows = part_words.evidence_rows(unclear)
+    assert not any(row["leads"] for row in rows)
+    assert not re.search("Probability|99 %|leads", evidence_html(rows))
 
 
 def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_known():

@@ -25,7 +25,7 @@ from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.sizing import BEFORE, DefectSize, compute, has_answer, status
-from bearing_explorer.diagnosis.widgets.candidates import rows
+from bearing_explorer.diagnosis.widgets.candidates import rows, table_html
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -224,6 +224,13 @@ def test_candidates_are_listed_with_the_truth_at_the_nearest(sized):
     assert [row["truth"] for row in listed].count("12.9°") == 1
     best = max(listed, key=lambda row: row["probability"])
     assert best["truth"] == "12.9°"
+    assert re.search(r'<i style="width: [\d.]+%"></i>.*\d %', table_html(listed, 0))
+    # below "No clear result" nothing looks like a verdict
+    unclear = dataclasses.replace(sized.sizing, status=SizingStatus.UNEXPLAINED)
+    unlisted = table_html(rows(dataclasses.replace(sized, sizing=unclear)), 0)
+    assert set(re.findall(r'class="percent">([^<]*)|style="width: ([\d.]+)', unlisted)) == {
+        ("", ""), ("", "0.0")
+    }  # fmt: skip
     unknown = dataclasses.replace(sized.measured, true_extent=None)
     assert {row["truth"] for row in rows(dataclasses.replace(sized, measured=unknown))} == {""}
     # 12.9° on a race of 26.5 mm or so: sizes are given in mm too

@@ -26,6 +26,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import equilibrium, modes, presets
+from bearingcore.sweep import sweep as core_sweep
 
 RIG = presets["fan-rig"].replace(extent=math.radians(20.0))
 LIMITS = limits_of(RIG)
@@ -185,8 +186,20 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     assert "9 points have no answer, most often: nothing touches" in words
     view.found = coarse(view._request.of(results))
     table = view.table(results)
-    assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"}
+    fine = {"cage_angles_a_period"}
+    assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"} | fine
     assert table["k_yy_mean_n_per_m"].shape == (63,)
+    assert set(table["cage_angles_a_period"]) == {121.0}
+    # exported lines give the numbers of the file, though a finer map was asked for
+    again = ExplorePlane(PackedSource())
+    again.choose(view.choices(), results)
+    for name, column in again.table(results).items():
+        np.testing.assert_array_equal(column, table[name])
+    # and they are those of a sweep over the same values
+    places = {"extent": np.radians(np.unique(table["extent_deg"])), "fy": np.unique(table["fy_n"])}
+    swept = core_sweep(RIG, places, ["k_yy_mean"])["k_yy_mean"].transpose("fy", "extent").values
+    order = np.lexsort((table["extent_deg"], table["fy_n"]))
+    np.testing.assert_allclose(table["k_yy_mean_n_per_m"][order], swept.ravel(), rtol=1e-9)
     # an output that takes a while: what is drawn is faint until its map is there
     view._request = view.request_of({**FORM, "output": "acceleration_rms_y"}, editor)
     assert view.data(results)[0]["explore_cells"]["packed"][6] == 0.35

@@ -36,6 +36,7 @@ from bearingcore import (
     Scene,
     presets,
 )
+from bearingcore.scene import TILT_FREE
 
 FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("utf-8"))["link"]
 
@@ -73,6 +74,7 @@ def places(draw: st.DrawFn) -> Place:
             {},
             optional={
                 "fx": numbers(-1e6, 1e6),
+                "fz": numbers(-1e6, 1e6),
                 "my": numbers(-1e5, 1e5),
                 "shaft_speed": numbers(0, 6000),
                 "contact_damping": st.one_of(st.none(), numbers(0, 1e6)),
@@ -85,14 +87,14 @@ def places(draw: st.DrawFn) -> Place:
                 "n_balls": st.integers(1, 8),
                 "contact_law": st.sampled_from(CONTACT_LAWS),
                 "dofs": st.one_of(
-                    st.none(),
+                    st.sampled_from([None, TILT_FREE]),
                     st.lists(st.sampled_from(DOF_NAMES), min_size=1, unique=True).map(tuple),
                 ),
             },
         )
     )
     if scene.bearing.kind.line_contact:  # radial only, and without a contact angle
-        for name in ("my", "contact_angle", "dofs"):
+        for name in ("fz", "my", "contact_angle", "dofs"):
             changed.pop(name, None)
     if scene.bearing.kind.name == "self-aligning" and "contact_angle" in changed:
         changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
@@ -132,6 +134,29 @@ def test_every_scene_comes_back_to_the_last_bit(place: Place) -> None:
     if not shown.note:  # else out of the limits of what can be typed
         assert place_of(editor, place.tab) == place
         assert write(shown) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "dofs", "free"),
+    [
+        ("fz_n=50", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&dofs=auto", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&dofs=held", None, ("x", "y", "z")),
+        ("fz_n=50&dofs=free", TILT_FREE, DOF_NAMES),
+        ("fz_n=50&mx_nm=1&dofs=held", ("x", "y", "z"), ("x", "y", "z")),
+        ("fz_n=50&mx_nm=1", None, DOF_NAMES),
+        ("fy_n=-50", None, ("x", "y")),
+        ("preset=7208-25deg&dofs=auto", TILT_FREE, DOF_NAMES),
+    ],
+)
+def test_what_says_nothing_of_directions_has_those_that_it_had(text, dofs, free) -> None:
+    """In links and in files: tilts were free before they could be held."""
+    scene = read(f"v=1&{text}").scene
+    assert (scene.dofs, scene.active_dofs) == (dofs, free)
+    data = scene.to_data()
+    assert Scene.from_data(data) == scene
+    if dofs == TILT_FREE:
+        assert "dofs" not in data, "programs of before read it alike"
 
 
 def test_a_link_is_short_and_can_be_read() -> None:
@@ -183,7 +208,6 @@ def test_every_preset_is_among_the_frozen_links() -> None:
     [
         ("v=2", "version “2”"),
         ("v=too-long", "far too long"),
-        ("extent_deg=30", "version"),
         ("v=1&preset=<script>alert(1)</script>", "no bearing"),
         ("v=1&extent_deg=nan", "not a number"),
         ("v=1&extent_deg=360.1", "length of the defect"),
@@ -253,10 +277,37 @@ def test_anything_is_read_or_refused_in_a_sentence(text: str) -> None:
         assert note == "" or note.endswith(".")  # fmt: skip
 
 
-@pytest.mark.parametrize("text", ["", "?", "utm_source=x", "%ff=%ff", "a=b&c"])
-def test_an_address_about_something_else_is_none_of_ours(text: str) -> None:
+def test_a_link_without_a_version_is_read_and_that_is_said() -> None:
+    place = opened("?extent_deg=30&tab=stiffness", SceneEditor("fan-rig"))
+    assert place.scene == presets["fan-rig"].replace(extent=math.radians(30))
+    assert place.tab == "stiffness"
+    assert "no version" in place.note
+
+
+def test_a_link_that_cannot_be_read_still_opens_its_tab() -> None:
+    place = opened("v=1&extent_deg=400&tab=orbits", SceneEditor("fan-rig"))
+    assert place.scene == presets["fan-rig"]
+    assert place.tab == "over-speed"
+    assert "length of the defect" in place.note
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("", ""),
+        ("?", ""),
+        ("utm_source=x", "“utm_source”"),
+        ("%ff=%ff", "“"),
+        ("a=b&c", "“a” in the address, like 1 more,"),
+        ("x" * 5000, "x…”"),
+    ],
+)
+def test_what_is_not_known_in_an_address_is_said(text: str, named: str) -> None:
     assert read(text) is None
-    assert opened(text, SceneEditor("fan-rig")).note == ""
+    note = opened(text, SceneEditor("fan-rig")).note
+    assert named in note
+    assert len(note) < 200
+    assert ("ignored." in note) == bool(named)
     place = opened("v=1&extent_deg=30&fbclid=x1", SceneEditor("fan-rig"))
     assert place.scene.defect == dataclasses.replace(
         presets["fan-rig"].defect, extent=math.radians(30)

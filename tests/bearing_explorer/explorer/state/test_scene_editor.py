@@ -88,6 +88,36 @@ def test_what_is_typed_past_a_slider_stretches_it_until_it_is_back(editor: Scene
     assert editor.narrow() == []
 
 
+@pytest.mark.parametrize(
+    ("name", "text", "second", "wanted"),
+    [
+        ("extent_deg", "20", False, 20.0),
+        ("extent_deg", "1/4 in", False, math.degrees(6.35e-3 / 26.5e-3)),
+        ("extent_deg", "6,35", True, math.degrees(6.35e-3 / 26.5e-3)),
+        ("extent_deg", "1/4 in", True, math.degrees(6.35e-3 / 26.5e-3)),
+        ("extent_deg", "20 °", True, 20.0),
+        ("radial_clearance_um", "30 µm", False, 30.0),
+        ("radial_clearance_um", "30 µm", True, 15.0),  # a diametral one
+        ("shaft_speed_hz", "900 rpm", False, 15.0),
+        ("shaft_speed_hz", "900", True, 15.0),
+        ("shaft_speed_hz", "15 Hz", True, 15.0),
+    ],
+)
+def test_a_number_names_either_unit_in_either_box(
+    editor: SceneEditor, name: str, text: str, second: bool, wanted: float
+) -> None:
+    refused, _ = editor.set(editor.in_own_units({name: text}, second))
+    assert refused == {}
+    assert editor.values[name] == pytest.approx(wanted, rel=1e-9)
+
+
+def test_what_is_a_number_in_neither_unit_is_refused(editor: SceneEditor) -> None:
+    for text in ("a lot", "5 N", ""):
+        own = editor.in_own_units({"extent_deg": text}, second=True)
+        assert own == {"extent_deg": text}
+        assert "from 0 to 360°" in editor.set(own)[0]["extent_deg"]
+
+
 def test_an_optional_number_may_be_left_open(editor: SceneEditor) -> None:
     assert editor.state()["values"]["contact_damping"] is None
     editor.set({"contact_damping": "250"})

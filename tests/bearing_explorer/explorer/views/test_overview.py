@@ -46,7 +46,7 @@ def test_a_ball_spacing_longer() -> None:
         "Defect longer by one ball spacing (12.9 → 38.61°): the balls beside the defect take over "
         f"the load, so k_yy falls by {100 * (1 - fall):.0f} % and k_xx rises by "
         f"{100 * (rise - 1):.0f} %. "
-        f"Therefore the y₁ band sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
+        f"Therefore y₁ sinks from {low0:.0f}–{high0:.0f} to {low:.0f}–{high:.0f} Hz "
         "and the spectrum's peak with it, "
         f"from {before.peaks['y'].frequency:.0f} to {now.peaks['y'].frequency:.0f} Hz."
     )
@@ -71,23 +71,49 @@ def test_only_what_really_changed_is_said() -> None:
     shallow = FAN_RIG.replace(depth=1e-6)
     assert "hardly anything changes" in told(shallow.replace(depth=1.001e-6), shallow)
     heavier = told(FAN_RIG.replace(inner_mass=4.0), FAN_RIG)
-    assert "the y₁ band sinks" in heavier
+    assert "y₁ sinks" in heavier
     assert "k_" not in heavier
     assert "load" not in heavier, "static answers do not depend on the mass"
     faster = told(FAN_RIG.replace(shaft_speed=2.0 * FAN_RIG.shaft_speed), FAN_RIG)
-    assert not {"band", "k_yy", "load"} & set(re.split(r"\W+", faster)), "nor on the speed"
+    assert not {"y₁", "k_yy", "load"} & set(re.split(r"\W+", faster)), "nor on the speed"
     assert "dB higher" in faster
 
 
 def test_what_has_no_answer_is_said_too() -> None:
     loose = FAN_RIG.replace(fy=0.0)
     assert "there is no equilibrium any more (nothing touches" in told(loose, FAN_RIG)
-    assert told(FAN_RIG, None).startswith("Compared with a healthy bearing: "), (
+    assert told(FAN_RIG, None).startswith("The balls beside the defect take over"), (
         "before the first change"
     )
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")
+
+
+def test_two_causes_are_weighed_against_each_other() -> None:
+    """Each alone by the core: mean k_yy over a ball spacing."""
+
+    def k_yy(scene: Scene) -> float:
+        angles = np.linspace(0.0, scene.bearing.ball_spacing, 361)
+        return float(np.trapezoid(equilibrium(scene, angles).term("k_yy"), angles))
+
+    loaded = FAN_RIG.replace(fy=-200.0)
+    longer, more = (100.0 * (k_yy(s) / k_yy(FAN_RIG) - 1.0) for s in (LONGER, loaded))
+    assert told(LONGER.replace(fy=-200.0), FAN_RIG).endswith(
+        f"Alone, each would change k_yy: length of the defect by −{-longer:.0f} % and "
+        f"load by +{more:.0f} %; they work against each other."
+    )
+    both = FAN_RIG.replace(contact_angle=np.radians(5.0), radial_clearance=5e-6)
+    words = told(both, FAN_RIG)
+    of_angle = 2e9 * both.bearing.groove_center_distance * (1.0 - np.cos(np.radians(5.0)))
+    assert "the play grows from 6 µm to 10 µm" in words
+    assert f"({10 * round(of_angle / 10)} nm of it the contact angle, 10 µm the cl" in words
+    assert words.endswith("it is mostly the radial clearance.")
+    turned = FAN_RIG.replace(fx=60.0, fy=-80.0)
+    one_end = LONGER.replace(center=LONGER.defect.center + 0.5 * FAN_RIG.bearing.ball_spacing)
+    faster = FAN_RIG.replace(shaft_speed=2.0 * FAN_RIG.shaft_speed, depth=20e-6)
+    assert not any("Alone" in told(scene, FAN_RIG) for scene in (turned, one_end)), "one cause"
+    assert "depth not at all and shaft speed by +" in told(faster, FAN_RIG)
 
 
 CHAIN = Chain(
@@ -113,15 +139,15 @@ def changed(**news: object) -> str:
         ({"stiffness": {"k_xx": 1.5e7, "k_yy": 3e7}, "loaded_balls": 3.0},
          "So: fewer balls carry (4 → 3), so k_yy falls by 25 %."),
         ({"bands": {**CHAIN.bands, "y1": (600.0, 690.0)}},
-         "So: the y₁ band widens from 615–678 to 600–690 Hz."),
+         "So: y₁ widens from 615–678 to 600–690 Hz."),
         # a peak goes with a band only where it lies in it, both times, and goes its way
         ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
           "peaks": {"y": Peak(576.0, -22.0, 32.0)}},
-         "So: the y₁ band sinks from 615–678 to 532–616 Hz and the spectrum's peak with it, "
+         "So: y₁ sinks from 615–678 to 532–616 Hz and the spectrum's peak with it, "
          "from 672 to 576 Hz."),
         ({"bands": {**CHAIN.bands, "y1": (532.0, 616.0)},
           "peaks": {"y": Peak(1088.0, -30.0, 32.0)}},
-         "So: the y₁ band sinks from 615–678 to 532–616 Hz; the spectrum's peak along y moves "
+         "So: y₁ sinks from 615–678 to 532–616 Hz; the spectrum's peak along y moves "
          "from 672 to 1088 Hz, 8 dB lower."),
         ({"peaks": {"y": Peak(672.0, -19.0, 32.0)}},
          "So: the spectrum's peak at 672 Hz is 3 dB higher."),
@@ -170,7 +196,7 @@ def test_what_is_held_is_said_alike_on_all_tabs() -> None:
 
     short, *full = said(FAN_RIG)
     missing = "Not needed here: z, θx and θy"
-    assert f"{missing}." in short
+    assert f"{missing.replace(' and', ',')}." in short
     assert all(f"{missing} (no load along the shaft, no moment)." in words for words in full)
     chosen = FAN_RIG.replace(dofs=("x", "y", "z"))
     assert all("θx and θy are held by choice." in words for words in said(chosen))

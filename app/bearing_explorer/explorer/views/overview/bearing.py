@@ -20,7 +20,7 @@ class OverviewBearing(BearingDrawing):
 
     name = "overview-bearing"
     prefix = "overview_bearing"
-    title = "Load of the balls"
+    title = "Ball loads"
     compact = short = True
     leads_to = "load"
     in_report = False

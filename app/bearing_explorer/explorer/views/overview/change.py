@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.state.difference import difference
-from bearing_explorer.explorer.views.overview.words import Cause, story
+from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.state.difference import difference, separated
+from bearing_explorer.explorer.state.references import Reference
+from bearing_explorer.explorer.views.overview.words import Cause, each_alone, story
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
     from bearingcore import Scene
 
+_PLAY = ("contact_angle", "radial_clearance")
+"""Fields of a bearing that are its play."""
 _NOTHING = (
     "There is no defect, and nothing has been changed yet: move a slider to see its effect here, "
     "from the loads to the vibration."
@@ -47,20 +51,31 @@ class LastChange(View):
         if before is not None:
             words = difference(results.scene, before.scene, results.focus)
         elif results.scene.defects:
-            words = "Compared with a healthy bearing"
+            words = ""
         else:
             return _NOTHING
         reference = before or results.grey
         now, then = results.scene, reference.scene
+        same = now.bearing.replace(**{name: getattr(then.bearing, name) for name in _PLAY})
+        played = now.bearing != then.bearing and same == then.bearing
         cause = Cause(
             words,
             defect=now.healthy() == then.healthy(),
             masses=now.support != then.support,
-            contacts=now.bearing != then.bearing or now.balls != then.balls,
+            contacts=(now.bearing != then.bearing and not played) or now.balls != then.balls,
             why_not="" if before is None else why_not(now, then),
+            play=reasons.play(now.bearing, then.bearing) if played else "",
         )
-        text = story(cause, results.chain, results.chain_of(reference))
+        former = results.chain_of(reference)
+        text = story(cause, results.chain, former)
+        if before is not None and (causes := separated(now, then, results.focus)):
+            alone = {name: results.chain_of(Reference(own, "")) for name, own in causes.items()}
+            text = f"{text} {each_alone(alone, results.chain, former)}".rstrip()
         return with_elements_of(now.bearing, text)
+
+    def title_of(self, results: Results) -> str:
+        nothing_yet = results.before is None and results.scene.defects
+        return "Compared with a healthy bearing" if nothing_yet else self.title
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         now = results.chain.table().in_units().named()

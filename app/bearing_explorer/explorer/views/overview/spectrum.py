@@ -69,7 +69,9 @@ def layers() -> list[Layer]:
     return [
         strips("overview_bands", of_band, 0.13, reads=("direction",)),
         *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
-        *compared_curves.curves("overview_spectrum", "frequency", *SHOWN, width=1.2),
+        *compared_curves.curves(
+            "overview_spectrum", "frequency", *SHOWN[::-1], width=1.6, thin="x"
+        ),
         curve("overview_lines", "frequency", "x", blue),
         curve("overview_lines", "frequency", "y", orange),
         Words(
@@ -97,7 +99,7 @@ class OverviewSpectrum(View):
     """Along x and y in one figure, with the bands in which the natural frequencies move."""
 
     name = "overview-spectrum"
-    title = "Vibration and natural frequencies"
+    title = "Vibration"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
         "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
@@ -119,6 +121,8 @@ class OverviewSpectrum(View):
             height=120,
         )
         plot.min_border_left = LEFT
+        plot.tags = [compared_curves.THIN]
+        plot.xaxis[0].axis_label = f"{FREQUENCY.label()}, shaded: natural frequencies"
         draw(plot, packed, layers())
         return plot
 

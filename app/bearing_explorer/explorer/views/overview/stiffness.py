@@ -28,7 +28,6 @@ from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, curve, draw, 
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.widgets.form import button
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.statics import TERM_UNITS
 
@@ -76,10 +75,6 @@ LAYERS: tuple[Layer, ...] = (
 """Frames and symbols of the cells and what is in them, from the lowest to the highest."""
 
 
-_UP_RIGHT = {"position": "absolute", "top": "-27px", "right": "0"}  # beside the title
-_ALL_FIFTEEN = "window.dispatchEvent(new CustomEvent('explorer-show', {detail: 'stiffness'}))"
-
-
 def cells_for(count: int) -> list[Cell]:
     """So many cells, as large as they can be: beside one another, or in rows of three or five."""
     columns = count if count <= 3 else 3 if count <= 6 else 5
@@ -99,7 +94,7 @@ class OverviewStiffness(View):
     """The terms that matter over the cage angle, large; a click goes to all of them."""
 
     name = "overview-stiffness"
-    title = "Stiffness of the bearing"
+    title = "Stiffness"
     about = (
         "The terms of the stiffness matrix that vary as the bearing turns, or differ from the "
         "grey ones, with their value now. Blue: this scene. Grey: {grey}."
@@ -107,6 +102,7 @@ class OverviewStiffness(View):
     needs = frozenset({"equilibrium", "now", "ranges"})
     compact = True
     leads_to = "stiffness"
+    lead = "all fifteen"
     in_report = False
 
     def build(self, packed: PackedSource) -> Any:
@@ -115,9 +111,7 @@ class OverviewStiffness(View):
             Range1d(0.0, WIDE, syncable=False), Range1d(-HIGH, 0.0, syncable=False), height=90
         )
         draw(plot, packed, LAYERS)
-        fifteen = button("All fifteen", lambda: None, styles=_UP_RIGHT)
-        fifteen.js_on_click(code=_ALL_FIFTEEN)
-        return [self.only_with_numbers(plot, sizing_mode="stretch_both"), fifteen]
+        return self.only_with_numbers(plot, sizing_mode="stretch_both")
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         found, healthy, now = results.equilibrium, results.reference.equilibrium, results.now

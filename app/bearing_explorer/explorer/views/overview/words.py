@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,7 @@ LEAST_LEVEL = 2.0
 ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
+_MOSTLY = 3.0  # times the effect of the next cause, from which one is the main one
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
@@ -42,6 +44,8 @@ class Cause:
         stiffness.
     why_not
         why the loads stay exactly as they are, should they.
+    play
+        effect of contact angle and clearance on the play of the bearing, in words.
     """
 
     words: str
@@ -49,16 +53,18 @@ class Cause:
     masses: bool = False
     contacts: bool = False
     why_not: str = ""
+    play: str = ""
 
 
 def story(by: Cause, now: Chain, before: Chain) -> str:
     """The cause, then its effects link after link, "so" only where one makes the next."""
     cause, why_not = by.words, by.why_not
+    whose = cause or "With the defect"
     if now.answered == 0.0:
         gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
-        return f"{cause}: {gone} ({now.reason})."
+        return f"{whose}: {gone} ({now.reason})."
     if before.answered == 0.0:
-        return f"{cause}: now there is an equilibrium, which there was not before."
+        return f"{whose}: now there is an equilibrium, which there was not before."
     along = direction(now, before)
     load, stiff = load_words(now, before, by.defect), stiffness_words(now, before, along)
     label = moved_band(now, before, along)
@@ -70,13 +76,16 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
     # where the load went explains the stiffness only if balls push back elsewhere
     text = load if load and (by.defect or not why or "push" in why) else why
+    if by.play:
+        text = f"{by.play}, {why}" if why else by.play
     if stiff:
-        text += f"{', so ' if why else ', ' if text else ''}{style.list_words(stiff)}"
+        text += f"{', so ' if why or by.play else ', ' if text else ''}{style.list_words(stiff)}"
     last = [words for words in (band, heard) if words]
     if text and last:
         text += ". Therefore " if band and follows and not by.masses else "; "
     text += (" and " if "with it" in heard else "; ").join(last)
-    text = f"{cause}: {text or unchanged(now, before, why_not)}"
+    text = text or unchanged(now, before, why_not)
+    text = f"{cause}: {text}" if cause else text[0].upper() + text[1:]
     if now.answered < 1.0:
         text += (
             f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
@@ -85,6 +94,50 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     if now.silent:
         text += f"; there is no spectrum: {now.silent}"
     return f"{text}."
+
+
+def each_alone(causes: Mapping[str, Chain], now: Chain, before: Chain) -> str:
+    """The effect of each of several causes alone, and which of them made the change.
+
+    Judged by the first of these that has changed: the stiffness that is named, the greatest load
+    of a ball, the level of the loudest line.
+    """
+    term = next(iter(named_terms(now, before, direction(now, before))), "")
+    dof = now.loudest
+    if term:
+        what, unit = f"k_{TERM_SYMBOLS[term][2:]}", "%"
+        effect = {name: 100.0 * _change(own, before, term) for name, own in causes.items()}
+    elif abs(_ratio(now.greatest_load, before.greatest_load)) >= LEAST_LOAD:
+        what, unit = "the greatest load of a ball", "%"
+        effect = {
+            name: 100.0 * _ratio(own.greatest_load, before.greatest_load)
+            for name, own in causes.items()
+        }
+    elif dof and all(dof in of.peaks for of in (before, *causes.values())):
+        what, unit = "the spectrum's peak", "dB"
+        effect = {
+            name: own.peaks[dof].level - before.peaks[dof].level for name, own in causes.items()
+        }
+    else:
+        return ""
+    least = LEAST_LEVEL if unit == "dB" else 100.0 * LEAST
+    said = [f"{name} {_signed(value, unit)}" for name, value in effect.items()]
+    most, *others = sorted(effect, key=lambda name: -abs(effect[name]))
+    if abs(effect[most]) < least:
+        why = "only both together do it"
+    elif abs(effect[most]) >= _MOSTLY * abs(effect[others[0]]):
+        why = f"it is mostly the {most}"
+    elif effect[most] * effect[others[0]] < 0.0:
+        why = "they work against each other"
+    else:
+        why = "each has a part in it"
+    return f"Alone, each would change {what}: {style.list_words(said)}; {why}."
+
+
+def _signed(value: float, unit: str) -> str:
+    if abs(value) < 0.05:
+        return "not at all"
+    return f"by {'−' if value < 0.0 else '+'}{style.number(abs(value), 2)} {unit}"
 
 
 def direction(now: Chain, before: Chain) -> str:
@@ -123,6 +176,10 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
 def why_stiffer(now: Chain, before: Chain, along: str) -> str:
     """Why the radial stiffness that is named first changed, from balls and their places."""
     term = next(iter(named_terms(now, before, along)), "")
+    leant, changed = math.log(now.upright / before.upright), math.log1p(_change(now, before, term))
+    if leant * changed > 0.0 and abs(leant) >= 0.5 * abs(changed):
+        more = "more" if leant < 0.0 else "less"
+        return f"contacts lean {more} (cos²α {before.upright:.2f} → {now.upright:.2f})"
     return why_softer(
         term, (now.stiffness, now.loaded_balls), (before.stiffness, before.loaded_balls), True
     )
@@ -203,7 +260,7 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
 def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
     """Move of a band, in words."""
     low, high = (_ratio(new, old) for new, old in zip(now, before, strict=True))
-    name = f"the {mode_symbol(label)} band"
+    name = mode_symbol(label)
     still = 0.5 * LEAST
     if min(low, high) > -still:
         verb = "rises"

@@ -1,0 +1,171 @@
+"""Displacement of the inner ring, and the stiffness at the operating point as a table to copy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.widgets.facts import facts_pane, html_table, html_text
+from bearingcore import DOF_NAMES
+from bearingcore.scene import DOF_SYMBOLS
+
+_THIS_SCENE = "this scene"
+_UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
+"""Unit of the displacement along each direction, and what one of SI is in it."""
+_WAYS = (("to the left", "to the right"), ("down", "up"), ("back along z", "along z"))
+_WHEN = ("at this cage angle", "least", "mean", "greatest")
+
+
+class Displacement(View):
+    """Displacement of the inner ring, now and over a period."""
+
+    name = "displacement"
+    title = "Displacement of the inner ring"
+    about = (
+        "How far the load moves the inner ring. Against the outer one, in the middle of which it "
+        "would be without a load and without clearance; y counts upwards. Least, mean in time and "
+        "greatest are those of one period, with a defect of the inner race of all turns of the "
+        "shaft."
+    )
+    needs = frozenset({"equilibrium", "now", "ranges"})
+    in_report = False
+
+    @property
+    def compares(self) -> bool:
+        return True
+
+    def build(self, packed: PackedSource) -> Any:
+        self._numbers = facts_pane()
+        return self._numbers
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            self._numbers.object = "".join(self.html(one) for one in _scenes(results))
+
+    def html(self, named: tuple[str, Results]) -> str:
+        """The table of a scene, under its name where it has one."""
+        name, results = named
+        heads = (
+            "",
+            *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
+        )
+        rows = (
+            (html_text(when), *(_digits(value) for value in line))
+            for when, line in zip(_WHEN, displacements(results).tolist(), strict=True)
+        )
+        return _headed(name, html_table(heads, rows, named=True))
+
+    def sentence(self, results: Results) -> str:
+        if not results.now.converged[0]:
+            return f"No displacement: {results.now.reason(0)}."
+        now = displacements(results)[0]
+        moved = [
+            f"{style.number(abs(value))} µm {way[value > 0.0]}"
+            for value, way in zip(now[:3].tolist(), _WAYS, strict=True)
+            if abs(value) > 0.01 * np.abs(now[:3]).max()
+        ]
+        tilt = math.hypot(*now[3:])
+        words = (
+            f"The inner ring is moved by {style.list_words(moved)}"
+            if moved
+            else "The inner ring is in the middle"
+        )
+        if tilt >= 5e-7:
+            words += f", and tilted by {style.number(tilt)} mrad"
+        return f"{words}. {results.scene.tilt_words()}".rstrip()
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        scenes = list(_scenes(results))
+        values = np.concatenate([displacements(one) for _, one in scenes])
+        names = [
+            f"{dof}_{'um' if unit == 'µm' else unit}"
+            for dof, (unit, _) in zip(DOF_NAMES, _UNITS, strict=True)
+        ]
+        return {
+            "scene": np.repeat([name or _THIS_SCENE for name, _ in scenes], len(_WHEN)),
+            "when": np.tile(_WHEN, len(scenes)),
+            **dict(zip(names, values.T, strict=True)),
+        }
+
+
+class OperatingPoint(Displacement):
+    """Displacement, and stiffness as five by five numbers to copy."""
+
+    name = "operating-point"
+    title = "Operating point"
+    about = (
+        "Displacement, and stiffness to copy, in N, m and rad. A row is a load on the inner ring, "
+        "a column the displacement that it resists: the mean in time, as rotor programs want it; "
+        "the file has the one at this cage angle too. Directions that are held have a stiffness "
+        "as well."
+    )
+
+    def html(self, named: tuple[str, Results]) -> str:
+        """Both tables of a scene, under its name where it has one."""
+        load, *columns = named[1].ranges.state.stiffness_table().named().values()
+        heads = ("", *map(_per, DOF_NAMES))
+        rows = (
+            (html_text(str(one)), *(_digits(float(value), 5) for value in line))
+            for one, line in zip(load, _without_noise(np.stack(columns, axis=1)), strict=True)
+        )
+        return super().html(named) + html_table(heads, rows, named=True)
+
+    def sentence(self, results: Results) -> str:
+        state = results.ranges.state
+        return state.sentence if state.converged.any() else super().sentence(results)
+
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        found: dict[str, list[Any]] = {"scene": [], "when": []}
+        for name, one in _scenes(results):
+            over = one.ranges.state
+            moved = over.displacement_table().named()["mean"], one.now.displacement[0]
+            tables = over.stiffness_table(), one.now.stiffness_table(0)
+            for when, displacement, table in zip(("mean", _WHEN[0]), moved, tables, strict=True):
+                found["scene"] += len(DOF_NAMES) * [name or _THIS_SCENE]
+                found["when"] += len(DOF_NAMES) * [when]
+                columns = table.named() | {"displacement_in_si": displacement}
+                for column, values in columns.items():
+                    found.setdefault(column, []).extend(values)
+        return {column: np.array(values) for column, values in found.items()}
+
+
+def _without_noise(values: np.ndarray) -> np.ndarray:
+    """Numbers that are rounding noise of the largest ones beside them as zero."""
+    largest = np.nanmax(np.abs(values), initial=0.0)
+    return np.where(np.abs(values) < 1e-9 * largest, 0.0, values)
+
+
+def displacements(results: Results) -> np.ndarray:
+    """(4, 5) [µm, mrad] at this cage angle; least, mean and greatest over all positions."""
+    over = results.ranges.state.displacement_table().named()
+    rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
+    return _without_noise(np.array(rows, dtype=float) * [factor for _, factor in _UNITS])
+
+
+def _scenes(results: Results) -> Iterable[tuple[str, Results]]:
+    """The scene, and those that it is compared with, each with a name where there are several."""
+    compared = [
+        (one.name, other)
+        for one, other in zip(results.compared, results.compared_results, strict=True)
+    ]
+    return [(_THIS_SCENE if compared else "", results), *compared]
+
+
+def _per(dof: str) -> str:
+    return f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})"
+
+
+def _headed(name: str, table: str) -> str:
+    return f"<h3>{html_text(name)}</h3>{table}" if name else table
+
+
+def _digits(value: float, digits: int = 4) -> str:
+    return "not known" if math.isnan(value) else style.number(value, digits)

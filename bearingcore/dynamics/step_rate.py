@@ -1,0 +1,49 @@
+"""Rate of the steps of a motion."""
+
+from __future__ import annotations
+
+import math
+
+from bearingcore.common import checks
+from bearingcore.dynamics.ball_motion import ball_step_rate
+from bearingcore.dynamics.damping import packed_motion
+from bearingcore.dynamics.modes import highest_frequency_of
+from bearingcore.scene.packing import PackedMotion
+from bearingcore.scene.scene import WITH_MASS, Scene
+from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
+
+STEPS_A_CYCLE = 16.0
+"""Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
+error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim bearing, in five
+directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
+that needs them, as steps stay stable down to 2.2."""
+
+
+def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
+    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
+
+    It has STEPS_A_CYCLE steps in a period of the `highest` natural frequency [Hz], and
+    STEPS_A_PASSAGE while a ball passes the defect. Where balls have mass a multiple, see
+    `ball_step_rate`. Raises ValueError where none is finite.
+    """
+    return step_rate_of(packed_motion(scene), sample_rate, highest)
+
+
+def step_rate_of(packed: PackedMotion, sample_rate: float, highest: float) -> float:
+    """`default_step_rate` of a scene that is packed."""
+    scene = packed.scene
+    needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
+    needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
+    if scene.balls == WITH_MASS:
+        needed = max(needed, ball_step_rate(packed, sample_rate))
+    if not math.isfinite(needed):
+        raise checks.refuse("the step rate that the scene needs", needed, "a finite one [Hz]")
+    if needed <= sample_rate:
+        return sample_rate / math.floor(sample_rate / needed)
+    return sample_rate * math.ceil(needed / sample_rate - 1e-9)
+
+
+def fine_step_rate(scene: Scene, sample_rate: float) -> float:
+    """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
+    packed = packed_motion(scene)
+    return max(step_rate_of(packed, sample_rate, highest_frequency_of(packed)), sample_rate)

@@ -1,0 +1,58 @@
+"""Displacement and stiffness on the page, recomputed without the solver."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import Reference
+from bearing_explorer.explorer.views.displacement import Displacement, OperatingPoint
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from scipy.optimize import brentq
+
+from bearingcore import presets, scene_of
+from bearingcore.scene import FREE_TILT_WORDS
+
+RIG = presets["fan-rig"].healthy()
+
+
+def drop(force: float) -> float:
+    """Displacement [m] downwards of the rig's ring, a ball at 270°, under a force [N]: Eq. 13."""
+    bearing = RIG.bearing
+    phi = 2.0 * math.pi * np.arange(bearing.n_balls) / bearing.n_balls
+
+    def carried(y: float) -> float:
+        pressed = np.maximum(y * np.cos(phi) - bearing.radial_clearance, 0.0)
+        return float((bearing.load_deflection_factor * pressed**1.5 * np.cos(phi)).sum())
+
+    return brentq(lambda y: carried(y) - force, 0.0, 1e-3, xtol=1e-16)
+
+
+def test_displacement_and_stiffness_are_those_of_the_force_balance() -> None:
+    spacing = 2.0 * math.pi / RIG.bearing.n_balls
+    results = Results(RIG, (1.5 * math.pi) % spacing)
+    moved = Displacement(PackedSource()).table(results)
+    assert moved["y_um"][0] == pytest.approx(-1e6 * drop(100.0), rel=1e-6)
+    assert moved["y_um"][1] <= moved["y_um"][2] <= moved["y_um"][3]
+    found = OperatingPoint(PackedSource()).table(results)
+    now = (found["when"] == "at this cage angle") & (found["load"] == "fy [N]")
+    slope = 0.02 / (drop(100.01) - drop(99.99))
+    assert found["per_m_y"][now] == pytest.approx(slope, rel=1e-4)
+    assert found["displacement_in_si"][now] == pytest.approx(-drop(100.0), rel=1e-6)
+
+
+def test_two_bearings_stand_side_by_side_and_directions_are_said() -> None:
+    results = Results(scene_of("7208 B"), compared=(Reference(scene_of("7308 B"), "7308 B"),))
+    view = Displacement(PackedSource())
+    table = view.table(results)
+    assert table["scene"].tolist() == 4 * ["this scene"] + 4 * ["7308 B"]
+    assert np.isfinite(table["y_um"]).all()
+    assert view.html(("7308 B", results)).count("<h3>7308 B</h3>") == 1
+    assert "Tilt is held" in view.sentence(results)
+    free = Results(results.scene.replace(dofs="tilt free", fz=6000.0))
+    assert FREE_TILT_WORDS in OperatingPoint(PackedSource()).sentence(free)
+    unloaded = Results(RIG.replace(fy=0.0))
+    assert view.sentence(unloaded).startswith("No displacement: ")
+    assert "not known" in view.html(("", unloaded))

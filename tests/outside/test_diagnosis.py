@@ -1,0 +1,154 @@
+"""Which part, how long, and how it grows: signals built here from blows whose truth is known.
+
+Sources of the right values: the multiples of the shaft speed that Case Western Reserve University
+prints for the 6205 of its motor (Bearing Data Center, "Bearing Information"), and blows that stand
+where kinematics puts them. Nothing of the program makes a signal here.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import Recording, diagnose, measure_extent, presets, trend
+from bearingcore.diagnosis.extent.measure import ExtentStatus
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
+from bearingcore.diagnosis.trend import LINES
+from bearingcore.files.table import read_table
+from tests.helpers.recordings import file_from_elsewhere
+from tests.outside.elements import Array
+from tests.outside.witness import witness
+
+TURN = 2.0 * math.pi
+PRINTED = {"inner race": 5.4152, "outer race": 3.5848, "ball": 4.7135}
+"""Multiples of the shaft speed of a 6205-2RS JEM SKF, as printed."""
+CAGE = 0.39828
+BEARING = presets["6205"].bearing
+SHAFT, RATE, SECONDS = 1797.0 / 60.0, 12_000.0, 4.0
+BALLS = 9
+
+
+def blows(times: Array, sizes: Array, rate: float, count: int, rings: tuple[float, float]) -> Array:
+    """Decaying sines from instants between the samples [s]; `rings`: frequency, decay [1/s]."""
+    frequency, decay = rings
+    first = np.ceil(times * rate).astype(int)
+    index = first[:, None] + np.arange(int(8.0 / decay * rate))
+    since = index / rate - times[:, None]
+    shape = sizes[:, None] * np.exp(-decay * since) * np.sin(TURN * frequency * since)
+    kept = index < count
+    return np.bincount(index[kept], shape[kept], count)
+
+
+def damaged(part: str, height: float, seed: int = 1) -> Array:
+    """Noise of deviation 1, and blows as often as printed, carried through the load zone."""
+    rng = np.random.default_rng(seed)
+    count = round(RATE * SECONDS)
+    noise = rng.standard_normal(count)
+    if not height:
+        return noise
+    step = 1.0 / (PRINTED[part] * SHAFT)
+    number = int(SECONDS / step)
+    times = step * (np.arange(number) + 0.5 + 0.01 * rng.standard_normal(number))
+    turns = {"outer race": 0.0, "inner race": SHAFT, "ball": CAGE * SHAFT}[part]
+    sizes = 1.0 + np.cos(TURN * turns * times)
+    ringing = blows(times, sizes, RATE, count, (3300.0, 900.0))
+    return noise + height * ringing / ringing.std()
+
+
+def recording(signal: Array, rate: float = RATE, name: str = "signal") -> Recording:
+    return Recording(signal[:, None], rate, ("y",), name)
+
+
+@witness(
+    "function: diagnose",
+    by="CWRU's printed multiples for the 6205: blows so often, through a load zone, in noise",
+    compared="part named, its frequency", within=0.002,
+)  # fmt: skip
+@pytest.mark.parametrize("part", list(PRINTED))
+def test_parts_by_their_printed_multiples(part: str) -> None:
+    found = diagnose(recording(damaged(part, 1.5)), BEARING, TURN * SHAFT)
+    assert found.fault == part
+    assert found.probability > 0.9
+    assert found.of(part).frequency == pytest.approx(PRINTED[part] * SHAFT, rel=0.002)
+    assert found.of(part).nominal_order == pytest.approx(PRINTED[part], rel=1e-4)
+    # blows as often as those of no part of this bearing name none
+    times = np.arange(0.01, SECONDS, 1.0 / (4.21 * SHAFT))
+    other = blows(times, np.ones_like(times), RATE, round(RATE * SECONDS), (3300.0, 900.0))
+    strange = recording(damaged(part, 0.0) + 1.5 * other / other.std())
+    assert not diagnose(strange, BEARING, TURN * SHAFT).names_a_part
+
+
+@witness(
+    "function: trend", "function: trend_point",
+    by="closed form: blows that grow in noise of deviation 1, as often as CWRU prints",
+    compared="root mean square √(1 + h²), growth of the line, part named from when on",
+    within=0.1,
+)  # fmt: skip
+def test_a_fault_that_grows() -> None:
+    heights = np.array([0.0, 0.0, 0.8, 1.6, 3.2])
+    series = [
+        recording(damaged("inner race", height, seed), name=f"{seed}")
+        for seed, height in enumerate(heights)
+    ]
+    found = trend(series, BEARING, TURN * SHAFT, band=(2500.0, 4500.0))
+    assert found.column("rms") == pytest.approx(np.sqrt(1.0 + heights**2), rel=0.03)
+    assert found.rms_change[-1] == pytest.approx(math.sqrt(1.0 + 3.2**2), rel=0.03)
+    named = [point.fault for point in found.points]
+    assert set(named[:2]) <= {NONE_SEEN, CANNOT_TELL}
+    assert named[2:] == ["inner race"] * 3
+    # a line of the envelope is as high as the blows, but for the noise that fills it up below them
+    line = found.clear_lines[:, LINES.index("bpfi")]
+    assert np.isnan(line[:2]).all()
+    assert line[4] / line[3] == pytest.approx(2.0, rel=0.1)
+
+
+def passages(apart_deg: float, rate: float = 25_600.0, seed: int = 3) -> Array:
+    """Soft blows as balls enter a spall of the outer race and sharp ones as they leave it."""
+    rng = np.random.default_rng(seed)
+    shaft, seconds = 15.0, 3.0
+    count, frequency = round(rate * seconds), PRINTED["outer race"] * shaft
+    number = int((seconds - 0.05) * frequency)
+    enters = np.cumsum(1.0 + 0.004 * rng.standard_normal(number)) / frequency
+    leaves = enters + apart_deg / (360.0 / BALLS) / frequency
+    ones = np.ones(number)
+    soft = blows(enters, 3.0 * ones, rate, count, (1500.0, 9000.0))
+    sharp = blows(leaves, 3.0 * ones, rate, count, (6000.0, 20_000.0))
+    path = blows(leaves, 0.3 * ones, rate, count, (4300.0, 700.0))
+    return soft + sharp + path + 0.02 * rng.standard_normal(count)
+
+
+@witness(
+    "function: measure_extent",
+    by="blows at entry and exit, so far apart as kinematics says", compared="angle between them",
+    within="0.3°, either way round where both are likely",
+)  # fmt: skip
+@pytest.mark.parametrize("apart", [4.0, 6.0, 12.0, 27.0])
+def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
+    found = measure_extent(recording(passages(apart), 25_600.0), BEARING, TURN * 15.0, race="outer")
+    sure = apart < 40.0 / 6.0
+    assert found.status == (ExtentStatus.MEASURED if sure else ExtentStatus.EITHER)
+    shorter = min(apart, 40.0 - apart)
+    assert math.degrees(found.separation) == pytest.approx(shorter, abs=0.3)
+    (one, low, high), (other, _, _) = np.degrees(found.alternatives)
+    assert one + other == pytest.approx(40.0 + 2.0 * math.degrees(found.offset))
+    assert low < shorter + math.degrees(found.offset) < high
+
+
+@witness(
+    "function: measure_extent",
+    by="a motion by SciPy's solve_ivp over a defect of 47.3°, with no code of the program",
+    compared="extent, but for ball spacings and for which peak is the entry",
+    within="its interval of 95 %",
+)  # fmt: skip
+@pytest.mark.proof
+def test_an_extent_of_a_motion_by_scipy() -> None:
+    truth, content = file_from_elsewhere()
+    read = read_table("rig.csv", content).recording(["vertical", "horizontal"], ["y", "x"], "g")
+    found = measure_extent(
+        read, truth.bearing, truth.shaft_speed, race="outer", load=300.0, clearance=0.0,
+        edge="published",
+    )  # fmt: skip
+    assert found.status == ExtentStatus.EITHER
+    assert math.isnan(found.extent)
+    beyond = math.radians(47.3) - found.ball_spacing
+    assert any(low <= beyond <= high for _, low, high in found.alternatives)

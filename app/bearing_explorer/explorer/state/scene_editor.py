@@ -486,7 +486,10 @@ class SceneEditor:
         self.take_bearing(found.bearing, found.name, origin)
 
     def _take_kind(self, kind: str) -> None:
-        self._take(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
+        scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
+        self._take(scene)
+        if effect:
+            self.effects["kind"] = effect
         self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
         self._write_values()
         self.drop_draft()

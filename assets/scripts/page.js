@@ -167,7 +167,7 @@
         changes_of_size.observe(el)
         model.setv({ sizing_mode: "stretch_width", height: Math.max(60, Math.round(height) + more), min_height: null }, { sync: false })
         for (const axis of model.left)  // in two lines: large type is long
-          if (axis.axis_label) axis.setv({ axis_label: axis.axis_label.replace(/ \(/, "\n(") }, { sync: false })
+          if (axis.axis_label && !axis.axis_label.includes("\n")) axis.setv({ axis_label: axis.axis_label.replace(" (", "\n(") }, { sync: false })
       }
     }
   }

@@ -236,9 +236,11 @@ ON_SCREEN = """() => {
     verdict: of(".prediction .verdict").filter((one) => one.textContent).map(share),
     controls: of(".controls-place").map(share),
     words: of(".words")[0].getBoundingClientRect().height,
-    views: of(".watched").map((view) => [share(view), view.getBoundingClientRect().height]),
-    drawn: Bokeh.index.query(({ model, el }) => model.type === "Figure" && el.checkVisibility({
-      visibilityProperty: true })).map(({ el }) => share(el)),
+    views: of(".watched")
+      .filter((view) => [...deep(view.shadowRoot)].some((part) => part.matches("canvas")))
+      .map((view) => [share(view), view.getBoundingClientRect().height]),
+    drawn: [...Bokeh.index.query(({ model, el }) => model.type === "Figure" && el.checkVisibility({
+      visibilityProperty: true }))].map(({ el }) => share(el)),
   }
 }"""
 LESSONS = len(list(own_folder().glob("*.md")))

@@ -1,9 +1,11 @@
 // The lessons beside the figures: a list of them, the words of one, its prediction and its answer.
 // Words come from the server as safe HTML; a button in them carries its message in data-ask. A scene
-// is set when a lesson begins, and never when its words are shown again.
+// is set when a lesson begins, and never when its words are shown again. A lesson comes in steps: its
+// question with the prediction, which has the side panel alone, then each of its other parts. They are
+// below one another, and one at a time on a projector, where a row of buttons leads to each.
 //
-// Other scripts get the event "lesson": which controls it names and which figures it marks, or null
-// where none is open. The event "lessons" opens and closes them.
+// Other scripts get the event "lesson": which controls it names, which figures it marks and which it
+// veils, or null where none is open. The event "lessons" opens and closes them.
 
 const REMEMBERED = "bearing-explorer.lessons"
 
@@ -21,6 +23,18 @@ function remember(changes) {
   } catch { /* for as long as the page is open */ }
 }
 
+// Whether a teacher's link has asked this browser to keep answers back, at most so long ago.
+const HIDES = "bearing-explorer.hides-answers", HIDDEN_FOR = 12 * 3600 * 1000  // ms
+function hides_answers() {
+  const asked = location.hash.includes("hide-answers")
+  try {
+    if (asked) localStorage.setItem(HIDES, String(Date.now()))
+    return Date.now() - Number(localStorage.getItem(HIDES) ?? -Infinity) < HIDDEN_FOR
+  } catch {
+    return asked
+  }
+}
+
 export function render({ model }) {
   const root = document.documentElement
   const usable = (number) => model.titles[number]?.[1] === ""
@@ -34,17 +48,18 @@ export function render({ model }) {
   const answers = () => Object(remembered()[key()])
   const remember_answer = (answer) => remember({ [key()]: { ...answers(), ...answer } })
 
-  // A teacher's link may keep answers back, for as long as this tab of the browser lasts.
-  if (location.hash.includes("hide-answers")) remember({ hides: true })
-  const hides = Boolean(remembered().hides)
+  const hides = hides_answers()
 
   let open = false, listed = false  // whether the list is shown instead of a lesson
   let resumed = model.open_first  // whether the lesson that comes was open before, with its answers
+  let asks = false, reads = false  // whether its question has the side panel alone, or its answer is read
   const send_event = () => {
     const { drag = [], watch = [], predict } = began() && !listed ? model.lesson : {}
-    const { given, revealed } = answers()
-    const veiled = Boolean(predict) && given === undefined && !revealed
+    const { given, tried } = answers()
+    const veiled = predict && given === undefined && !tried ? predict.veil ?? watch : []
     root.toggleAttribute("data-lesson", open)
+    root.toggleAttribute("data-asks", open && !listed && asks)
+    root.toggleAttribute("data-reads", lesson.classList.toggle("reads", open && (listed || reads)))
     announce("lesson", open ? { drag, watch, veiled } : null)
   }
   const go = (number) => {
@@ -67,8 +82,11 @@ export function render({ model }) {
   })
   const projector = button("Projector", () => announce("projector", !root.hasAttribute("data-projector")),
     { class: "projector", title: "Large type and fewer controls, for a projector" })
-  const show_projector = () =>
-    projector.setAttribute("aria-pressed", String(root.hasAttribute("data-projector")))
+  const show_projector = () => {
+    const large = root.hasAttribute("data-projector")
+    projector.setAttribute("aria-pressed", String(large))
+    lesson.classList.toggle("large", large)
+  }
   const close = button("\u00d7", () => announce("lessons"),
     { class: "close", "aria-label": "Close the lessons", title: "Close the lessons" })
   const faults = element("div", { class: "faults" },
@@ -78,14 +96,14 @@ export function render({ model }) {
     const chosen = event.target.closest("[data-ask]")
     if (chosen) ask(model, JSON.parse(chosen.dataset.ask))
   })
-  words.addEventListener("wheel", ({ deltaY }) => { words.scrollLeft += deltaY }, { passive: true })  // columns
   const back = button("Back", () => go(next_of(model.lesson.number, -1)), { class: "step back" })
   const next = button("Next lesson", () => go(next_of(model.lesson.number, 1)), { class: "step next" })
   const again = button("Begin again", () => go(model.lesson.number),
     { class: "step again", title: "Set the scene that this lesson begins with" })
   const steps = element("footer", {}, back, again, next)
+  const parts = element("div", { class: "parts", role: "group", "aria-label": "Parts of the lesson" })
   const lesson = element("section", { class: "lesson", "aria-label": "Lesson", hidden: "" },
-    element("header", {}, select, projector, close), faults, words, steps)
+    element("header", {}, select, parts, projector, close), faults, words, steps)
 
   const fill = (...parts) => {
     words.replaceChildren(...parts)
@@ -95,7 +113,7 @@ export function render({ model }) {
   }
   // The list of all lessons, and the page for those who teach.
   const list = () => {
-    listed = steps.hidden = true
+    listed = steps.hidden = parts.hidden = true
     select.value = "-1"
     const entries = model.titles.map(([title, fault], number) => {
       const entry = button(title, () => go(number), { class: "entry" })
@@ -104,16 +122,15 @@ export function render({ model }) {
     })
     const teachers = element("details", { class: "teachers" }, element("summary", {}, "For teachers"),
       element("div", { class: "body", html: model.teachers }))
-    teachers.hidden = !model.teachers
     teachers.addEventListener("toggle", () => { if (teachers.open) teachers.scrollIntoView() })
     fill(element("h2", { tabindex: "-1" }, "Lessons"),
       element("p", { class: "note" }, "Each asks a question, shows which slider to drag, and gives the "
         + "answer. Beginning one sets its scene; Undo brings yours back."),
-      element("ol", { class: "entries" }, ...entries), teachers)
+      element("ol", { class: "entries" }, ...entries), ...(hides || !model.teachers ? [] : [teachers]))
   }
 
   // A prediction: chosen or typed. Until then the figures that would answer it are veiled.
-  const prediction = ({ ask: question, choose: choices, right, unit, within }, reveal) => {
+  const prediction = ({ ask: question, choose: choices, right, unit, within }, settled) => {
     const verdict = element("p", { class: "verdict", role: "status" })
     const boxes = choices.map((_, index) =>
       element("input", { type: "radio", name: "prediction", value: String(index) }))
@@ -124,16 +141,17 @@ export function render({ model }) {
       const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
       form.dataset.said = hides ? "" : is_right ? "right" : "other"
       verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(best)}.`
-      reveal.textContent = reveal.dataset.after
       remember_answer({ given })
+      settled()
       announce("predicted")
     }
     boxes.forEach((one, index) => one.addEventListener("change", () => settle(index)))
     const form = element("form", { class: "prediction" }, element("h3", {}, "Your prediction"),
-      element("p", {}, question),
-      ...boxes.map((one, index) => element("label", {}, one, element("span", {}, choices[index]))),
-      ...(boxes.length ? [] : [element("label", { class: "typed" }, box, element("span", {}, unit),
-        element("button", { type: "submit" }, "Predict"))]), verdict)
+      element("p", { class: "asked" }, question),
+      element("div", { class: "choices" },
+        ...boxes.map((one, index) => element("label", {}, one, element("span", {}, choices[index]))),
+        ...(boxes.length ? [] : [element("label", { class: "typed" }, box, element("span", {}, unit),
+          element("button", { type: "submit" }, "Predict"))])), verdict)
     form.addEventListener("submit", (event) => {
       event.preventDefault()
       const text = box.value.trim().replace("−", "-").replace(",", ".")
@@ -147,38 +165,52 @@ export function render({ model }) {
     settle(given)
     return form
   }
-  // The last part of a lesson: its answer, behind a button.
-  const answer = (part, heading, predict) => {
-    const what = heading.toLowerCase()
-    const reveal = button(predict ? `Skip to the ${what}` : heading, () => {
-      uncover()
-      part.setAttribute("tabindex", "-1")
-      part.focus({ preventScroll: true })
-      part.scrollIntoView({ inline: "start" })
-    }, { class: "reveal", "aria-expanded": "false", "data-after": `Show the ${what}` })
-    const uncover = () => {
-      part.hidden = false
-      reveal.hidden = true
-      remember_answer({ revealed: true })
-      announce("predicted")
-    }
-    part.classList.add("answer")
-    part.hidden = true
-    if (resumed && answers().revealed) uncover()
-    return [predict ? [prediction(predict, reveal)] : [], element("div", { class: "last" }, ...(hides ? [] : [reveal, part]))]
-  }
   const show = () => {
     if (!began()) return
-    listed = steps.hidden = false
-    const { number, title, parts, predict } = model.lesson
+    listed = steps.hidden = parts.hidden = false
+    const { number, title, parts: written, predict } = model.lesson
+    const { revealed, tried } = resumed ? answers() : {}
     remember({ last: number })
     select.value = String(number)
     back.disabled = next_of(number, -1) < 0
     next.disabled = next_of(number, 1) < 0
-    const made = parts.map(({ heading, html }) =>
-      element("div", { class: "part" }, element("h3", {}, heading), element("div", { class: "body", html })))
-    const [predicted, last] = answer(made.pop(), parts.at(-1).heading, predict)
-    fill(element("h2", { tabindex: "-1" }, title), ...made.slice(0, 1), ...predicted, ...made.slice(1), last)
+    const made = written.map(({ heading, html }) => element("div", { class: "part", tabindex: "-1" },
+      element("h3", {}, heading), element("div", { class: "body", html })))
+    const [question, answer] = [made[0], made.at(-1)]
+    if (hides) made.pop()
+    const named = written.slice(0, made.length).map(({ heading }) => heading)
+    answer.classList.add("answer")
+    answer.hidden = !revealed
+    asks = Boolean(predict) && !tried
+    reads = false
+    // To a part: those before the answer come with the controls, and the answer is uncovered.
+    const go_on = (at) => {
+      asks &&= at === 0
+      reads = made[at] === answer
+      if (reads) answer.hidden = false
+      if (at !== 0) remember_answer({ tried: true, ...(answer.hidden ? {} : { revealed: true }) })
+      show_part(Math.max(at, 0))
+      send_event()
+      made[at]?.focus({ preventScroll: true })
+      made[at]?.scrollIntoView({ block: "start" })
+    }
+    const show_part = (current) => {
+      made.forEach((part, at) => {
+        if (part !== answer) part.hidden = asks && at > 0
+        part.classList.toggle("current", at === current)
+      })
+      parts.replaceChildren(...named.map((name, at) =>
+        button(name, () => go_on(at), { "aria-pressed": String(at === current) })))
+      on.hidden = !asks || answers().given === undefined
+      reveal.hidden = hides || !answer.hidden
+      reveal.textContent = `${asks && on.hidden ? "Skip to the" : "Show the"} ${written.at(-1).heading.toLowerCase()}`
+    }
+    const on = button("Try it yourself", () => go_on(made[1] === answer ? -1 : 1), { class: "reveal" })
+    const reveal = button("", () => go_on(made.length - 1), { class: "reveal second", "aria-expanded": "false" })
+    if (predict) question.append(prediction(predict, () => show_part(0)))
+    show_part(0)
+    fill(element("h2", { tabindex: "-1" }, title), ...made.filter((part) => part !== answer),
+      element("div", { class: "ways" }, on, reveal), ...(hides ? [] : [answer]))
     resumed = false
   }
 

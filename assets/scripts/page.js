@@ -10,10 +10,10 @@
   on_event("lesson", root, (lesson) => {
     lessons.setAttribute("aria-expanded", String(lesson !== null))
     marked = lesson?.watch ?? []
-    veiled = lesson?.veiled ?? false
+    veiled = lesson?.veiled ?? []
     mark_as_they_come(show_marked)
   })
-  on_event("predicted", root, () => { veiled = false; mark() })
+  on_event("predicted", root, () => { veiled = []; mark() })
 
   const show_theme = () => {
     const dark = root.dataset.theme === "dark"
@@ -71,18 +71,28 @@
   on_event("drawn", root, () => { if (wanted !== null && is_open()) wait_for(null, "") })
 
   // Figures come and go with their tabs, each inside the shadow of another.
-  let marked = [], veiled = false  // veiled: they would answer what is to be predicted
+  let marked = [], veiled = []  // veiled: they would answer what is to be predicted
   const mark = () => {
-    const missing = new Set(marked)
+    const missing = new Set([...marked, ...veiled])
     for (const view of inside(main)) {
       if (!view.classList.contains("view")) continue
-      const found = marked.find((name) => view.classList.contains(`view-${name}`))
-      view.classList.toggle("watched", found !== undefined)
-      view.classList.toggle("veiled", found !== undefined && veiled)
-      missing.delete(found)
+      const is = (name) => view.classList.contains(`view-${name}`)
+      const hidden = veiled.some(is), parts = answers_in(view)
+      view.classList.toggle("watched", marked.some(is))
+      view.classList.toggle("veiled", hidden)
+      view.classList.toggle("in-part", parts.length > 0)
+      for (const part of parts) if (part.visible === hidden) part.setv({ visible: !hidden }, { sync: false })
+      for (const name of [...missing]) if (is(name)) missing.delete(name)
     }
     return missing.size === 0
   }
+  const figures_in = (view) => [...Bokeh.index.query(({ model, el }) => {
+    if (model.type !== "Figure") return false
+    for (let at = el; at; at = at.parentElement ?? at.getRootNode().host) if (at === view) return true
+  })]
+  // What a view has tagged as the answer in its figures: the rest of them need not be veiled.
+  const answers_in = (view) => figures_in(view)
+    .flatMap(({ model }) => [...model.renderers, ...model.below]).filter(({ tags }) => tags.includes("answer"))
   // A tab that is opened for the first time is built on the server: its figures come when they come.
   const mark_as_they_come = (then, tries = 200) => {
     if (mark()) requestAnimationFrame(then)
@@ -113,26 +123,78 @@
   }
 
   // For a projector all words are larger: parts without figures as a whole, while figures have type of
-  // their own (look.js), and views are below one another.
+  // their own (look.js), and views are below one another. With a lesson only the views that it marks
+  // are there, two of them side by side, and their figures have the height that there is.
   const LARGER = 1.64
   const enlarge_words = () => {
     const large = root.hasAttribute("data-projector")
     const has_figure = (part) => {
       if (part.localName === "canvas") return true
-      part.classList.toggle("one-column", large && part.classList.contains("section"))
+      if (part.classList.contains("section")) {
+        const views = [...inside(part.shadowRoot)].filter((one) => one.matches(".view"))
+        const shown = views.filter((view) => view.matches(".watched"))
+        const alone = large && root.hasAttribute("data-lesson") && shown.length > 0
+        part.classList.toggle("one-column", large)
+        part.classList.toggle("two-columns", alone && shown.length === 2 && !shown.some((view) => view.matches(".veiled:not(.in-part)")))
+        part.classList.toggle("marked-only", alone)
+      }
       const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style)
       const drawn = new Set(parts.filter(has_figure))
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
       return drawn.size > 0
     }
     has_figure(document.body)
+    setTimeout(fit, 120)
   }
+  const own_size = new Map()  // of figures that are fitted
+  const changes_of_size = new ResizeObserver(() => enlarge_soon())
+  const fit = () => {
+    if (!root.hasAttribute("data-projector") || !root.hasAttribute("data-lesson")) return
+    const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
+    const views = [...inside(main)].filter((one) => one.matches(".view") && one.getClientRects().length)
+    for (const view of views) {
+      const fits = views.length === 1 || view.matches(".watched")
+      show_choices(view, !fits || !(root.hasAttribute("data-asks") || view.getRootNode().host.matches(".two-columns")))
+      if (!fits) continue
+      const box = view.getBoundingClientRect()
+      const plots = figures_in(view).map(({ model, el }) => [model, el, el.getBoundingClientRect()]).filter(([, , { height }]) => height)
+      const rows = new Set(plots.map(([, , { top }]) => Math.round(top))).size
+      const end = Math.max(...plots.map(([, , { bottom }]) => bottom))
+      const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
+      for (const [model, el, { height }] of more ? plots : []) {
+        const { sizing_mode, height: high, min_height } = model
+        if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: high, min_height })
+        changes_of_size.observe(el)
+        model.setv({ sizing_mode: "stretch_width", height: Math.max(60, Math.round(height) + more), min_height: null }, { sync: false })
+        for (const axis of model.left)  // in two lines: large type is long
+          if (axis.axis_label) axis.setv({ axis_label: axis.axis_label.replace(/ \(/, "\n(") }, { sync: false })
+      }
+    }
+  }
+  // The choices above a figure: there is no room for them beside another one, and no use before the answer.
+  const show_choices = (where, wanted) => {
+    for (const one of inside(where.shadowRoot ?? where)) if (one.matches(".look")) one.style.display = wanted ? "" : "none"
+  }
+  const end_fit = () => {
+    changes_of_size.disconnect()
+    show_choices(main, true)
+    for (const [model, size] of own_size) {
+      model.setv(size, { sync: false })
+      for (const axis of model.left)
+        if (axis.axis_label) axis.setv({ axis_label: axis.axis_label.replace("\n", " ") }, { sync: false })
+    }
+    own_size.clear()
+  }
+  // before the type of figures changes, and with it what their height is
+  window.addEventListener("explorer-projector", end_fit, { capture: true })
+  on_event("lesson", root, (lesson) => { if (!lesson) end_fit() })
+  new ResizeObserver(() => enlarge_soon()).observe(main)
   let coming = 0
   const enlarge_soon = () => {
     clearTimeout(coming)
     if (root.hasAttribute("data-projector")) coming = setTimeout(enlarge_words, 120)
   }
-  for (const event of ["tab", "drawn", "lesson"]) on_event(event, root, enlarge_soon)
+  for (const event of ["tab", "drawn", "lesson", "predicted"]) on_event(event, root, enlarge_soon)
   on_event("projector", root, enlarge_words)
 
   // A file that was brought to the place of another kind, or dropped anywhere: a scene goes to the bar

@@ -5,10 +5,11 @@ export function render({ model }) {
   const write = () => { line.innerHTML = model.text }
   model.on("text", write)
   write()
-  // as high as it has been at this width: a shorter one would have figures grow, and repaint
+  // as high as it has been at this width, to the part of a pixel: a shorter one would have figures
+  // grow, and repaint
   let width
-  new ResizeObserver(([{ contentRect }]) => {
-    line.style.minHeight = contentRect.width === width ? `${line.offsetHeight}px` : ""
+  new ResizeObserver(([{ contentRect, borderBoxSize: [{ blockSize }] }]) => {
+    line.style.minHeight = contentRect.width === width ? `${blockSize}px` : ""
     width = contentRect.width
   }).observe(line)
   return line

@@ -32,6 +32,7 @@ export function render({ model }) {
   const root = markup(SHARE, {
     undo: asks({ undo: true }),
     redo: asks({ redo: true }),
+    back: asks({ back: true }),
     reset: asks({ reset: true }),
     copy,
     keep: () => model.send_msg({ keep: name.value || name.placeholder }),
@@ -101,7 +102,7 @@ export function render({ model }) {
   let shown = null, said = null, named = ""
   let going = null  // the tab that Back leads to, until it is shown
   follow(model, ["state"], () => {
-    const { address, whole, undo, redo, said: sentence, scene, compared, usual_name } = model.state
+    const { address, whole, undo, redo, said: sentence, left, scene, compared, usual_name } = model.state
     part("undo").disabled = !undo
     part("redo").disabled = !redo
     link.value = `${location.origin}${location.pathname}?${address}`
@@ -122,6 +123,7 @@ export function render({ model }) {
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
+    part("back").hidden = !left
     said = sentence.number
   })
   window.addEventListener("popstate", ({ state: place }) => {

@@ -5,7 +5,7 @@ here imports one that imports it.
 """
 
 from bearingcore.bearings.ball import USUAL_GROOVES, drawn
-from bearingcore.bearings.catalogue import COLUMNS, MOST_BYTES, NEEDED
+from bearingcore.bearings.catalogue import CATALOGUE_COLUMNS, MOST_BYTES, NEEDED_COLUMNS
 from bearingcore.bearings.designation import designations, is_known, series_words
 from bearingcore.bearings.drawing import BALL_MATERIAL, OPTIONAL_FIELDS, center_distance, faults
 from bearingcore.bearings.frequencies import FREQUENCIES, bearing_of_frequencies
@@ -18,11 +18,11 @@ from bearingcore.bearings.rows import Row
 __all__ = [
     "BALL_MATERIAL",
     "BALL_MATERIALS",
-    "COLUMNS",
+    "CATALOGUE_COLUMNS",
     "FREQUENCIES",
     "KINDS",
     "MOST_BYTES",
-    "NEEDED",
+    "NEEDED_COLUMNS",
     "OPTIONAL_FIELDS",
     "STEEL_MODULUS",
     "STEEL_POISSON",

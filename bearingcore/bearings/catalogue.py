@@ -30,10 +30,10 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
 
-NEEDED = ("name", "balls", "ball_diameter_mm", "pitch_diameter_mm")
+NEEDED_COLUMNS = ("name", "balls", "ball_diameter_mm", "pitch_diameter_mm")
 
-COLUMNS = (
-    *NEEDED,
+CATALOGUE_COLUMNS = (
+    *NEEDED_COLUMNS,
     "inner_groove_radius_mm",
     "inner_groove_ratio",
     "outer_groove_radius_mm",
@@ -176,20 +176,21 @@ def _headings(number: int, cells: list[str]) -> list[str]:
     names = ["_".join(cell.lower().replace("µ", "u").split()).replace("-", "_") for cell in cells]
     while names and not names[-1]:
         names.pop()
-    allowed = ", ".join(COLUMNS)
+    allowed = ", ".join(CATALOGUE_COLUMNS)
     for position, name in enumerate(names, start=1):
-        if name not in COLUMNS:
+        if name not in CATALOGUE_COLUMNS:
             raise checks.refuse(
                 f"heading of column {position} (line {number})", cells[position - 1], allowed
             )
         if names.count(name) > 1:
             raise checks.refuse(f"heading {name} (line {number})", "there twice", "once")
-    missing = [name for name in NEEDED if name not in names]
+    missing = [name for name in NEEDED_COLUMNS if name not in names]
     if missing:
+        others = CATALOGUE_COLUMNS[len(NEEDED_COLUMNS) :]
         raise checks.refuse(
             f"table of bearings, headings in line {number}",
             f"without {', '.join(missing)}",
-            f"{', '.join(NEEDED)}, and of the others any: {', '.join(COLUMNS[len(NEEDED) :])}",
+            f"{', '.join(NEEDED_COLUMNS)}, and of the others any: {', '.join(others)}",
         )
     return names
 

@@ -20,7 +20,7 @@ _ONE_ROW = (Row(),)
 
 
 class InRows(Kinematics):
-    """What a `Bearing` says of its rows."""
+    """The part of a `Bearing` that is about its rows."""
 
     rows: tuple[Row, ...]
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import level_difference, number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.dynamics.motion import Motion, simulate
+from bearingcore.dynamics.motion import SETTLING, Motion, simulate
 from bearingcore.dynamics.step_rate import fine_step_rate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
@@ -23,14 +23,11 @@ Array = NDArray[np.float64]
 BUDGET = 0.1
 """[dB]"""
 
-LOWEST = 300.0
+LOWEST_COMPARED = 300.0
 """[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
 
-QUIET = 1e-4
+QUIETEST_COMPARED = 1e-4
 """Power over the greatest of all bands and directions below which a band does not count."""
-
-SETTLING = 0.12
-"""[s] of motion that is left out, several times the slowest mode's decay."""
 
 
 @shown_as_table
@@ -48,7 +45,8 @@ class BallComparison:
         what mass adds to the power of the housing's acceleration in each, along x and y.
     massless_up_to
         [Hz] frequency up to which massless balls are within the budget wherever there is more power
-        than QUIET of the greatest; NaN where they are not even in the lowest third octave.
+        than QUIETEST_COMPARED of the greatest; NaN where they are not even in the lowest third
+        octave.
     massless_seconds, seconds
         [s] a second of motion takes without and with mass; NaN where that was not measured.
     """
@@ -65,7 +63,8 @@ class BallComparison:
     def sentence(self) -> str:
         """In a line: up to where massless balls will do, and what mass costs."""
         if math.isnan(self.massless_up_to):
-            holds = f"more than {number(self.budget)} dB off from {with_prefix(LOWEST, 'Hz')} on"
+            lowest = with_prefix(LOWEST_COMPARED, "Hz")
+            holds = f"more than {number(self.budget)} dB off from {lowest} on"
         else:
             up_to = with_prefix(self.massless_up_to, "Hz", 2)
             holds = f"within {number(self.budget)} dB up to {up_to}"
@@ -161,7 +160,7 @@ def compare_motions(
         powers.append(band_powers(motion, edges))
     added = level_difference(powers[1], powers[0])
     loudest = max(float(power.max(initial=0.0)) for power in powers)
-    counts = np.maximum(*powers) > QUIET * loudest
+    counts = np.maximum(*powers) > QUIETEST_COMPARED * loudest
     within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
     up_to = float(edges[good]) if good else math.nan
@@ -170,9 +169,9 @@ def compare_motions(
 
 
 def third_octave_edges(highest: float) -> Array:
-    """[Hz] from LOWEST to at most `highest`."""
-    count = math.floor(3.0 * math.log2(highest / LOWEST) + 1e-9)
-    return LOWEST * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
+    """[Hz] from LOWEST_COMPARED to at most `highest`."""
+    count = math.floor(3.0 * math.log2(highest / LOWEST_COMPARED) + 1e-9)
+    return LOWEST_COMPARED * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
 
 
 def compared_directions(dofs: tuple[str, ...]) -> tuple[str, ...]:
@@ -185,7 +184,7 @@ def band_powers(motion: Motion, edges: Array) -> Array:
     columns = [motion.dofs.index(name) for name in compared_directions(motion.dofs)]
     first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
     signal = motion.outer_acceleration[first:, columns]
-    return spectrum(signal, motion.sample_rate, 0.1 * LOWEST).powers(edges)
+    return spectrum(signal, motion.sample_rate, 0.1 * LOWEST_COMPARED).powers(edges)
 
 
 def mass_share(scene: Scene, low: float, high: float, duration: float, sample_rate: float) -> float:

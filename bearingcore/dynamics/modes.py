@@ -29,7 +29,6 @@ from bearingcore.statics.positions import (
     equilibrium_over_all,
     extremes,
     positions_of,
-    turns,
 )
 
 Array = NDArray[np.float64]
@@ -171,7 +170,7 @@ def frequency_bands(
         where the support lacks a number, by its name.
     """
     checks.instance("scene", scene, Scene)
-    n = ANGLES_A_PERIOD if turns(scene) else 3 * ANGLES_A_PERIOD - 2
+    n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
     found = positions_of(packed, n)
@@ -179,7 +178,7 @@ def frequency_bands(
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(state)
-    undamped = turns(scene) or coarse  # many samples, or few that have to be quick
+    undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""
@@ -205,15 +204,15 @@ class BandSearch:
         scene, weights = state.scene, state.shares
         dofs = scene.active_dofs
         self._terms = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
-        self._support, self._mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
+        self._support, mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
         terms = self._of(state)
         known = np.isfinite(terms).all(axis=0) * weights
         mean = np.zeros((len(dofs), len(dofs)))
         row, column = np.triu_indices(len(dofs))
         share = max(float(known.sum()), 1e-300)
         mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / share
-        self.template = _undamped(two_body_matrix(mean, self._support), self._mass)[1]
-        self.labels = _labels(self.template, self._mass, dofs)[0]
+        self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
+        self.labels = _labels(self.template, mass, dofs)[0]
 
     def _of(self, state: Equilibrium) -> Array:
         return np.stack([state.term(name) for name in self._terms])
@@ -223,9 +222,7 @@ class BandSearch:
         terms = self._of(state)
         known = np.asarray(np.isfinite(terms).all(axis=0))
         found = np.full((len(self.template), known.size), math.nan)
-        found[:, known] = _frequencies_like(
-            self.template, terms[:, known], self._support, self._mass
-        )
+        found[:, known] = _frequencies_like(self.template, terms[:, known], self._support)
         return found
 
 
@@ -323,7 +320,7 @@ def undamped_bands(
     for i, template in enumerate(templates):
         labels.append(_labels(template, mass, dofs)[0])
         if count[i]:
-            frequency = _frequencies_like(template, chosen[:, i, known[i]], support, mass)
+            frequency = _frequencies_like(template, chosen[:, i, known[i]], support)
             least[i], greatest[i] = frequency.min(axis=1), frequency.max(axis=1)
     return least, greatest, labels
 
@@ -332,7 +329,6 @@ def _frequencies_like(
     template: NDArray[np.float64],
     terms: NDArray[np.float64],
     support: NDArray[np.float64],
-    mass: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
 

@@ -30,6 +30,9 @@ from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium_of
 from bearingcore.statics.status import StaticStatus
 
+SETTLING = 0.12
+"""[s] of motion before what counts as steady: several times the slowest mode's decay."""
+
 MOST_STEPS = 1_000_000
 """Steps that a motion, or the periods of one orbit, take at most by default: up to
 15 s of marching in five directions, 40 s with the tangent."""

@@ -332,7 +332,7 @@ def common_ball_passes(scene: Scene) -> int | None:
         bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
         for k in range(len(bearing.all_rows))
     }
-    if scene.turning_force > 0.0 or any(defect.race == "inner" for defect in scene.defects):
+    if scene.turning_force > 0.0 or scene.defect_turns:
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
     for turned in rounds:

@@ -17,14 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.dynamics.motion import simulate
+from bearingcore.dynamics.motion import SETTLING, simulate
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 from bearingcore.statics.equilibrium import equilibrium
 from bearingcore.statics.passes import crossings
-
-SETTLING = 0.12
-"""[s] of motion before the record begins: several times the slowest mode's decay."""
 
 SLOWEST_WANDER = 0.3
 """[Hz] The cage's speed wanders no slower than this, and no faster than the cage turns."""

@@ -144,7 +144,7 @@ def speed_run(
     segment = round(sample_rate / resolution)
     frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
     frequency = frequency[frequency <= PASSED * sample_rate]
-    inner = any(defect.race == "inner" for defect in scene.defects)
+    inner = scene.defect_turns
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
 
     def run_of(density: NDArray[np.float64], **more: Any) -> SpeedRun:

@@ -1,4 +1,4 @@
-"""How many steps a second a motion takes."""
+"""Rate of the steps of a motion."""
 
 from __future__ import annotations
 

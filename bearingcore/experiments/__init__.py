@@ -3,10 +3,10 @@
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """
 
-from bearingcore.experiments.balls import ERRORS
+from bearingcore.experiments.balls import BALL_ERRORS
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.measurements import (
-    NAMES,
+    MEASURED,
     ORBITS,
     STABILITY,
     Measurements,
@@ -19,19 +19,19 @@ from bearingcore.experiments.points import Experiment, Point, Reference
 from bearingcore.experiments.references import MOTION_ERRORS
 from bearingcore.experiments.simpler_models import SPECTRUM, Alternative, Alternatives, alternatives
 from bearingcore.experiments.stability import FIXED_STEP, VERDICTS, OrbitAtSpeed, StabilityChart
-from bearingcore.experiments.statics import ANGLE_ERRORS, CASES, STATIC_ERRORS
+from bearingcore.experiments.statics import ANGLE_ERRORS, HARD_CASES, STATIC_ERRORS
 
 __all__ = [
     "ANGLE_ERRORS",
-    "CASES",
-    "ERRORS",
+    "BALL_ERRORS",
     "EXACT",
     "FIXED_STEP",
     "FULL",
+    "HARD_CASES",
+    "MEASURED",
     "METHODS",
     "MODEL_ERRORS",
     "MOTION_ERRORS",
-    "NAMES",
     "ORBITS",
     "SETTLED",
     "SPECTRUM",

@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 
 BANDS = {"0.3-2.1 kHz": (300.0, 2100.0), "2.1-5 kHz": (2100.0, 5e3), "5-10 kHz": (5e3, 1e4)}
 
-ERRORS = {
+BALL_ERRORS = {
     name: f"greatest error of a third octave of the housing's spectrum in {name}, x and y [dB]"
     for name in BANDS
 }
@@ -277,7 +277,7 @@ def balls_experiment(
     experiment = Experiment(
         "balls",
         f"Methods for balls with mass over {duration:g} s, and balls without",
-        ERRORS,
+        BALL_ERRORS,
         "evaluations of all contacts",
         {"": reference},
         (),

@@ -45,7 +45,7 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "angles": lambda scene, watch, _: angles_experiment(scene, watch=watch),
 }
 """Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
-NAMES = (*EXPERIMENTS, STABILITY, ORBITS)
+MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
 """Everything that can be measured."""
 
 
@@ -192,7 +192,7 @@ def measurements_from(text: str) -> Measurements:
 
 def measure(
     scene: Scene,
-    names: Sequence[str] = NAMES,
+    names: Sequence[str] = MEASURED,
     *,
     preset: str = "",
     c_loop: float = math.nan,
@@ -211,7 +211,7 @@ def measure(
     scene
         at hand.
     names
-        out of NAMES.
+        out of MEASURED.
     preset, c_loop
         for `Measurements` and `Machine`.
     slow

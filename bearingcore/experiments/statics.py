@@ -461,7 +461,7 @@ def _refuse_without(known: NDArray[np.bool_], scene: Scene) -> None:
         raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
 
 
-CASES = ("all balls just touching", "a ball at an edge", "clearance closed")
+HARD_CASES = ("all balls just touching", "a ball at an edge", "clearance closed")
 """Names of the problems at which solvers fail."""
 
 
@@ -470,11 +470,11 @@ def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
     angles = default_cage_angles(scene, 13)
     loads = {name: 1e-3 * getattr(scene.load, name) for name in ("fx", "fy", "fz", "mx", "my")}
     edges = path_kinks(scene, float(angles[0]), float(angles[-1]))[:12]
-    cases = {CASES[0]: (scene.replace(**loads), angles)}
+    cases = {HARD_CASES[0]: (scene.replace(**loads), angles)}
     if edges.size:
-        cases[CASES[1]] = (scene, np.unique([edges - 1e-9, edges, edges + 1e-9]))
+        cases[HARD_CASES[1]] = (scene, np.unique([edges - 1e-9, edges, edges + 1e-9]))
     if scene.bearing.radial_clearance > 0.0:
-        cases[CASES[2]] = (scene.replace(radial_clearance=0.0), angles)
+        cases[HARD_CASES[2]] = (scene.replace(radial_clearance=0.0), angles)
     return {name: static_problem(*case) for name, case in cases.items()}
 
 

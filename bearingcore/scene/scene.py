@@ -215,6 +215,11 @@ class Scene:
         return self.bearing.cage_speed(self.shaft_speed)
 
     @property
+    def defect_turns(self) -> bool:
+        """True where a defect turns with the shaft."""
+        return any(defect.race == "inner" for defect in self.defects)
+
+    @property
     def turning_force(self) -> float:
         """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
         return self.unbalance * self.shaft_speed**2

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore.signals.whitening import whiten
 
-PARTS = (1, 2, 3, 4, 6, 8, 12, 16)
+BAND_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16)
 """Into how many equal bands the range is split."""
 
 LOWEST = 20.0
@@ -59,7 +59,7 @@ class Envelope(NamedTuple):
     kurtosis: float
 
 
-def split(sample_rate: float, narrowest: float, into: Sequence[int] = PARTS) -> list[Band]:
+def split(sample_rate: float, narrowest: float, into: Sequence[int] = BAND_COUNTS) -> list[Band]:
     """The bands [Hz] up to half the sample rate, none narrower than `narrowest` but the first."""
     half = 0.5 * sample_rate
     bands = []

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.signals.filter_bank import PARTS, Band, split, squared_envelopes
+from bearingcore.signals.filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
 MOST_JUDGED = 2**18
 """Of a signal that are looked at: the first ones."""
@@ -110,7 +110,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
         raise checks.refuse("signal", "the same number throughout", "a signal")
     duration = len(samples) / rate
     least = max(least, FEWEST * PIECES / duration)
-    split_into = {parts: split(rate, least, (parts,)) for parts in PARTS}
+    split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
     bands = [band for own in split_into.values() for band in own]
     found = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
     whole, density = periodogram(samples, rate, detrend="constant")

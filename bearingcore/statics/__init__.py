@@ -19,7 +19,7 @@ from bearingcore.statics.passes import (
     passing_rate,
     path_kinks,
 )
-from bearingcore.statics.positions import ROUNDS, turns
+from bearingcore.statics.positions import ROUNDS
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, ranges_of, static_ranges
 from bearingcore.statics.validity import NO_DRAWING, state_of_limits
 
@@ -50,7 +50,6 @@ __all__ = [
     "state_of_limits",
     "static_ranges",
     "summary",
-    "turns",
     "turns_in_words",
     "unknown",
 ]

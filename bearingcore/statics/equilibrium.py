@@ -246,14 +246,14 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.fl
     what holds for all is in `bearingcore.statics.positions`.
     """
     period = scene.bearing.period
-    if any(defect.race == "inner" for defect in scene.defects):
+    if scene.defect_turns:
         period = 2.0 * math.pi * scene.bearing.cage_ratio
     return np.linspace(0.0, period, 8 * (n - 1) + 1 if has_long_period(scene) else n)
 
 
 def has_long_period(scene: Scene) -> bool:
     """True where a ball spacing is not the period of the scene's curves."""
-    turning = any(defect.race == "inner" for defect in scene.defects)
+    turning = scene.defect_turns
     return turning or scene.bearing.period != scene.bearing.ball_spacing
 
 

@@ -114,11 +114,6 @@ class Extremes(NamedTuple):
     shaft_angles: Array
 
 
-def turns(scene: Scene) -> bool:
-    """True where a defect turns with the shaft."""
-    return any(defect.race == "inner" for defect in scene.defects)
-
-
 def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
@@ -169,7 +164,7 @@ def positions_of(packed: PackedScene, n: int) -> Positions:
     scene = packed.scene
     bearing = scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
-    if not turns(scene):
+    if not scene.defect_turns:
         columns, weights = _cage_angles(packed, n)
         steps = np.full((2, columns.size), columns[1] - columns[0])
         row = np.zeros(1), np.zeros(1, np.int64)

@@ -123,7 +123,7 @@ def race_loads(
 
     ValueError for a defect of the inner race of a bearing whose rows are not alike.
     """
-    if any(defect.race == "inner" for defect in scene.defects):
+    if scene.defect_turns:
         return _with_turning_defects(scene, load_exponent, scatter)
     loads, weights, heaviest = [], [], 0.0
     turned = _rows_turned(scene)

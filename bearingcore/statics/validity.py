@@ -56,7 +56,7 @@ from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
 from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.statics.positions import over_all_positions, positions, turns
+from bearingcore.statics.positions import over_all_positions, positions
 from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
 from bearingcore.statics.tilts import free_tilts, held_tilts
@@ -98,7 +98,7 @@ def state_of_limits(scene: Scene) -> Equilibrium:
     A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
     the shaft began: see `bearingcore.statics.positions`.
     """
-    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if turns(scene) else ANGLES)
+    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if scene.defect_turns else ANGLES)
 
 
 def limits(

@@ -37,7 +37,6 @@ from bearingcore.statics.positions import (
     extremes,
     over_all_positions,
     positions,
-    turns,
 )
 from bearingcore.statics.pressure import contact_pressures
 from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, static_ranges
@@ -328,7 +327,7 @@ def of_scene(
             scene,
             [name for name in (*STIFFNESS_TERMS, BALL_LOAD) if _ends_of(name) & set(outputs)],
             settings.cage_angles,
-            rounds=ROUNDS if turns(scene) else 0,
+            rounds=ROUNDS if scene.defect_turns else 0,
         )
         code, numbers = _of_ranges(found)
         ended.append(STATUSES[int(code)])
@@ -388,7 +387,7 @@ def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
 def _bands_over_all_positions(found: StaticRanges, labels: tuple[str, ...], n: int) -> Numbers:
     """Edges (len(labels),) of the bands of one scene."""
     scene = found.state.scene
-    if not turns(scene):
+    if not scene.defect_turns:
         terms = np.stack([found.state.term(name) for name in STIFFNESS_TERMS])
         return {name: values[0] for name, values in _bands(scene, terms[:, None], labels).items()}
     search = BandSearch(found.state)

@@ -204,7 +204,7 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     fault: str, zone: str, change: float | None, begins: str, says: str
 ) -> None:
     question = Question.about(simulated(presets["6205"], 20.0, False, 1))
-    found = dataclasses.replace(answered(question), fault=fault)
+    found = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:
         grown = SimpleNamespace(points=[0, 1], rms_change=np.array([1.0, change]))

@@ -4,8 +4,8 @@
 
 FOLDER is a checkout of github.com/minzhun/ISO16281. ROSS (`ross-rotordynamics`) and EXUDYN
 (`exudyn`) come from PyPI, best into an environment of their own; none of them is needed by anything
-else. Equations of motion are those of `tests/outside/march.py`: EXUDYN and SciPy integrate them as
-they stand, compiled by numba.
+else. EXUDYN and SciPy integrate the motion with the compiled forces of this program, as far as
+their own interface lets them; the truth is `tests/outside/march.py` by DOP853 at 1e-12.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from scipy.optimize import root
 
 from bearingcore import Load, Scene, equilibrium, life, presets, simulate, warm
 from bearingcore.common.numbers import number, scientific, with_prefix
+from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.points import least_time
 from tests.benchmarks.charts import DOCUMENT, put
-from tests.outside.march import rates
 from tests.outside.test_charts import problem
 
 MARK = "peers"
@@ -76,7 +76,7 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
         return one
 
     scene = presets["seven-ball"].healthy()
-    scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs=None)
+    scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs="tilt free")
     theirs, seconds, _ = least_time(seven)
     loads = itertools.count(1000.0, 1e-9)  # each another scene: lives are kept
     own, own_seconds, _ = least_time(lambda: life(scene.replace(fx=next(loads)), 23400.0))
@@ -135,34 +135,39 @@ def swings(housing: NDArray[np.float64], true: NDArray[np.float64]) -> float:
 
 
 def by_integrators() -> Iterator[Row]:
-    """0.1 s of the fan rig from rest; the truth is DOP853 at 1e-12."""
+    """0.1 s of the fan rig from rest."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
 
     rig, one = presets["fan-rig"], problem("fan-rig")
     motion, own_seconds, _ = least_time(lambda: simulate(rig, DURATION, RATE).outer_displacement)
-    start, packed = one.start(), one.packed()
+    start, forces = one.start(), motion_problem(rig)
+    true = one.solved(start, INSTANTS, 1e-12)[:, 2:4]
 
-    def solved(method: str, tolerance: float) -> NDArray[np.float64]:
+    def rates(t: float, y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Of both rings' places, then of their velocities [µm], by this program's kernel."""
+        found = 1e6 * forces.rate(t, 1e-6 * y[[0, 1, 4, 5, 2, 3, 6, 7]])
+        return found[[0, 1, 4, 5, 2, 3, 6, 7]]
+
+    def solved(method: str) -> NDArray[np.float64]:
         made = solve_ivp(
-            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS, args=packed,
-            rtol=tolerance, atol=tolerance, max_step=1e-4,
+            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS,
+            rtol=1e-9, atol=1e-9, max_step=1e-4,
         )  # fmt: skip
         return made.y[2:4].T
 
-    true = solved("DOP853", 1e-12)
     own = swings(1e6 * motion, true)
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
     for method in ("DOP853", "LSODA"):
-        found, seconds, _ = least_time(lambda method=method: solved(method, 1e-9))
+        found, seconds, _ = least_time(lambda method=method: solved(method))
         program = f"SciPy {version('scipy')}, {method} to 1e-9"
         yield Row("", program, seconds, own_seconds, swings(found, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        return rates(t, np.concatenate([np.asarray(q), np.asarray(v)]), *packed)[4:]
+        return rates(t, np.concatenate([np.asarray(q), np.asarray(v)]))[4:]
 
     def multibody(solver: Any, steps: int) -> NDArray[np.float64]:
         system = exudyn.SystemContainer()

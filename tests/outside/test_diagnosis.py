@@ -82,7 +82,7 @@ def test_parts_by_their_printed_multiples(part: str) -> None:
     "function: trend", "function: trend_point",
     by="closed form: blows that grow in noise of deviation 1, as often as CWRU prints",
     compared="root mean square √(1 + h²), growth of the line, part named from when on",
-    within=0.03,
+    within=0.1,
 )  # fmt: skip
 def test_a_fault_that_grows() -> None:
     heights = np.array([0.0, 0.0, 0.8, 1.6, 3.2])
@@ -96,10 +96,10 @@ def test_a_fault_that_grows() -> None:
     named = [point.fault for point in found.points]
     assert set(named[:2]) <= {NONE_SEEN, CANNOT_TELL}
     assert named[2:] == ["inner race"] * 3
-    # the line of a squared envelope grows with the square of the blows, over what noise adds
+    # a line of the envelope is as high as the blows, but for the noise that fills it up below them
     line = found.clear_lines[:, LINES.index("bpfi")]
     assert np.isnan(line[:2]).all()
-    assert line[4] / line[3] == pytest.approx(4.0, rel=0.06)
+    assert line[4] / line[3] == pytest.approx(2.0, rel=0.1)
 
 
 def passages(apart_deg: float, rate: float = 25_600.0, seed: int = 3) -> Array:
@@ -140,6 +140,7 @@ def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
     compared="extent, but for ball spacings and for which peak is the entry",
     within="its interval of 95 %",
 )  # fmt: skip
+@pytest.mark.proof
 def test_an_extent_of_a_motion_by_scipy() -> None:
     truth, content = file_from_elsewhere()
     read = read_table("rig.csv", content).recording(["vertical", "horizontal"], ["y", "x"], "g")

@@ -254,7 +254,7 @@ def test_a_moment_presses_one_row_of_a_tandem_pair_the_wrong_way() -> None:
         [0, 1, 2, 3, 4], at=(-9e-3, 9e-3), facing=(1, 1),
     )  # fmt: skip
     rows = dataclasses.replace(pair.rows, defect=None)
-    scene = presets["7208-tandem"].healthy().replace(load=Load(mx=100.0), dofs=None)
+    scene = presets["7208-tandem"].healthy().replace(load=Load(mx=100.0), dofs="tilt free")
     q = rows.rest(np.array(force), 0.1, [0, 1, 2, 3, 4])
     along = rows.directions(q, 0.1)[2] * rows.load(q, 0.1)
     wrong = max(-along[:14].sum(), -along[14:].sum())

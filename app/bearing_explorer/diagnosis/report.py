@@ -102,12 +102,14 @@ def measured_report(
             continue
         if not any(column.size for columns in data.values() for column in columns.values()):
             continue
+        # the trend is in words above
+        caption = "" if view is TrendOfFiles else html_text(figure.sentence)
         first.height = HEIGHT
         drawn.append(first.id)
         items.append(json_item(figure.layout))
         figures.append(
             f"<figure><h2>{html_text(title)}</h2><div class='drawing'>{mark_of(first.id)}</div>"
-            f"<figcaption>{html_text(figure.sentence)}</figcaption></figure>"
+            f"<figcaption>{caption}</figcaption></figure>"
         )
         if len(drawn) == MOST_FIGURES:
             break

@@ -345,7 +345,7 @@ class Measurement:
 
     @property
     def at_work(self) -> str:
-        """What is under way, for the status line; empty where nothing is."""
+        """Work that is under way, for the status line; empty where nothing is."""
         if self.state.busy:
             return "Reading the signal"
         if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:

@@ -213,8 +213,11 @@ class Requests:
             self._report(message["report"][:_LONGEST_LINK], message)
         if "mark" not in message:
             return
-        if self.bookmarks.go(message):
+        tab = self.bookmarks.back() if message.get("back") else ""
+        if self.bookmarks.go(message) or tab:
             self.show_controls(state=self.editor.state())
+        if tab:
+            self._page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
             self._page.in_background(
@@ -229,6 +232,7 @@ class Requests:
         """Open what a link of the page's own holds, and its tab."""
         request = OpenRequest("open", name, text)
         place = read_request(request)
+        self.bookmarks.leave()
         self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
         if isinstance(place, Place):
             self._page.show_tab({"show": place.tab})
@@ -287,14 +291,19 @@ class Requests:
         words_only = "words_only" in message
         closed = message.get("lesson") == ""
         lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        begins = not (words_only or closed)
+        if lesson is not None and begins and not self.bookmarks.lesson:
+            self.bookmarks.leave()
+        if closed and self.bookmarks.lesson and self.bookmarks.can_go_back:
+            self.bookmarks.say("The lesson is closed.")
         if lesson is not None or closed:
             self.bookmarks.lesson = "" if lesson is None else lesson.name
-        if not (words_only or closed):
+        if begins:
             if lesson is not None:
                 lesson.begin(self.editor)
                 self.show_controls(state=self.editor.state())
             self._page.show_tab(message if lesson is None else {"show": lesson.tab})
         self.change_scene(message)  # the mark, and what a button changes
-        if "simulate" in message and not (words_only or closed):
+        if "simulate" in message and begins:
             wish = message["simulate"]
             self.simulate(wish["noise"], wish["machine"], wish["pit"])

@@ -299,6 +299,8 @@ def measure_extent(
     knocks = find_knocks(recording, nominal, slip, turns)
     needed = math.isfinite(knocks.separation) or math.isfinite(knocks.hidden)
     offsets = plausible_offsets(bearing, race, load, clearance, edge) if needed else None
+    if offsets is not None and not len(offsets.values):
+        raise checks.refuse("load", load, "one that balls lose in a spall", "N")
     return _answer(knocks, bearing, race, offsets)
 
 

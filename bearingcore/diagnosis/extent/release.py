@@ -131,9 +131,10 @@ def release_offset(
 def _falls_to_zero(
     place: NDArray[np.float64], compression: NDArray[np.float64], last: int, away: int
 ) -> float:
-    """Where a compression reaches 0 beyond its `last` value, straight on."""
+    """Where a compression reaches 0 between its `last` value and the next place, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
-    return float(place[last] - compression[last] / slope)
+    step = abs(compression[last] / slope) if slope else math.inf
+    return float(place[last] - away * min(step, abs(place[last + away] - place[last])))
 
 
 def plausible_offsets(

@@ -15,13 +15,10 @@ from bearingcore.common import checks
 from bearingcore.diagnosis.size.variants import system_variant
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
-from bearingcore.dynamics.motion import moving_system
+from bearingcore.dynamics.motion import SETTLING, moving_system
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses, coefficients
 from bearingcore.statics.status import StaticStatus
-
-SETTLING = 0.12
-"""[s] of a simulated motion that is thrown away: several times the slowest mode's decay."""
 
 AVERAGED = 0.12
 """[s] of it that are averaged, and never fewer than FEWEST_SIMULATED passes."""

@@ -94,7 +94,7 @@ def test_any_matrices_have_the_frequencies_of_lapack_and_the_best_assignment(
     support = np.zeros(nd) if free else 10.0 ** rng.uniform(5.0, 10.0, nd)
     mass = 10.0 ** rng.uniform(-3.0, 1.0, 2 * nd)
     template = template_of(terms, support, mass)
-    found = _frequencies_like(template, terms, support, mass)
+    found = _frequencies_like(template, terms, support)
     root = np.sqrt(mass)
     values, vectors = np.linalg.eigh(full(terms, support) / (root[:, None] * root))
     expected = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)

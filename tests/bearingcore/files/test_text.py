@@ -40,7 +40,7 @@ def test_habits(text, columns) -> None:
         ("time [s]  acc x\n1 2", ("time [s]", "acc x")),
         ("Time,Acc X\ns,m/s^2\n1,2", ("Time [s]", "Acc X [m/s^2]")),
         ("remarks of many words, you see, here\n1,2", None),
-        ("x,x\n1,2", None),
+        ("x,x\n1,2", ["x, column 1", "x, column 2"]),
     ],
 )
 def test_headings(text, headings) -> None:

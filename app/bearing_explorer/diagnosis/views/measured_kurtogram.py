@@ -15,7 +15,7 @@ from bearing_explorer.kit.plots.layers import draw, strips
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore.signals import PARTS
+from bearingcore.signals import BAND_COUNTS
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model
@@ -50,12 +50,12 @@ class MeasuredKurtogram(MeasuredView):
             _SIDES[0].quantity,
             _SIDES[1].quantity,
             packed.range("kurtogram_frequency", 0.0, 1.0),
-            packed.range("kurtogram_level", -0.5, len(PARTS) - 0.5),
+            packed.range("kurtogram_level", -0.5, len(BAND_COUNTS) - 0.5),
             height=260,
             name="kurtogram_drawing",
         )
-        plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(PARTS))), minor_ticks=[])
-        plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(PARTS)}
+        plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(BAND_COUNTS))), minor_ticks=[])
+        plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(BAND_COUNTS)}
         shown = packed.range("kurtogram_kurtosis", 0.0, 1.0)
         self._image = bright_image(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
         draw(plot, packed, [_BAND])
@@ -101,9 +101,9 @@ def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:
 
     Of the levels that the signal is long enough for, two at least.
     """
-    count = max(PARTS.index(int(found.parts.max())) + 1, 2)
+    count = max(BAND_COUNTS.index(int(found.parts.max())) + 1, 2)
     cells = np.full((count, CELLS), np.nan)
     for band, parts, kurtosis in zip(found.bands, found.parts, found.kurtosis, strict=True):
         last = round(band.high / nyquist * CELLS)
-        cells[PARTS.index(parts), last - CELLS // parts : last] = kurtosis
+        cells[BAND_COUNTS.index(parts), last - CELLS // parts : last] = kurtosis
     return cells

@@ -61,9 +61,9 @@ class PartPanel(pn.Column):
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
-        self._copy = button("Copy the summary", lambda: None, align="start")
+        self._copy = button("Copy the summary", lambda: None)
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
-        self._report = button("Report on one page", lambda: None, align="start")
+        self._report = button("Report on one page", lambda: None)
         self._report.js_on_click(code=_REPORT)
         self._why_not = _words("")
         fields = Fields(lambda _: report_on(dict(fields.values)))

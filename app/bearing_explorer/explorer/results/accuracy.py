@@ -12,7 +12,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import words_of
 from bearingcore import Scene, presets
 from bearingcore.experiments import (
-    NAMES,
+    MEASURED,
     ORBITS,
     STABILITY,
     Measurements,
@@ -57,7 +57,7 @@ def preset_like(scene: Scene) -> str:
 
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Measure and show it point by point. Runs in a job's thread."""
-    names = NAMES if name == EVERYTHING else (name,)
+    names = MEASURED if name == EVERYTHING else (name,)
     if "balls" in names:
         compiling.need(compiling.BALLS_WITH_MASS)
     started = time.perf_counter()

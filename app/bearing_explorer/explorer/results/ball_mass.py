@@ -19,7 +19,7 @@ from bearing_explorer.explorer.results.excerpt import (
 from bearingcore import RACES, Motion, Scene
 from bearingcore.common import ResultTable, level_difference, table_of
 from bearingcore.dynamics import (
-    QUIET,
+    QUIETEST_COMPARED,
     RACES_OF_LOADS,
     SETTLING,
     BallComparison,
@@ -217,7 +217,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
         share=share,
         spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),
         added=added,
-        quiet=power[1] < QUIET * np.max(power[1], initial=0.0),
+        quiet=power[1] < QUIETEST_COMPARED * np.max(power[1], initial=0.0),
         comparison=_comparison(massless, heavy),
     )
 

@@ -44,7 +44,6 @@ from bearingcore.statics import (
     default_cage_angles,
     has_long_period,
     ranges_of,
-    turns,
 )
 
 if TYPE_CHECKING:
@@ -183,7 +182,7 @@ class Results:
     @property
     def over_shaft(self) -> bool:
         """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
-        return turns(self.scene)
+        return self.scene.defect_turns
 
     @cached_property
     def stretch(self) -> tuple[float, float, int]:

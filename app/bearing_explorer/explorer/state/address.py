@@ -142,7 +142,7 @@ def read(text: str) -> Place | None:
 
 
 def _known_pairs(text: str) -> tuple[dict[str, str], str]:
-    """What a text says under names that are known, and a sentence on those that are not."""
+    """Values of a text under names that are known, and a sentence on those that are not."""
     if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
     if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one

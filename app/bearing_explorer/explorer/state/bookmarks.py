@@ -93,6 +93,7 @@ class Bookmarks:
         self._history: History[Snapshot] = History(editor.snapshot())
         #: scenes that are drawn too
         self.compared: tuple[Reference, ...] = place.compared
+        self._left: tuple[Snapshot, tuple[Reference, ...], str] | None = None
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
@@ -152,6 +153,26 @@ class Bookmarks:
         if kept is not None:
             self._editor.restore(kept)
         return kept is not None
+
+    def leave(self) -> None:
+        """Keep scene, compared ones and tab of now for `back`."""
+        self._left = self._editor.snapshot(), self.compared, self._tab
+
+    @property
+    def can_go_back(self) -> bool:
+        """Whether something is kept for `back`."""
+        return self._left is not None
+
+    def back(self) -> str:
+        """Set what `leave` has kept, as a step, and name its tab; "" where nothing is kept."""
+        if self._left is None:
+            return ""
+        kept, self.compared, tab = self._left
+        self._left = None
+        self._editor.restore(kept)
+        self.say("")
+        self.step()
+        return tab or FIRST_TAB
 
     def take(self, request: OpenRequest, found: Place | str) -> bool:
         """Open or compare the place that `read_request` found; whether anything changed."""
@@ -219,4 +240,5 @@ class Bookmarks:
             "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": usual_name(self._editor.scene, self._editor.selected),
             "said": {"number": self._said[0], "words": self._said[1]},
+            "left": self.can_go_back,
         }

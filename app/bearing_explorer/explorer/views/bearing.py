@@ -82,7 +82,8 @@ try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not
 if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
-const unit = Math.min(w/shown.end, h/half, of_rows), x = w/unit, y = h/unit
+// and larger numbers on bars need more below the lowest
+const unit = Math.min(w/shown.end, (h - 28*(larger - 1))/half, of_rows), x = w/unit, y = h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
 """

@@ -292,7 +292,7 @@ def _pressures(results: Results, found: Endurance) -> FactGroup:
 
 
 def _assuming(found: Endurance) -> str:
-    """What a title adds where groove radii are assumed, by which no limit is judged."""
+    """Words that a title adds where groove radii are assumed, by which no limit is judged."""
     return ", with usual groove radii" if ASSUMED_GROOVES in found.assumed else ""
 
 

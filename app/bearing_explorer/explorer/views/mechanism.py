@@ -15,7 +15,7 @@ from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.folded_view import FoldedView
-from bearingcore.dynamics import LOWEST
+from bearingcore.dynamics import LOWEST_COMPARED
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
@@ -112,7 +112,8 @@ class WhichMechanism(FoldedView[Results]):
             return f"{words} The motion is too short to show where massless balls will do."
         up_to = found.comparison.massless_up_to
         if np.isnan(up_to):
-            return f"{words} The mass of the balls makes a difference from {_hertz(LOWEST)} on."
+            lowest = _hertz(LOWEST_COMPARED)
+            return f"{words} The mass of the balls makes a difference from {lowest} on."
         return f"{words} Up to {_hertz(up_to)} the mass of the balls makes no difference."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -313,7 +313,7 @@ def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
     number, last = number[drawn], last[drawn]
     first, gap = np.full(number.size, low), np.full(number.size, np.nan)
     places = np.stack([first, last, gap], axis=1)  # of each line along the speeds
-    inner = any(defect.race == "inner" for defect in run.scene.defects)
+    inner = run.scene.defect_turns
     return {
         "speed_run_harmonics": {
             "frequency": (places * (ratio * number)[:, None]).ravel(),

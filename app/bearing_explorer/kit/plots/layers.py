@@ -259,6 +259,7 @@ def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> Checkb
         syncable=False,
         margin=(4, 5, 8, 5),
         stylesheets=[style.BUTTONS],
+        css_classes=["look"],
     )
     code = "for (const one of drawn) one.visible = cb_obj.active.length > 0"
     box.js_on_change("active", CustomJS(args={"drawn": list(drawn)}, code=code))

@@ -148,7 +148,7 @@ class View(Generic[C]):
     def __init__(self, packed: PackedSource) -> None:
         self._results: C | None = None
         self._has_drawn = False
-        self._sentence = Sentence(css_classes=list(self.sentence_looks))
+        self._sentence = Sentence(css_classes=["sentence", *self.sentence_looks])
         #: parts of the content that are hidden without numbers
         self._pictures: list[pn.Column] = []
         self._withheld: list[tuple[pn.Column, list[pn.viewable.Viewable]]] = []
@@ -257,7 +257,8 @@ class View(Generic[C]):
         if self._pictures:
             for picture in self._pictures:
                 picture.visible = self._has_drawn
-            self._sentence.css_classes = list(self.sentence_looks) if self._has_drawn else []
+            looks = self.sentence_looks if self._has_drawn else ()
+            self._sentence.css_classes = ["sentence", *looks]
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)

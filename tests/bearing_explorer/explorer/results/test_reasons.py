@@ -80,7 +80,7 @@ def test_a_frequency_moves_with_the_root_of_its_stiffness_or_less() -> None:
     assert "less than its square root, as the support" in reasons.frequencies(of(shared))
     (low, high), ranges = of(shared).bands["y1"], of(shared).ranges
     most = math.sqrt(ranges.greatest["k_yy"] / ranges.least["k_yy"])
-    assert high / low - 1.0 < 0.5 * (most - 1.0)
+    assert high / low - 1.0 < 0.7 * (most - 1.0)
     words = NaturalFrequencies(PackedSource()).sentence
     assert words(of(RIG)).endswith(reasons.frequencies(of(RIG)))
 

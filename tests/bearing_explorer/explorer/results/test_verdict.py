@@ -26,7 +26,7 @@ def cone(fy: float, fz: float, dofs: tuple[str, ...] | None) -> Results:
 @pytest.mark.parametrize(
     ("fy", "fz", "dofs", "missing"),
     [
-        (-4000.0, 4000.0, None, "tilts that are held"),
+        (-4000.0, 4000.0, ("x", "y", "z", "rx", "ry"), "tilts that are held"),
         (0.0, -500.0, None, "500 N press the inner ring out"),
         (-4000.0, 500.0, ("x", "y", "z"), "more axial load"),
     ],

@@ -59,6 +59,16 @@ def test_offsets_grow_with_load_and_clearance(race, edge):
     assert np.all(np.diff(by_clearance) > 0.0)
 
 
+@pytest.mark.parametrize("load", [1e-6, 1.0, 1e5])
+def test_offsets_of_any_load_are_angles_inside_the_spall(load):
+    """Under a light load a ball carries over a few degrees only, and was let go turns away."""
+    for gap in (0.0, 1e-5, 1e-4):
+        offset = release_offset(MOTOR, "outer", load, gap)
+        assert math.isnan(offset) or 0.0 <= offset < MOTOR.ball_spacing
+    offsets = plausible_offsets(MOTOR, "outer", load, None, "exact")
+    assert 0.0 <= offsets.values.min() < offsets.values.max() < 0.5 * MOTOR.ball_spacing
+
+
 def test_what_is_known_narrows_what_is_plausible():
     def width(load, clearance):
         offsets = plausible_offsets(MOTOR, "outer", load, clearance)

@@ -97,7 +97,7 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
 
 
 def each_alone(causes: Mapping[str, Chain], now: Chain, before: Chain) -> str:
-    """What each of several causes would have done alone, and which of them made the change.
+    """The effect of each of several causes alone, and which of them made the change.
 
     Judged by the first of these that has changed: the stiffness that is named, the greatest load
     of a ball, the level of the loudest line.

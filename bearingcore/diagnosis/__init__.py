@@ -1,33 +1,20 @@
 """From a measured signal to the machine: which part is damaged, and how large the defect is."""
 
-from bearingcore.diagnosis.part.combs import HARMONICS
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, LIKELY, NONE_SEEN, EnvelopeLines
-from bearingcore.diagnosis.part.listed import ListedBearing, explaining_bearings
-from bearingcore.diagnosis.part.listened_signal import NARROWEST
-from bearingcore.diagnosis.part.parts import INNER, OUTER, PARTS
-from bearingcore.diagnosis.part.say import perhaps_a_ball
-from bearingcore.diagnosis.part.status import DiagnosisStatus
-from bearingcore.diagnosis.size.sizing_error import extent_error
-from bearingcore.diagnosis.size.variants import Tolerances, variant
-from bearingcore.diagnosis.trend import LINES, time_in
-
-__all__ = [
-    "CANNOT_TELL",
-    "HARMONICS",
-    "INNER",
-    "LIKELY",
-    "LINES",
-    "NARROWEST",
-    "NONE_SEEN",
-    "OUTER",
-    "PARTS",
-    "DiagnosisStatus",
-    "EnvelopeLines",
-    "ListedBearing",
-    "Tolerances",
-    "explaining_bearings",
-    "extent_error",
-    "perhaps_a_ball",
-    "time_in",
-    "variant",
-]
+from bearingcore.diagnosis.part.combs import HARMONICS as HARMONICS
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL as CANNOT_TELL
+from bearingcore.diagnosis.part.evidence import LIKELY as LIKELY
+from bearingcore.diagnosis.part.evidence import NONE_SEEN as NONE_SEEN
+from bearingcore.diagnosis.part.evidence import EnvelopeLines as EnvelopeLines
+from bearingcore.diagnosis.part.listed import ListedBearing as ListedBearing
+from bearingcore.diagnosis.part.listed import explaining_bearings as explaining_bearings
+from bearingcore.diagnosis.part.listened_signal import NARROWEST as NARROWEST
+from bearingcore.diagnosis.part.parts import INNER as INNER
+from bearingcore.diagnosis.part.parts import OUTER as OUTER
+from bearingcore.diagnosis.part.parts import PARTS as PARTS
+from bearingcore.diagnosis.part.say import perhaps_a_ball as perhaps_a_ball
+from bearingcore.diagnosis.part.status import DiagnosisStatus as DiagnosisStatus
+from bearingcore.diagnosis.size.sizing_error import extent_error as extent_error
+from bearingcore.diagnosis.size.variants import Tolerances as Tolerances
+from bearingcore.diagnosis.size.variants import variant as variant
+from bearingcore.diagnosis.trend import LINES as LINES
+from bearingcore.diagnosis.trend import time_in as time_in

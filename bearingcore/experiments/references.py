@@ -111,13 +111,18 @@ def motion_reference(
     first = histories[0]
     apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
     agreement = apart[0]
+    finished = [bool(np.all(np.isfinite(history))) for history in histories]
     unfinished = [
         name.partition(" ")[0]
-        for (name, _), history in zip(families, histories, strict=True)
-        if not np.all(np.isfinite(history))
+        for (name, _), whole in zip(families, finished, strict=True)
+        if not whole
     ]
-    trusted = not unfinished and all(
-        one[name] <= TRUSTED[name] for one in apart for name in TRUSTED
+    # two families are a reference; a third one that stops at a kink takes nothing from it
+    trusted = all(finished[:2]) and all(
+        one[name] <= TRUSTED[name]
+        for one, whole in zip(apart, finished[1:], strict=True)
+        if whole
+        for name in TRUSTED
     )
     note = f"CVODE is {scientific(apart[1]['spectrum'], 2)} dB from the first" if apart[1:] else ""
     if unfinished:
@@ -125,7 +130,11 @@ def motion_reference(
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
     reference = Reference(
-        tuple(name for name, _ in families),
+        tuple(
+            name
+            for (name, _), whole in zip(families, finished, strict=True)
+            if whole or not trusted
+        ),
         agreement,
         trusted,
         time.perf_counter() - began,

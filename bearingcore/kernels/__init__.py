@@ -4,106 +4,51 @@ Nothing here knows of the rest of bearingcore, and no compiled function takes mo
 arguments. `compiling` says how functions are compiled and kept on disk.
 """
 
-from bearingcore.kernels.balls.motion import march_balls
-from bearingcore.kernels.balls.positions import StaticBalls, ball_positions
-from bearingcore.kernels.balls.structs import BallSystem, Races
-from bearingcore.kernels.compiling import all_on_disk, kept_on_disk
-from bearingcore.kernels.modes import DOUBTFUL, modes_like
-from bearingcore.kernels.motion.march import (
-    between_steps,
-    elastic_loads,
-    march,
-    motion_rates,
-    side_by_side,
-    sliding_sums,
-    turn_smooth,
-)
-from bearingcore.kernels.path import (
-    EVERY_ROW,
-    INNER_EXACT,
-    PATH_COLUMNS,
-    TABLE,
-    ball_path,
-    drops_of,
-    roll_over,
-)
-from bearingcore.kernels.statics import (
-    BEYOND,
-    CONVERGED,
-    FREE_DIRECTION,
-    NO_PIVOT,
-    NOT_CARRIED,
-    NOT_CONVERGED,
-    NOTHING_TOUCHES,
-    OPEN,
-    REFUSED,
-    RESIDUAL_AIM,
-    RESIDUAL_LIMIT,
-    TOO_MANY,
-    new_answers,
-    new_memory,
-    static_maps,
-    static_states,
-)
-from bearingcore.kernels.structs import (
-    PLANAR,
-    SMOOTH,
-    VELOCITIES,
-    Contacts,
-    MapPaths,
-    Path,
-    Rotor,
-    StaticLoad,
-    System,
-)
-
-__all__ = [
-    "BEYOND",
-    "CONVERGED",
-    "DOUBTFUL",
-    "EVERY_ROW",
-    "FREE_DIRECTION",
-    "INNER_EXACT",
-    "NOTHING_TOUCHES",
-    "NOT_CARRIED",
-    "NOT_CONVERGED",
-    "NO_PIVOT",
-    "OPEN",
-    "PATH_COLUMNS",
-    "PLANAR",
-    "REFUSED",
-    "RESIDUAL_AIM",
-    "RESIDUAL_LIMIT",
-    "SMOOTH",
-    "TABLE",
-    "TOO_MANY",
-    "VELOCITIES",
-    "BallSystem",
-    "Contacts",
-    "MapPaths",
-    "Path",
-    "Races",
-    "Rotor",
-    "StaticBalls",
-    "StaticLoad",
-    "System",
-    "all_on_disk",
-    "ball_path",
-    "ball_positions",
-    "between_steps",
-    "drops_of",
-    "elastic_loads",
-    "kept_on_disk",
-    "march",
-    "march_balls",
-    "modes_like",
-    "motion_rates",
-    "new_answers",
-    "new_memory",
-    "roll_over",
-    "side_by_side",
-    "sliding_sums",
-    "static_maps",
-    "static_states",
-    "turn_smooth",
-]
+from bearingcore.kernels.balls.motion import march_balls as march_balls
+from bearingcore.kernels.balls.positions import StaticBalls as StaticBalls
+from bearingcore.kernels.balls.positions import ball_positions as ball_positions
+from bearingcore.kernels.balls.structs import BallSystem as BallSystem
+from bearingcore.kernels.balls.structs import Races as Races
+from bearingcore.kernels.compiling import all_on_disk as all_on_disk
+from bearingcore.kernels.compiling import kept_on_disk as kept_on_disk
+from bearingcore.kernels.modes import DOUBTFUL as DOUBTFUL
+from bearingcore.kernels.modes import modes_like as modes_like
+from bearingcore.kernels.motion.march import between_steps as between_steps
+from bearingcore.kernels.motion.march import elastic_loads as elastic_loads
+from bearingcore.kernels.motion.march import march as march
+from bearingcore.kernels.motion.march import motion_rates as motion_rates
+from bearingcore.kernels.motion.march import side_by_side as side_by_side
+from bearingcore.kernels.motion.march import sliding_sums as sliding_sums
+from bearingcore.kernels.motion.march import turn_smooth as turn_smooth
+from bearingcore.kernels.path import EVERY_ROW as EVERY_ROW
+from bearingcore.kernels.path import INNER_EXACT as INNER_EXACT
+from bearingcore.kernels.path import PATH_COLUMNS as PATH_COLUMNS
+from bearingcore.kernels.path import TABLE as TABLE
+from bearingcore.kernels.path import ball_path as ball_path
+from bearingcore.kernels.path import drops_of as drops_of
+from bearingcore.kernels.path import roll_over as roll_over
+from bearingcore.kernels.statics import BEYOND as BEYOND
+from bearingcore.kernels.statics import CONVERGED as CONVERGED
+from bearingcore.kernels.statics import FREE_DIRECTION as FREE_DIRECTION
+from bearingcore.kernels.statics import NO_PIVOT as NO_PIVOT
+from bearingcore.kernels.statics import NOT_CARRIED as NOT_CARRIED
+from bearingcore.kernels.statics import NOT_CONVERGED as NOT_CONVERGED
+from bearingcore.kernels.statics import NOTHING_TOUCHES as NOTHING_TOUCHES
+from bearingcore.kernels.statics import OPEN as OPEN
+from bearingcore.kernels.statics import REFUSED as REFUSED
+from bearingcore.kernels.statics import RESIDUAL_AIM as RESIDUAL_AIM
+from bearingcore.kernels.statics import RESIDUAL_LIMIT as RESIDUAL_LIMIT
+from bearingcore.kernels.statics import TOO_MANY as TOO_MANY
+from bearingcore.kernels.statics import new_answers as new_answers
+from bearingcore.kernels.statics import new_memory as new_memory
+from bearingcore.kernels.statics import static_maps as static_maps
+from bearingcore.kernels.statics import static_states as static_states
+from bearingcore.kernels.structs import PLANAR as PLANAR
+from bearingcore.kernels.structs import SMOOTH as SMOOTH
+from bearingcore.kernels.structs import VELOCITIES as VELOCITIES
+from bearingcore.kernels.structs import Contacts as Contacts
+from bearingcore.kernels.structs import MapPaths as MapPaths
+from bearingcore.kernels.structs import Path as Path
+from bearingcore.kernels.structs import Rotor as Rotor
+from bearingcore.kernels.structs import StaticLoad as StaticLoad
+from bearingcore.kernels.structs import System as System

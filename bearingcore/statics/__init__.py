@@ -1,55 +1,30 @@
 """The bearing at rest: equilibrium, stiffness maps, pressure, film and life of the contacts."""
 
-from bearingcore.statics.ball_positions import EquilibriumWithMass
-from bearingcore.statics.equilibrium import (
-    ANGLES_A_PERIOD,
-    TERM_SYMBOLS,
-    TERM_UNITS,
-    default_cage_angles,
-    has_long_period,
-)
-from bearingcore.statics.life import GIVEN, LEFT_OUT, OF_A_CATALOGUE, hours_in_words, turns_in_words
-from bearingcore.statics.limit import NO_OIL, summary, unknown
-from bearingcore.statics.passes import (
-    Crossing,
-    ball_drop,
-    crossings,
-    drops_at,
-    drops_now,
-    passing_rate,
-    path_kinks,
-)
-from bearingcore.statics.positions import ROUNDS
-from bearingcore.statics.ranges import BALL_LOAD, StaticRanges, ranges_of, static_ranges
-from bearingcore.statics.validity import NO_DRAWING, state_of_limits
-
-__all__ = [
-    "ANGLES_A_PERIOD",
-    "BALL_LOAD",
-    "GIVEN",
-    "LEFT_OUT",
-    "NO_DRAWING",
-    "NO_OIL",
-    "OF_A_CATALOGUE",
-    "ROUNDS",
-    "TERM_SYMBOLS",
-    "TERM_UNITS",
-    "Crossing",
-    "EquilibriumWithMass",
-    "StaticRanges",
-    "ball_drop",
-    "crossings",
-    "default_cage_angles",
-    "drops_at",
-    "drops_now",
-    "has_long_period",
-    "hours_in_words",
-    "passing_rate",
-    "path_kinks",
-    "ranges_of",
-    "state_of_limits",
-    "static_ranges",
-    "summary",
-    "turns_in_words",
-    "unknown",
-]
+from bearingcore.statics.ball_positions import EquilibriumWithMass as EquilibriumWithMass
+from bearingcore.statics.equilibrium import ANGLES_A_PERIOD as ANGLES_A_PERIOD
+from bearingcore.statics.equilibrium import TERM_SYMBOLS as TERM_SYMBOLS
+from bearingcore.statics.equilibrium import TERM_UNITS as TERM_UNITS
+from bearingcore.statics.equilibrium import default_cage_angles as default_cage_angles
+from bearingcore.statics.equilibrium import has_long_period as has_long_period
+from bearingcore.statics.life import GIVEN as GIVEN
+from bearingcore.statics.life import LEFT_OUT as LEFT_OUT
+from bearingcore.statics.life import OF_A_CATALOGUE as OF_A_CATALOGUE
+from bearingcore.statics.life import hours_in_words as hours_in_words
+from bearingcore.statics.life import turns_in_words as turns_in_words
+from bearingcore.statics.limit import NO_OIL as NO_OIL
+from bearingcore.statics.limit import summary as summary
+from bearingcore.statics.limit import unknown as unknown
+from bearingcore.statics.passes import Crossing as Crossing
+from bearingcore.statics.passes import ball_drop as ball_drop
+from bearingcore.statics.passes import crossings as crossings
+from bearingcore.statics.passes import drops_at as drops_at
+from bearingcore.statics.passes import drops_now as drops_now
+from bearingcore.statics.passes import passing_rate as passing_rate
+from bearingcore.statics.passes import path_kinks as path_kinks
+from bearingcore.statics.positions import ROUNDS as ROUNDS
+from bearingcore.statics.ranges import BALL_LOAD as BALL_LOAD
+from bearingcore.statics.ranges import StaticRanges as StaticRanges
+from bearingcore.statics.ranges import ranges_of as ranges_of
+from bearingcore.statics.ranges import static_ranges as static_ranges
+from bearingcore.statics.validity import NO_DRAWING as NO_DRAWING
+from bearingcore.statics.validity import state_of_limits as state_of_limits

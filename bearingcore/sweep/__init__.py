@@ -7,40 +7,24 @@ grids of this package: what needs them is imported when `sweep` is first asked f
 
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from bearingcore.sweep.run import sweep
-from bearingcore.sweep.grid import Axis, Grid, StillDirectionError, program_version
-from bearingcore.sweep.outputs import (
-    LIFE,
-    MASS,
-    MODES,
-    OUTPUTS,
-    SECONDS,
-    STATICS,
-    Settings,
-    mode_labels,
-    mode_symbol,
-)
-from bearingcore.sweep.status import STATUSES, SweepStatus
+from bearingcore.sweep.grid import Axis as Axis
+from bearingcore.sweep.grid import Grid as Grid
+from bearingcore.sweep.grid import StillDirectionError as StillDirectionError
+from bearingcore.sweep.grid import program_version as program_version
+from bearingcore.sweep.outputs import LIFE as LIFE
+from bearingcore.sweep.outputs import MASS as MASS
+from bearingcore.sweep.outputs import MODES as MODES
+from bearingcore.sweep.outputs import OUTPUTS as OUTPUTS
+from bearingcore.sweep.outputs import SECONDS as SECONDS
+from bearingcore.sweep.outputs import STATICS as STATICS
+from bearingcore.sweep.outputs import Settings as Settings
+from bearingcore.sweep.outputs import mode_labels as mode_labels
+from bearingcore.sweep.outputs import mode_symbol as mode_symbol
+from bearingcore.sweep.status import STATUSES as STATUSES
+from bearingcore.sweep.status import SweepStatus as SweepStatus
 
-__all__ = [
-    "LIFE",
-    "MASS",
-    "MODES",
-    "OUTPUTS",
-    "SECONDS",
-    "STATICS",
-    "STATUSES",
-    "Axis",
-    "Grid",
-    "Settings",
-    "StillDirectionError",
-    "SweepStatus",
-    "mode_labels",
-    "mode_symbol",
-    "program_version",
-    "sweep",
-]
+if TYPE_CHECKING:
+    from bearingcore.sweep.run import sweep as sweep
 
 
 def __getattr__(name: str) -> Any:

@@ -24,9 +24,17 @@ HURT = math.radians(12.9), 50e-6, "outer", "published"
 """The defect for `plane.py`: extent, depth, race, edge."""
 
 
+TO_BE_MADE_ANEW = ("3208", "7208-face-to-face")
+"""Charts measured before the levers of pairs were mended, off by up to 7 %; they wait for a quiet
+machine: `python -m tests.benchmarks.charts --ship --preset 3208 7208-face-to-face`."""
+
 every_preset = pytest.mark.parametrize(
     "preset",
-    [pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig")) for name in presets],
+    [
+        pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig"))
+        for name in presets
+        if name not in TO_BE_MADE_ANEW
+    ],
 )
 """One of them in the quick tests."""
 
@@ -108,7 +116,7 @@ def test_the_march_meets_the_stored_reference() -> None:
 @witness(
     "chart: motion",
     by="classical Runge-Kutta against SciPy's DOP853, both on equations written out in `march.py`",
-    compared="three points of every preset's chart: RK4 in velocities from 65,536 Hz on, L2 error",
+    compared="three points of 15 presets' charts: RK4 in velocities from 65,536 Hz on, L2 error",
     within=2e-3,
 )  # fmt: skip
 @every_preset
@@ -207,7 +215,7 @@ def test_points_of_the_angles_chart() -> None:
 @witness(
     "chart: models", "edge: exact", "edge: chord", "edge: published",
     by="SciPy's DOP853 on the equations of `march.py` with three edge models, 0.2 s from rest",
-    compared="levels of two edge models against exact ones, every preset [dB]", within="0.01 dB",
+    compared="levels of two edge models against exact ones, 15 presets [dB]", within="0.01 dB",
 )  # fmt: skip
 @every_preset
 def test_points_of_the_models_charts(preset: str) -> None:
@@ -224,7 +232,7 @@ def test_points_of_the_models_charts(preset: str) -> None:
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
     by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
-    compared="largest multiplier at the highest stable speeds of every preset's chart",
+    compared="largest multiplier at the highest stable speeds of 15 presets' charts",
     within=5e-3,
 )  # fmt: skip
 @every_preset

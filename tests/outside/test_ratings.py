@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore import Bearing, dynamic_load_rating
+from bearingcore import Bearing, dynamic_load_rating, read_designation
 from bearingcore.bearings.ratings import self_aligning_capacity_factor, static_factor
 from tests.outside.witness import witness
 
@@ -80,3 +80,11 @@ def test_static_factors() -> None:
     for k, factor in enumerate(STATIC, 1):
         assert float(static_factor(0.01 * k)) == pytest.approx(factor, abs=0.065), k
     assert math.isclose(float(static_factor(0.095)), 16.45, abs_tol=0.065)
+
+
+def test_grooves_of_bearings_by_number_are_those_that_the_factors_are_for() -> None:
+    """ISO 281, f_c: at most 0.52 D and 0.53 D of grooves, 0.53 D of self-aligning inner rings."""
+    aligning, groove = (read_designation(one).bearing for one in ("1208", "6208"))
+    assert aligning.groove_radius("inner") == pytest.approx(0.53 * aligning.ball_diameter)
+    for race, ratio in (("inner", 0.52), ("outer", 0.53)):
+        assert groove.groove_radius(race) == pytest.approx(ratio * groove.ball_diameter)

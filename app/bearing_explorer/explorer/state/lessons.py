@@ -29,8 +29,9 @@ A prediction can be a number instead: ``unit``, ``right`` and ``within`` in plac
 Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
 that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
-says how, and simulates a measurement of it. Files are read in the order of their names; without
-its leading number the name of a file is the lesson's own, by which the page's address calls it.
+says how, simulates a measurement of it, and opens Diagnosis. Files are read in the order of their
+names; without its leading number the name of a file is the lesson's own, by which the page's
+address calls it.
 
 Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
 loaded, and formulas become MathML of known elements. What is wrong with a file is said with its

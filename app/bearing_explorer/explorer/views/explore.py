@@ -79,6 +79,7 @@ class ExplorePlane(SceneJobView[Plane]):
         "on it. Hatched: no answer. Ring: this scene."
     )
     start = "Compute the map"
+    noun = "map"
     at_once = True
     bounds = f"Coarse at once, finer while you wait: at most {BUDGET / 60.0:.0f} minutes a map."
 
@@ -176,7 +177,7 @@ class ExplorePlane(SceneJobView[Plane]):
         plane = self._newest(results)[0]
         if plane is not None:
             return summary(plane)
-        return "There is no map yet." if self.is_empty else "Faint: an earlier map."
+        return self.words_of_nothing if self.is_empty else "Faint: an earlier map."
 
     def say(self, results: Results | None, sentence: str) -> None:
         if results is None or self._request is None:
@@ -234,7 +235,7 @@ class ExplorePlane(SceneJobView[Plane]):
         def work(job: Work) -> str:
             return refine(job, question, stride, start)
 
-        jobs.start(work, self._take, self.job.show)
+        jobs.start(work, self._take, self.report)
 
     def _take(self, found: Plane) -> None:
         if found.question == self._question:

@@ -2,17 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.kit.compute.jobs import JobState
 from bearing_explorer.kit.views.job_view import JobView
+from bearing_explorer.kit.widgets.facts import sentence_html
 
 Found = TypeVar("Found")
 
 
 class SceneJobView(JobView[Results, Found, SceneEditor], Generic[Found]):
     """A `JobView` whose form reads the editor of the scene."""
+
+    noun: ClassVar[str] = ""
+    """What its result is called where there is nothing to see before the first."""
+
+    @property
+    def words_of_nothing(self) -> str:
+        """The sentence before the first result: whether that is on its way."""
+        if self.job.state.running:
+            return f"The first {self.noun} is being computed."
+        return f"There is no {self.noun} yet."
+
+    def report(self, state: JobState) -> None:
+        super().report(state)
+        if self.noun and self.is_empty:
+            self._sentence.put(text=sentence_html(self.words_of_nothing))
 
     def editor_on_page(self, parts: Any) -> SceneEditor:
         editor: SceneEditor = parts.editor

@@ -129,8 +129,7 @@ class SpeedRunSpectra(SweptView):
         "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
         "Horizontal line: current speed. Click to go to a speed."
     )
-    nothing_yet = "There is no run yet."
-    first_comes = "The first run is being computed."
+    noun = "run"
     start = "Run up"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 

@@ -6,13 +6,12 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.value_range import Sweep, alike_but_for, focused
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import JobState, Work
-from bearing_explorer.kit.widgets.facts import sentence_html
+from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Scene
 from bearingcore.common import Progress
 
@@ -68,9 +67,7 @@ def compute_in_levels(
 class SweptView(SceneJobView[Swept]):
     """A view of such a result; it is faint where it is that of another scene."""
 
-    #: sentence before the first result, and while that is computed
-    nothing_yet: ClassVar[str] = "There is no map yet."
-    first_comes: ClassVar[str] = "The first map is being computed."
+    noun = "map"
 
     def scene_of(self, results: Results) -> Scene:
         """The scene on screen as the computation takes it."""
@@ -85,18 +82,9 @@ class SweptView(SceneJobView[Swept]):
         """The sentence on a result of the scene on screen."""
         raise NotImplementedError
 
-    @property
-    def _words_of_nothing(self) -> str:
-        return self.first_comes if self.job.state.running else self.nothing_yet
-
-    def report(self, state: JobState) -> None:
-        super().report(state)
-        if self.found is None:
-            self._sentence.put(text=sentence_html(self._words_of_nothing))
-
     def sentence(self, results: Results) -> str:
         if self.found is None:
-            return self._words_of_nothing
+            return self.words_of_nothing
         words = self.words_of(results, self.found)
         if self.opacity(results, self.found) < 1.0:
             return f"Faint, as the scene has changed since this was computed. Then: {words}"

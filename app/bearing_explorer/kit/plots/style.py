@@ -201,6 +201,7 @@ def style_figure(plot: figure) -> None:
     plot.outline_line_color = None
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
+    plot.toolbar.styles = {"background-color": "var(--card, white)"}  # Bokeh's is white in the dark
     plot.grid.grid_line_color = GRID
     if plot.title is not None:
         plot.title.text_font = FONT

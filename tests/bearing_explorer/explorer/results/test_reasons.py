@@ -17,7 +17,7 @@ from bearing_explorer.explorer.views.vibration_spectrum import why_words
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import Scene, equilibrium, presets
+from bearingcore import DOF_NAMES, Scene, equilibrium, presets
 
 RIG = presets["fan-rig"]
 SIDEWAYS = RIG.replace(fx=100.0, fy=0.0)
@@ -76,7 +76,7 @@ def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None
 
 def test_a_frequency_moves_with_the_root_of_its_stiffness_or_less() -> None:
     assert "square root of the stiffness" in reasons.frequencies(of(RIG))
-    shared = RIG.replace(fz=200.0, dofs="tilt free")
+    shared = RIG.replace(fz=200.0, dofs=DOF_NAMES)
     assert "less than its square root, as the support" in reasons.frequencies(of(shared))
     (low, high), ranges = of(shared).bands["y1"], of(shared).ranges
     most = math.sqrt(ranges.greatest["k_yy"] / ranges.least["k_yy"])

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import status_of, verdict
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
+from bearing_explorer.kit.pictures import picture_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.widgets.limits import rows_of
 
@@ -64,3 +67,21 @@ def test_too_little_thrust_stands_first_among_the_limits() -> None:
     first = rows_of(limits(cone(-4000.0, 1100.0, ("x", "y", "z")).scene))[0]
     assert first["state"] == "crossed"
     assert first["sentence"].startswith("The axial load is below the one it induces (1.26 kN)")
+
+
+def test_no_equilibrium_at_a_place_that_only_the_change_looks_at_is_seen_too() -> None:
+    results = cone(-4000.0, 4000.0, ("x", "y", "z"))
+    results.__dict__["chain"] = replace(results.chain, answered=0.75, reason="nothing touches")
+    said = verdict(results, frozenset({"chain"}))
+    assert said == ("bad", "No answer at 25 % of the cage angles: nothing touches")
+
+
+def test_a_card_that_cannot_be_shown_is_in_the_status() -> None:
+    class Refused(NaturalFrequencies):
+        def sentence(self, results: Results) -> str:
+            raise ValueError("no steel is known")
+
+    results = cone(-4000.0, 4000.0, ("x", "y", "z"))
+    for kind, words in ((NaturalFrequencies, "Computed without problems"),
+                        (Refused, "Not all can be shown")):  # fmt: skip
+        assert picture_of(results, [kind(PackedSource())]).status["words"] == words

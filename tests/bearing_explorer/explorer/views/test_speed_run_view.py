@@ -19,7 +19,7 @@ from bearing_explorer.explorer.views.speed_run import (
     levels_of,
 )
 from bearing_explorer.explorer.views.swept_view import Swept
-from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.compute.jobs import JobState, Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
@@ -62,6 +62,19 @@ def test_marched_speeds_are_marked_and_told(found: Swept) -> None:
     table = view.table(results)
     assert len({np.size(column) for column in table.values()}) == 1
     assert {"shaft_speed_hz", "frequency_hz", "density_y_m2_per_s4_per_hz"} <= set(table)
+
+
+def test_a_first_run_that_is_computed_is_not_called_missing() -> None:
+    view = SpeedRunSpectra(PackedSource())
+    for mood, words in (
+        ("waiting", "is being computed"),
+        ("busy", "is being computed"),
+        ("failed", "no run yet"),
+    ):
+        view.report(JobState(mood, 0.5, "Its own words."))  # type: ignore[arg-type]
+        assert words in view._sentence.text
+        assert words in view.sentence(Results(RIG))
+        assert "Its own words." in view.job.state.words
 
 
 def test_a_coarse_run_comes_first_and_bounds_hold() -> None:

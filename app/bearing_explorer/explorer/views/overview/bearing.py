@@ -31,7 +31,7 @@ class OverviewBearing(BearingDrawing):
         return why or super().sentence(results)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
-        plot = style.bare_figure(x, y, height=200, min_width=240)
+        plot = style.bare_figure(x, y, height=150, min_width=240)
         plot.min_border_top = 8  # for the words about the load
         return plot
 

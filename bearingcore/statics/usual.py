@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 from bearingcore.bearings.named import BearingLike, bearing_of
@@ -31,10 +32,9 @@ def scene_of(bearing: BearingLike) -> Scene:
     only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min, on
     two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
 
-    Rotor and support are assumed, as no number of a bearing says them: the part of the rotor that
-    weighs the radial load, a housing as heavy, on the springs of the fan rig, which damp it as much
-    as the fan rig's housing (4 % of critical). Natural frequencies and vibration are those of such
-    a machine; give the machine's own for those of another.
+    Rotor and support are assumed, as no number of a bearing says them: a rotor that weighs the
+    radial load, in the housing and on the springs of the fan rig. Natural frequencies and vibration
+    are those of such a machine; give the machine's own for those of another.
 
     Parameters
     ----------
@@ -75,13 +75,8 @@ def _rounded(value: float) -> float:
 
 
 def _carrying(load: float) -> Support:
-    """The fan rig's support with bodies that weigh a load [N] each, and as much damping of them."""
+    """The fan rig's support with a rotor that weighs a load [N]."""
     rig = FAN_RIG_SUPPORT
-    heavier = _rounded(load / STANDARD_GRAVITY) / rig.inner_mass
-    powers = {"stiffness": 0.0, "damping": 0.5}
-    return Support(
-        **{
-            name: value * heavier ** powers.get(name.split("_")[0], 1.0)
-            for name, value in vars(rig).items()
-        }
-    )
+    mass = _rounded(load / STANDARD_GRAVITY)
+    inertia = (rig.inner_inertia or 0.0) * mass / rig.inner_mass
+    return dataclasses.replace(rig, inner_mass=mass, inner_inertia=inertia)

@@ -9,7 +9,7 @@ from bearing_explorer.explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
 from bearingcore.common import number
-from bearingcore.scene import LOAD_ALONG, MASSLESS
+from bearingcore.scene import LOAD_ALONG, MASSLESS, TILT_FREE
 
 MOST_SHOWN_ROWS = 2
 
@@ -50,7 +50,7 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
         for defect in defects_of(scene)
     )
     before, now = scene.bearing.kind.directions, bearing.kind.directions
-    dofs = scene.dofs
+    dofs = scene.dofs if bearing.rows or scene.dofs != TILT_FREE else None  # one row may tip over
     if isinstance(dofs, tuple):  # where they were all that the other kind had they are no choice
         dofs = None if set(now) - set(before) else tuple(name for name in dofs if name in now)
     return dataclasses.replace(

@@ -17,8 +17,9 @@ from bearing_explorer.diagnosis.form import (
     USUAL_SENSITIVITY,
     one_of_each,
 )
+from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
-from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.messages import UploadBegins, UploadPiece

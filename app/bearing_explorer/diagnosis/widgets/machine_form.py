@@ -17,7 +17,7 @@ from bearing_explorer.diagnosis.machine import (
     GIVEN,
     ROUGH,
 )
-from bearing_explorer.diagnosis.session import MeasurementState
+from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select

@@ -18,8 +18,9 @@ from bearing_explorer.diagnosis.form import (
     roles_and_units,
     with_role,
 )
+from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
-from bearing_explorer.diagnosis.session import Measurement, MeasurementState
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
 from bearing_explorer.diagnosis.diagnoses import SLIP
-from bearing_explorer.diagnosis.session import simulated
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state import lessons

@@ -18,7 +18,7 @@ from bearing_explorer.diagnosis.model import motion
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Defect, Recording, Scene
-from bearingcore.diagnosis import Tolerances, variant
+from bearingcore.diagnosis import SPREAD, variant
 from bearingcore.scene import WITH_MASS, pit
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
@@ -97,8 +97,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     noise_db
         signal over noise [dB], each direction against its own.
     different
-        whether the machine's stiffnesses, load, damping and depth are off what the scene says, as
-        far as the sizing expects them to be.
+        whether the machine's stiffnesses, load, damping and depth are off what the scene says.
 
     Raises
     ------
@@ -110,7 +109,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
     if different and single:
         (defect,) = scene.defects
-        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * Tolerances().spread
+        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * SPREAD
         truth = variant(scene, defect.extent, defect.edge, exponents)
     passing = scene.bearing.bpfo(scene.shaft_speed)
     duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.form import read_form
-from bearing_explorer.diagnosis.session import read_file
+from bearing_explorer.diagnosis.reading import read_file
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.explorer.results.results import Results

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from functools import cache
 
 from bearing_explorer.diagnosis.machine import GIVEN, Machine, of_scene
-from bearing_explorer.diagnosis.session import Measurement, simulated
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.kit.bearing_list import BearingTable
 
 from bearingcore import Scene, presets

@@ -14,7 +14,7 @@ from bokeh.embed import json_item
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SIMULATED
 from bearing_explorer.diagnosis.next_steps import next_steps
-from bearing_explorer.diagnosis.session import NOT_SAID, Measurement
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.extent import SpallExtent
@@ -31,14 +31,19 @@ from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, with_prefix
+from bearingcore.diagnosis import time_in
 
 if TYPE_CHECKING:
     from bearing_explorer.diagnosis.model import Model
 
 FILE = "bearing-measurement.html"
+NOT_SAID = "not said"
 WIDTH, HEIGHT = 470, 250
 """Of a figure as it is drawn [px]; two are side by side."""
 MOST_FIGURES = 4
+_ORIGINS = {
+    "Said by": "From the file,", "A guess:": "Assumed:", "The file does not say it.": "Assumed",
+}  # fmt: skip
 FIGURES = {
     TrendOfFiles: "Trend",
     SpallExtent: "Mean ball pass",
@@ -134,7 +139,7 @@ def measured_report(
     body = [
         *heading(about, title),
         f"<p>Measuring point: {html_text(said.point or NOT_SAID)}. "
-        f"Recorded: {html_text(measurement.recorded)}.</p>",
+        f"Recorded: {html_text(recorded(measurement))}.</p>",
         part_html(state),
         f"<h2>What to do next</h2><p class='do'>{html_text(steps)}</p>",
         html_table([], _escaped(findings(question, answer, measurement, kind, trend)), named=True),
@@ -200,16 +205,17 @@ def assumptions(
     measured, bearing = question.measured, question.bearing
     machine, recording = measured.machine, measured.recording
     given, values = dict(part_words.facts(answer, question)), measurement.state.values
-    source, load = measurement.origin_of, measured.true_load or measurement.state.load
+    load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
         ("File", recording.name, "" if measured.origin else "Simulated"),
         ("Signal", f"{with_prefix(recording.duration, 's')} along "
-         f"{' and '.join(measured.directions)}", source("columns")),
-        ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4), source("sample_rate")),
-        ("Unit", values.get("unit", "m/s²") or "not known", source("unit")),
+         f"{' and '.join(measured.directions)}", origin_of(measurement, "columns")),
+        ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),
+         origin_of(measurement, "sample_rate")),
+        ("Unit", values.get("unit", "m/s²") or "not known", origin_of(measurement, "unit")),
         ("Shaft", given["Shaft"],
          "Found" if unknown else machine.source_of("speed").capitalize()),
         ("Slip", given["Slip"], "Assumed"),
@@ -224,6 +230,26 @@ def assumptions(
          made if measured.true_edge else "Assumed: usual of the bearing"),
         ("Demodulation band", given.get("Demodulation band", "none"), "Found"),
     ]  # fmt: skip
+
+
+def origin_of(measurement: Measurement, name: str) -> str:
+    """Whether a field is given, from the file or assumed, with its reason."""
+    words = measurement.source_of(name)
+    for before, after in _ORIGINS.items():
+        if words.startswith(before):
+            return f"{after} {words.removeprefix(before).strip()}".strip()
+    if words.startswith("Given") or not words:
+        return words
+    return f"From the file, {words[0].lower()}{words[1:]}"
+
+
+def recorded(measurement: Measurement) -> str:
+    """When the signal was recorded, as a person or the name of the file says."""
+    if measurement.about.date:
+        return measurement.about.date
+    measured = measurement.measured
+    when = None if measured is None else time_in(measured.recording.name)
+    return NOT_SAID if when is None else f"{when:%d %B %Y, %H:%M}, by the name of the file"
 
 
 def limits(question: Question, answer: Diagnosis) -> list[str]:

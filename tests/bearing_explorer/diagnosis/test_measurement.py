@@ -14,14 +14,10 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine
-from bearing_explorer.diagnosis.session import (
-    MOST_NUMBERS,
-    Measurement,
-    read_file,
-    simulated,
-    with_pit,
-)
+from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.simulated import simulated, with_pit
 from bearing_explorer.diagnosis.upload import (
     LONGEST_NAME,
     MOST_BYTES,

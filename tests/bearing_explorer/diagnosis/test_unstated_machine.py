@@ -12,15 +12,11 @@ from functools import cache
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.measurement_state import CHANGED, NOT_YET, REFUSED
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
-from bearing_explorer.diagnosis.session import (
-    CHANGED,
-    NOT_YET,
-    REFUSED,
-    Measurement,
-    simulated,
-)
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent

@@ -104,12 +104,6 @@ def test_clearances_as_other_makers_print_them() -> None:
     assert clearance(ROLLERS, 0.100, "C5") == pytest.approx((155e-6, 190e-6))
 
 
-def test_static_factor_is_that_of_iso_76() -> None:
-    table = {0.01: 14.9, 0.05: 15.7, 0.09: 16.5, 0.10: 16.4, 0.15: 15.2, 0.2: 14.0, 0.3: 11.6}
-    for gamma, factor in table.items():
-        assert float(ratings.static_factor(gamma)) == pytest.approx(factor, abs=0.06)
-
-
 def test_rule_on_published_insides() -> None:
     """What is said of the rule's errors is what they are.
 

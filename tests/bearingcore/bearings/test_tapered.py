@@ -50,12 +50,6 @@ def test_axial_rating_is_that_of_the_standards_axial_factor() -> None:
     assert pytest.approx(0.4 / math.tan(ALPHA) * 5000.0, rel=0.08) == P
 
 
-def test_frequencies_take_the_angle_of_the_outer_race() -> None:
-    gamma = ROW.ball_diameter * math.cos(ALPHA) / ROW.pitch_diameter
-    assert ROW.bpfo(2.0 * math.pi) == pytest.approx(0.5 * Z * (1.0 - gamma))
-    assert ROW.bpfi(2.0 * math.pi) == pytest.approx(0.5 * Z * (1.0 + gamma))
-
-
 def test_next_to_no_angle_makes_cylindrical_rollers() -> None:
     nearly = dataclasses.replace(PAIR, bearing=ROW.replace(contact_angle=1e-6), dofs=("x", "y"))
     flat = nearly.replace(fy=-4000.0, fz=0.0)

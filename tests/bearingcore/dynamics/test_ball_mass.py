@@ -1,11 +1,9 @@
 """Balls with mass: limits, conservation, published bands, another family of methods."""
 
 import math
-from functools import cache
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from bearingcore import Motion, Scene, equilibrium, kernels, presets, simulate, spectrum
 from bearingcore.dynamics.ball_motion import (
@@ -201,50 +199,6 @@ def test_what_mass_adds_in_each_band(speed: float, table: tuple[float, ...]) -> 
     heavy = simulate(scene.replace(contact_law="no tension"), 1.4, RATE)
     assert heavy.completed
     assert levels(heavy) - levels(massless) == pytest.approx(table, abs=0.2)
-
-
-@cache
-def by_scipy(method: str, law: str) -> np.ndarray:
-    """The housing's velocity (n, 2) [m/s] over 6 ms while a ball enters and strikes."""
-    scene = entering(law)
-    system = ball_system(packed_motion(scene), velocities=True)
-    start = ball_start(packed_motion(scene), equilibrium(scene, [0.0]), 2)
-    assert start is not None
-
-    def rate(t: float, y: np.ndarray) -> np.ndarray:
-        return ball_motion_rates(np.array([t]), y[None], 0.0, system)[0]
-
-    time = np.arange(round(0.006 * RATE)) / RATE
-    scale = np.full(start.size, 1e-13)
-    scale[2:4] = scale[6:8] = scale[36:] = 1e-9
-    answer = solve_ivp(rate, (0.0, time[-1]), start, method, time, rtol=1e-7, atol=scale)
-    assert answer.success
-    return answer.y[6:8].T
-
-
-def entering(law: str) -> Scene:
-    """30 Hz, a ball about to enter the defect; no defect elsewhere."""
-    first = 1.5 * math.pi - 10 * FAN_RIG.bearing.ball_spacing
-    return FAN_RIG.replace(
-        shaft_speed=2.0 * math.pi * 30.0,
-        contact_law=law,
-        center=1.5 * math.pi - first + math.radians(6.5),
-        extent=math.radians(12.9),
-    )
-
-
-@pytest.mark.proof
-@pytest.mark.parametrize("law", ["published", "no tension"])
-def test_two_families_of_methods_agree(law: str) -> None:
-    """Steps of RK4 in variables without jumps, and scipy's DOP853 and Radau on the plain law."""
-    ours = simulate(entering(law), 0.006, RATE).outer_velocity
-    size = ours.std(axis=0)
-    explicit, implicit = by_scipy("DOP853", law), by_scipy("Radau", law)
-    assert np.abs(explicit - implicit).max() < 1e-3 * size.max()
-    allowed = 1e-4 if law == "published" else 5e-3
-    assert np.sqrt(np.mean((ours - explicit) ** 2, axis=0)).max() < allowed * size.max()
-    rms = np.diff(explicit, axis=0).std(axis=0)  # what the housing's acceleration comes to
-    assert np.diff(ours, axis=0).std(axis=0) == pytest.approx(rms, rel=10.0 * allowed)
 
 
 def test_steps_follow_the_contact_resonance_and_are_counted_before_they_begin() -> None:

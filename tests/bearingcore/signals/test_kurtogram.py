@@ -19,17 +19,6 @@ def knocking(ring: float, every: float = 40.0, tone: float = 0.0, noise: float =
     return np.asarray(signal + noise * np.random.default_rng(3).standard_normal(time.size))
 
 
-def test_noise_has_none_a_tone_has_less_and_knocks_have_more():
-    time = np.arange(2**18) / RATE
-    noise = kurtogram(np.random.default_rng(1).standard_normal(time.size), RATE)
-    assert np.abs(noise.kurtosis).max() < 0.5
-    assert (np.abs(noise.kurtosis) < 4.0 * noise.deviation).mean() > 0.95
-    tone = kurtogram(np.sin(2.0 * math.pi * 3000.0 * time), RATE)
-    at = [band.low < 2900.0 and band.high > 3100.0 for band in tone.bands]
-    assert tone.kurtosis[at] == pytest.approx(-1.0, abs=0.02)
-    assert kurtogram(knocking(3000.0), RATE).kurtosis.max() > 1.0
-
-
 @pytest.mark.parametrize("ring", [1500.0, 3000.0, 6000.0])
 def test_the_band_that_rings_is_found_although_a_tone_is_louder(ring):
     signal = knocking(ring, tone=2.0)

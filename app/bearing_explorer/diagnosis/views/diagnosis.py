@@ -15,7 +15,8 @@ from bearing_explorer.diagnosis.diagnoses import (
     Question,
     answered,
 )
-from bearing_explorer.diagnosis.session import AboutMeasurement, Measurement, MeasurementState
+from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
+from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom

@@ -13,7 +13,7 @@ from bokeh.models import Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.diagnosis.session import Sized
+from bearing_explorer.diagnosis.measurement_state import Sized
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.extent import BEFORE, EDGE_WORDS
 from bearing_explorer.diagnosis.views.measured_job_view import MeasuredJobView, SceneNow
@@ -63,8 +63,8 @@ FAULTS = [["", "the part of step 2"], [OUTER, "the outer race, as is known"]]
 
 KNOWN = "known"
 SUPPORTS = [
-    ["", "a guess: tries others (slower)"],
-    [KNOWN, "as in the scene"],
+    ["", "not measured: no size"],
+    [KNOWN, "measured, as in the scene"],
 ]
 """Knowledge of the machine's masses and springs: value and words."""
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import panel as pn
 
-from bearing_explorer.diagnosis.session import Sized
+from bearing_explorer.diagnosis.measurement_state import Sized
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.session import simulated
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView

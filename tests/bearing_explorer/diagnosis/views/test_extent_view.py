@@ -10,8 +10,8 @@ from functools import cache
 import pytest
 from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, answered, extent_of
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.session import load_on_defect, simulated
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.simulated import load_on_defect, simulated
 from bearing_explorer.diagnosis.views.extent import BEFORE, SpallExtent
 from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.kit.serve.packed_source import PackedSource

@@ -10,8 +10,8 @@ import time
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import answered
+from bearing_explorer.diagnosis.measurement_state import Sized
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.session import Sized
 from bearing_explorer.diagnosis.signal import Measured, Origin, Simulated
 from bearing_explorer.diagnosis.views.frequency_lines import (
     FAMILIES,

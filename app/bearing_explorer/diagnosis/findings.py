@@ -1,0 +1,222 @@
+"""The signal of a session as it is now, and what has been found out about it.
+
+Holds no Panel and draws nothing.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import copy
+import logging
+from collections.abc import Awaitable, Callable, Coroutine
+from dataclasses import replace
+from typing import Any, Self
+
+from bearing_explorer.diagnosis.diagnoses import (
+    Answers,
+    ListQuestion,
+    Progress,
+    Question,
+    answered,
+    extent_of,
+    listed_of,
+)
+from bearing_explorer.diagnosis.machine import of_scene
+from bearing_explorer.diagnosis.measurement_state import (
+    CHANGED,
+    NOT_YET,
+    REFUSED,
+    MeasurementState,
+    Sized,
+)
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.executors import FILES, in_thread
+from bearing_explorer.kit.compute.jobs import Change
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Table
+from bearingcore.diagnosis import ListedBearing
+
+log = logging.getLogger(__name__)
+
+
+class Findings:
+    """The signal of one session, its state, and the answers that are computed in the background.
+
+    Parameters
+    ----------
+    scene
+        gives the scene that may be measured, as it is now.
+    bearings
+        to choose from.
+    assign
+        runs a change of the page's models and sends it, as `live.one_message` does.
+    draw
+        requests a drawing.
+    """
+
+    def __init__(
+        self,
+        scene: Callable[[], Scene],
+        bearings: BearingTable,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+    ) -> None:
+        self.measured: Measured | None = None
+        self.sized: Sized | None = None
+        self.state = MeasurementState()
+        #: called with the new state, for the form of the signal and for that of its machine
+        self.show: Callable[[MeasurementState], None] = lambda _: None
+        self.show_machine: Callable[[MeasurementState], None] = lambda _: None
+        self._scene_now, self._bearings = scene, bearings
+        self._assign = assign
+        self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses: Answers[Diagnosis] = Answers(assign, draw, answered)
+        #: how long the spall is, when that is known
+        self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
+        #: listed bearings, where the one that is given does not explain the signal
+        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
+        self._scene = of_scene(scene())
+        self._table: Table | None = None  # with the roles of its columns as they are given
+        self._latest = 0  # number of what was asked for last: what it overtook is dropped
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._ended = False
+
+    def stop(self) -> None:
+        """The session is over."""
+        self._ended = True
+        self._table = None
+        self.diagnoses.stop()
+        self.extents.stop()
+        self.listed.stop()
+        for task in self._tasks:
+            task.cancel()
+
+    # What was found
+
+    def question(self) -> Question | None:
+        """The newest question of which part is damaged.
+
+        None where nothing is measured, or nothing says on which bearing.
+        """
+        measured = self.measured
+        if measured is None or measured.bearing is None:
+            return None
+        return Question.about(measured)
+
+    def diagnosis(self) -> Diagnosis | None:
+        """The answer to it, where there is one already."""
+        question = self.question()
+        found = None if question is None else self.diagnoses.of(question)
+        return found if isinstance(found, Diagnosis) else None
+
+    def extent(self) -> MeasuredExtent | None:
+        """The newest answer to how long the spall is, where there is one already."""
+        question = self.question()
+        found = None if question is None else self.extents.latest(question)
+        return found if isinstance(found, MeasuredExtent) else None
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is known, or was found with the bearing; None where neither is.
+
+        It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
+        the shaft, and would be taken for them.
+        """
+        measured = self.measured
+        if measured is None:
+            return None
+        if measured.machine.exact_speed is not None:
+            return measured.machine.exact_speed
+        found = self.diagnosis()
+        return None if found is None else found.shaft_speed
+
+    @property
+    def out_of_date(self) -> str:
+        """Why the answer that may be on screen is not that of now; empty where it is."""
+        question = self.question()
+        if self.measured is not None and self.state.refused:
+            return REFUSED
+        if self.state.settling:
+            return CHANGED
+        return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
+
+    @property
+    def at_work(self) -> str:
+        """Work that is under way, for the status line; empty where nothing is."""
+        if self.state.busy:
+            return "Reading the signal"
+        if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
+            return "Analysing the signal"
+        return "Searching the list of bearings" if self.listed.busy else ""
+
+    def listed_question(self, about: Question) -> ListQuestion:
+        """The question which of the listed bearings explain a recording."""
+        named = {one.name: one.bearing for one, _ in self._bearings.all()}
+        try:
+            loop = asyncio.get_running_loop()
+            progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
+        except RuntimeError:  # a view is drawn outside of a session
+            progress = Progress()
+        return ListQuestion.about(about.measured, bearings=named, progress=progress)
+
+    def cancel_search(self) -> None:
+        """End the search for listed bearings."""
+        if isinstance(self.listed.wanted, ListQuestion):
+            self.listed.wanted.progress.cancelled = True
+
+    def snapshot(self) -> Self:
+        """A copy for another thread: what is measured and found by now."""
+        made = copy.copy(self)
+        made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
+        made.listed = copy.copy(self.listed)
+        return made
+
+    # Saying and doing
+
+    def _refuse(self, sentence: str) -> None:
+        """Say what is wrong with a file; the signal before it stays."""
+        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False)
+
+    def _what_stays(self) -> str:
+        if self.measured is not None:
+            return f" {self.measured.recording.name} stays."
+        return (
+            ""
+            if self._table is None
+            else f" The questions are still those about {self._table.name}."
+        )
+
+    def _tell(self, **news: Any) -> None:
+        before, self.state = self.at_work, replace(self.state, **news)
+        self.show(self.state)
+        self.show_machine(self.state)
+        if self.at_work != before:
+            self._draw()
+
+    def _in_background(
+        self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
+    ) -> None:
+        """Compute in a thread and take the result, unless a newer request has come."""
+        number = self._latest
+
+        async def run() -> None:
+            try:
+                found = await in_thread(compute, pool=FILES)
+            except ValueError as error:
+                sentence = str(error)
+                change = lambda: self._refuse(sentence)  # noqa: E731
+            except Exception:
+                log.exception("a measurement could not be read")
+                change = lambda: self._refuse(f"{name} could not be read.")  # noqa: E731
+            else:
+                change = lambda: take(found)  # noqa: E731
+            if number == self._latest and not self._ended:
+                await self._assign(change)
+
+        self._keep(run())
+
+    def _keep(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)

@@ -1,0 +1,82 @@
+"""The state of the panels of a measurement, as values, with its sentences."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from bearing_explorer.diagnosis.form import ShownColumns
+from bearing_explorer.diagnosis.signal import Measured
+from bearingcore import Scene, Sizing
+
+FIRST_WORDS = (
+    "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
+    "current scene. Then the damaged part, the length of its spall, trend, indicators and spectra "
+    "appear here."
+)
+
+NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."
+
+REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
+CHANGED = "Your answers have changed since."
+NOT_YET = "The signal is being analysed with the newest answers."
+"""Why an answer is out of date, or not there yet."""
+
+
+@dataclass(frozen=True)
+class MeasurementState:
+    """The state of the panels of a measurement."""
+
+    words: str = FIRST_WORDS
+    bad: bool = False
+    busy: bool = False
+    columns: ShownColumns | None = None
+    values: dict[str, str] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    #: why the fields are filled in as they are
+    reasons: dict[str, str] = field(default_factory=dict)
+    #: fields that a person has to answer: before the signal is taken, or before it has a size
+    open: list[str] = field(default_factory=list)
+    #: the unit that is likely where the file does not say it, "" where none is; None if it does
+    proposed: str | None = None
+    #: other numbers and words of the file
+    said: str = ""
+    #: [N] in the file, None where it has none
+    load: float | None = None
+    scaled: bool = False
+    #: whether the sensitivity of a sensor is needed
+    voltage: bool = False
+    #: bearings to choose from, as [value, words, heading], and answers on the speed
+    bearings: list[list[str]] = field(default_factory=list)
+    speeds: list[list[str]] = field(default_factory=list)
+    #: whether changed answers are still being read
+    settling: bool = False
+    #: the file before, where bearing or speed are those that a person gave for that
+    kept_from: str = ""
+    #: files that can be joined to one signal
+    parts: int = 0
+    #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
+    line: str = ""
+    #: the whole name of its file, where the line has less of it
+    whole_name: str = ""
+    #: what is odd about the signal; empty where nothing is
+    remarks: str = ""
+    #: number of the file or simulation that is shown
+    arrival: int = 0
+
+
+@dataclass(frozen=True)
+class AboutMeasurement:
+    """Words for reports, which a person types once for all files of a session."""
+
+    machine: str = ""
+    point: str = ""
+    date: str = ""
+
+
+@dataclass(frozen=True)
+class Sized:
+    """The size that was found for a defect, with its signal and its scene."""
+
+    measured: Measured
+    scene: Scene
+    sizing: Sizing

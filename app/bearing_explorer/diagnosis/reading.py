@@ -1,0 +1,190 @@
+"""A file read as a signal: with guesses at what it holds, or with the answers of a person.
+
+For any thread: nothing here knows a session.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+from bearing_explorer.diagnosis.form import (
+    FormResult,
+    fill,
+    questions,
+    read_form,
+    size_questions,
+    usable,
+)
+from bearing_explorer.diagnosis.machine import FIELDS as MACHINE_FIELDS
+from bearing_explorer.diagnosis.machine import (
+    NOT_KNOWN,
+    FormError,
+    Machine,
+    find_published,
+    kept_answers,
+)
+from bearing_explorer.diagnosis.series import Series
+from bearingcore import CatalogueBearing, Table, read_table
+from bearingcore.common import thousands
+from bearingcore.errors import FieldError
+
+MOST_NUMBERS = 4_000_000
+"""Numbers of a table that a session keeps; later rows are left out."""
+
+
+@dataclass
+class Arrival:
+    """Files that come one after the other, and what was read of them.
+
+    `why`: the sentence on the first that cannot be read.
+    """
+
+    count: int
+    chosen: int
+    series: Series
+    number: int = 1
+    newest: Read | None = None
+    why: str = ""
+    baseline: bool = False
+
+    @property
+    def words(self) -> str:
+        """Which of how many it is; empty of one alone."""
+        if self.count == 1:
+            return ""
+        of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
+        return f"{self.number} of {self.count} files{of}: "
+
+    def take(self, name: str, found: Read | str, inside: int = 1) -> None:
+        """Take what was read, or why nothing was; one of so many `inside` one file."""
+        if isinstance(found, str):
+            sentence = found if name in found else f"{name}: {found}"
+            self.series, self.why = self.series.without(sentence), self.why or sentence
+        else:
+            self.series, self.newest = (
+                self.series.with_table(found.table, self.count * inside, first=self.baseline),
+                found,
+            )
+
+
+@dataclass(frozen=True)
+class Read:
+    """A file's table, the values of its form, and the recording or why there is none yet.
+
+    `first` is the form as the file alone says; `kept` are answers for the file before that it has
+    besides. `asks` are the questions before there is a recording, `sizes` those before it has a
+    size. `parts` are the files that were joined.
+    """
+
+    table: Table
+    first: dict[str, str]
+    form: dict[str, str]
+    cut: str
+    asked: FormResult | None
+    refused: dict[str, str]
+    asks: dict[str, str]
+    sizes: dict[str, str]
+    kept: dict[str, str] = field(default_factory=dict)
+    parts: tuple[str, ...] = ()
+
+
+def read_file(
+    name: str,
+    content: bytes,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
+    kept: Mapping[str, str] = MappingProxyType({}),
+) -> Read:
+    """A file with guesses at what it holds. For any thread; ValueError with a sentence.
+
+    `kept`: answers on the machine for the file before, used where this one says nothing.
+    """
+    try:
+        table = read_table(name, content)
+    except FieldError as error:
+        about = error.field == "file" and error.value == name
+        why = f"needed is {error.allowed_text}" if about else str(error)
+        raise ValueError(f"{name} cannot be used: {why}.") from None
+    except ValueError as error:
+        raise ValueError(f"{name} cannot be used: {error}.") from None
+    except MemoryError:
+        raise ValueError(f"{name} is too large for this server.") from None
+    return read_of(table, scene, find, kept)
+
+
+def read_of(
+    table: Table,
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+    kept: Mapping[str, str],
+    changed: Mapping[str, str] = MappingProxyType({}),
+) -> Read:
+    """The same of a table that was read; what a person `changed` stays so."""
+    name = table.name
+    table, cut = _shortened(table)
+    (_, first), asks = fill(table, {}), questions(table)
+    kept = kept_answers(first, kept)
+    form = {**first, **kept, **changed}
+    asks = {field: words for field, words in asks.items() if field not in changed}
+    sizes = size_questions(table, form)
+    found, refused = _tried(table, form, scene, find), {}
+    if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
+        # the signal is one, whatever the file says of its bearing
+        refused = found.sentences
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
+    if isinstance(found, FormError):
+        if not usable(table):
+            raise ValueError(f"{name} cannot be used. {found}")
+        refused |= found.sentences
+        return Read(table, first, form, cut, None, refused, asks, sizes, kept)
+    return Read(table, first, form, cut, None if asks else found, refused, asks, sizes, kept)
+
+
+@dataclass(frozen=True)
+class AnsweredTable:
+    """Answers as they were read: the recording, or why there is none.
+
+    `table` has the roles as they are given; `form` is as answered, `first` as the file alone says.
+    """
+
+    table: Table
+    form: dict[str, str]
+    first: dict[str, str]
+    found: FormResult | FormError
+
+
+def read_answers(
+    table: Table,
+    changed: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> AnsweredTable | FormError:
+    try:
+        told, form = fill(table, changed)
+    except FormError as refused:
+        return refused
+    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene, find))
+
+
+def _tried(
+    table: Table,
+    form: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> FormResult | FormError:
+    try:
+        return read_form(table, form, scene, find)
+    except FormError as refused:
+        return refused
+
+
+def _shortened(table: Table) -> tuple[Table, str]:
+    """The table with no more numbers than a session may keep, and a sentence if that is less."""
+    rows, columns = table.columns.shape
+    most = MOST_NUMBERS // columns
+    if rows <= most:
+        return table, ""
+    kept = replace(table, columns=table.columns[:most].copy())
+    return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."

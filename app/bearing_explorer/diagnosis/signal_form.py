@@ -1,0 +1,312 @@
+"""The form of a signal: the answers of a person, and the signal as they make it."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from bearing_explorer.diagnosis.findings import Findings
+from bearing_explorer.diagnosis.form import (
+    LIKELY,
+    SIGNAL_FIELDS,
+    SIZES,
+    FormResult,
+    as_texts,
+    bearings_of,
+    columns_of,
+    is_voltage,
+    load_of,
+    machine_of,
+    proposed_unit,
+    questions,
+    reasons,
+    said,
+    size_questions,
+    speeds_of,
+)
+from bearing_explorer.diagnosis.machine import (
+    GIVEN,
+    GROUPS,
+    NOT_KNOWN,
+    ROUGH,
+    SCENE,
+    SIMULATED,
+    FormError,
+    answers_of,
+    of_scene,
+)
+from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
+from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
+from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.jobs import Change
+from bearingcore import Scene, Table
+
+_WAITS = "Nothing is drawn yet:"
+
+
+class SignalForm(Findings):
+    """The form that a file and a person fill in, and the signal as it says. See `Findings`."""
+
+    def __init__(
+        self,
+        scene: Callable[[], Scene],
+        bearings: BearingTable,
+        assign: Callable[[Change], Awaitable[None]],
+        draw: Callable[[], None],
+    ) -> None:
+        super().__init__(scene, bearings, assign, draw)
+        #: the files that were read
+        self.series = Series()
+        #: words for reports
+        self.about = AboutMeasurement()
+        #: takes a message as the controls send it; None where there are no controls
+        self.change_scene: Callable[[dict[str, Any]], None] | None = None
+        self._arrival: Arrival | None = None
+        self._as_read: Table | None = None
+        self._first: dict[str, str] = {}  # the form as it was filled in
+        self._agreed: dict[str, str] = {}  # guesses that a person agreed to
+        self._kept: dict[str, str] = {}  # answers that were given for the file before
+        self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
+        self._parts: tuple[str, ...] = ()  # files that were joined to the one that is shown
+        self._cut = ""
+
+    def stop(self) -> None:
+        super().stop()
+        self._as_read = self._arrival = None
+        self.series = Series()
+
+    def take_scene(self) -> None:
+        """Follow the scene: its bearing and speed count where a person chose them."""
+        now = of_scene(self._scene_now())
+        if now != self._scene:
+            self._scene = now
+            self._follow()
+
+    def _follow(self) -> None:
+        """Have the machine of the signal be as the form and the scene say it now."""
+        table, measured, values = self._table, self.measured, self.state.values
+        if table is None or measured is None or self.state.settling:
+            return
+        if SCENE not in (values["bearing"], values["speed"]):
+            return
+        try:
+            machine = machine_of(table, values, self._scene, self._bearings.find)
+        except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
+            self._tell(words=str(error), bad=True, refused=error.sentences)
+            return
+        machine = replace(machine, kept=self._kept_of(values))
+        if machine != measured.machine or self.state.refused:
+            self.measured = replace(measured, machine=machine)
+            words = self._summary(about_size(size_questions(table, values)))
+            self._tell(words=words, bad=False, refused={}, **self._in_short(values))
+
+    def source_of(self, name: str) -> str:
+        """Where the value of a field comes from; empty where there is no such field."""
+        value = self.state.values.get(name, "")
+        if value != self._first.get(name, ""):
+            kept = self.state.kept_from if self._kept.get(name) == value else ""
+            return f"Given for the file before, {kept}" if kept else "Given"
+        return "" if name in self.state.open else self.state.reasons.get(name, "")
+
+    @property
+    def _changed(self) -> dict[str, str]:
+        """The fields that are not as the file filled them in."""
+        first = self._first
+        return {name: text for name, text in self.state.values.items() if text != first.get(name)}
+
+    @property
+    def _given_machine(self) -> dict[str, str]:
+        """The answers on the machine that a person gave for this file or for one before."""
+        values = self.state.values
+        return answers_of(values, self._first) if self._table is not None else {}
+
+    def _kept_of(self, form: Mapping[str, str]) -> frozenset[str]:
+        """The answers on the machine that are still those for the file before."""
+        kept = self._kept
+        return frozenset(
+            name for name, fields in GROUPS.items()
+            if name in kept and all(form[field] == kept[field] for field in fields)
+        )  # fmt: skip
+
+    def forget_machine(self) -> None:
+        """Ask for bearing and speed again, which were given for the file before."""
+        names = (name for name in GROUPS if name in self._kept)
+        self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
+
+    def _take_read(self, found: Read) -> None:
+        """Take a file that was read in place of the one before.
+
+        The figures of the one before leave with it, so that none is shown under another's name.
+        """
+        table, before = found.table, "" if self._table is None else self._table.name
+        self._table = self._as_read = table
+        self._cut, self._first, self._agreed = found.cut, found.first, {}
+        self._kept, self._parts = found.kept, found.parts
+        self._taken = found.form
+        self.measured = self.sized = None
+        if found.asked is not None:
+            self.measured = self._measured(found.asked, found.form)
+            words, bad = self._summary(about_size(found.sizes)), False
+        else:
+            words = f"{table.name} is read. {_WAITS} " + " ".join(
+                {**found.asks, **found.refused, **found.sizes}.values()
+            )
+            bad = bool(found.refused) and not found.asks
+        self._tell(
+            words=words,
+            bad=bad,
+            busy=False,
+            columns=columns_of(table),
+            values=found.form,
+            refused={name: text for name, text in found.refused.items() if name not in found.asks},
+            reasons={**reasons(table), **found.asks, **found.sizes},
+            open=[*found.asks, *found.sizes],
+            voltage=is_voltage(table, found.form),
+            proposed=proposed_unit(table),
+            said=said(table),
+            load=load_of(table),
+            scaled=not table.full_scale_known,
+            bearings=bearings_of(table, own=self._own_bearings),
+            speeds=speeds_of(table),
+            settling=False,
+            kept_from=before if found.kept else "",
+            parts=0
+            if self.series.shortened or not self.series.together
+            else len(self.series.tables),
+            arrival=self.state.arrival + 1,
+            **self._in_short(found.form),
+        )
+        self._follow()
+        self._draw()
+
+    def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
+        """An answer has changed, or a person is `sure` of the guesses.
+
+        Open questions are settled by an answer or by agreement.
+        """
+        table, measured = self._table, self.measured
+        if self._ended or self._arrival is not None:
+            return
+        if table is None:
+            if measured is not None and measured.origin is None:
+                self._take_simulated_form(measured, form.get("speed", SIMULATED))
+            return
+        texts = as_texts(form, tuple(self.state.values))
+        changed = {name: text for name, text in texts.items() if text != self._first[name]}
+        if sure:
+            self._agreed |= {name: texts[name] for name in self.state.open if name not in SIZES}
+        self._latest += 1
+        self._tell(values=texts, settling=True)
+        scene, as_read = self._scene, self._as_read
+        assert as_read is not None
+        self._in_background(
+            lambda: read_answers(as_read, changed, scene, self._bearings.find),
+            lambda found: self._take_answers(texts, found),
+            table.name,
+        )
+
+    def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
+        before, table = self.measured, self._table
+        if table is None:
+            return
+        found = answers if isinstance(answers, FormError) else answers.found
+        if isinstance(answers, AnsweredTable):
+            # what follows from the roles of the columns follows from those of now
+            texts, table = answers.form, answers.table
+            self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
+        asks, sizes = questions(table), size_questions(table, texts)
+        left = [
+            name for name in asks
+            if texts[name] == self._first[name] and texts[name] != self._agreed.get(name)
+        ]  # fmt: skip
+        refused = found.sentences if isinstance(found, FormError) else {}
+        news = {
+            "values": texts,
+            "refused": {name: words for name, words in refused.items() if name not in left},
+            "reasons": {**reasons(table), **asks, **sizes},
+            "open": [*left, *sizes],
+            "proposed": proposed_unit(table),
+            "voltage": is_voltage(table, texts),
+            "speeds": speeds_of(table),
+            "settling": False,
+            "kept_from": self.state.kept_from if self._kept_of(texts) else "",
+        }
+        if isinstance(found, FormError):
+            stays = " The figures still show the signal as it was before." if before else ""
+            self._tell(words=f"{found}{stays}", bad=True, **news)
+            return
+        if left:
+            words = " ".join(asks[name] for name in left)
+            self._tell(words=f"{_WAITS} {words}", bad=False, **news)
+            return
+        same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        self._taken = texts
+        if before is not None and same:  # what was computed of the signal stays
+            machine = replace(found.machine, kept=self._kept_of(texts))
+            self.measured = replace(before, machine=machine)
+        else:
+            self.measured = self._measured(found, texts)
+        self._tell(
+            words=self._summary(about_size(sizes)), bad=False, busy=False, **news,
+            **self._in_short(texts),
+        )  # fmt: skip
+        self._follow()  # the scene may have changed while the form was read
+        self._draw()
+
+    def _measured(self, asked: FormResult, form: Mapping[str, str]) -> Measured:
+        origin = replace(asked.origin, parts=self._parts)
+        machine = replace(asked.machine, kept=self._kept_of(form))
+        return Measured(asked.recording, machine, origin=origin, in_si=asked.in_si)
+
+    def _take_simulated_form(self, measured: Measured, speed: str) -> None:
+        """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
+        if speed not in (SIMULATED, ROUGH, NOT_KNOWN) or measured.bearing is None:
+            return
+        true = measured.true_speed
+        machine = replace(
+            measured.machine, speed_source=speed, shaft_speed=None if speed == NOT_KNOWN else true
+        )
+        if machine == measured.machine:
+            return
+        self.measured = replace(measured, machine=machine)
+        self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
+        self._draw()
+
+    @property
+    def _own_bearings(self) -> list[str]:
+        """Names of the bearings of a person's table."""
+        return list(self._bearings.own)
+
+    def take_bearing(self, name: str) -> None:
+        """Take a listed bearing as the one that was measured."""
+        measured = self.measured
+        if self._table is None:
+            if measured is not None:
+                bearing = self._bearings.find(name).bearing
+                machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
+                                  bearing_name=name)  # fmt: skip
+                self.measured = replace(measured, machine=machine)
+                self._tell(words=self._summary(), **self._in_short({}))
+                self._draw()
+            return
+        named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
+        self._tell(bearings=bearings_of(self._table, [*named, name], self._own_bearings))
+        self.take_form({**self.state.values, "bearing": name})
+
+    def take_load(self) -> None:
+        """Put the load of the file, downwards, into the scene."""
+        load = None if self._table is None else load_of(self._table)
+        if load is not None and self.change_scene is not None:
+            self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
+
+    def _summary(self, *more: str) -> str:
+        notes = self.measured.recording.notes if self.measured is not None else ()
+        words = (summary(self.measured), self._cut, *notes, *more)
+        return " ".join(filter(None, words))
+
+    def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
+        return in_short(self.measured, self._table, form, self._first, self._cut)

@@ -1,0 +1,157 @@
+"""A simulated measurement: the scene as a sensor with noise would measure it.
+
+The noise of a machine is the same with a healthy bearing as with a damaged one. So where the scene
+has no defect, the level is relative to the vibration of a short one: relative to the healthy
+bearing's own faint vibration, noise would be far below that of any machine, and even its ball
+passes would show.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_explorer.diagnosis.machine import SIMULATED, of_scene
+from bearing_explorer.diagnosis.model import motion
+from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.sentences import sentence_of
+from bearingcore import Defect, Recording, Scene
+from bearingcore.diagnosis import Tolerances, variant
+from bearingcore.scene import WITH_MASS, pit
+
+REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
+"""[rad], [m] of the defect under the load to whose vibration the noise is relative."""
+
+RATE = 25_600.0
+"""[Hz] of simulated measurements."""
+
+PASSES = 200.0
+"""Ball passes in one, where that is neither very short nor very long: enough to separate lines that
+are one shaft frequency apart."""
+
+SHORTEST, LONGEST = 1.0, 5.0  # [s]
+SETTLING = 0.3  # [s] before a simulated measurement begins
+
+
+def true_part(scene: Scene) -> str:
+    """The part that is damaged; "none" where none is, "" where several are."""
+    races = {defect.race for defect in scene.defects}
+    if not races:
+        return "none"
+    return f"{races.pop()} race" if len(races) == 1 else ""
+
+
+def noise_level(
+    scene: Scene, signal: NDArray[np.float64], columns: list[int], noise_db: float,
+    duration: float, sample_rate: float,
+) -> NDArray[np.float64]:  # fmt: skip
+    """Root mean square of the noise in each direction (d,) [m/s²].
+
+    Parameters
+    ----------
+    scene
+        that is measured.
+    signal : (n, d) [m/s²]
+        what its housing does.
+    columns
+        of a motion of the scene, that are measured.
+    noise_db
+        signal over noise [dB].
+    duration, sample_rate
+        [s], [Hz] of its motion.
+    """
+    share = 10.0 ** (-noise_db / 20.0)
+    if share == 0.0:
+        return np.zeros(len(columns))
+    if true_part(scene) == "none":
+        loaded = math.atan2(scene.load.fy, scene.load.fx)
+        damaged = scene.replace(defect=Defect(REFERENCE_EXTENT, REFERENCE_DEPTH, loaded))
+        moved = motion(damaged, duration, sample_rate)
+        strongest = moved.outer_acceleration[len(moved.time) // 4 :, columns]
+        return np.full(len(columns), float(np.std(strongest, axis=0).max()) * share)
+    return np.asarray(np.sqrt(np.mean(signal**2, axis=0)) * share)
+
+
+def with_pit(scene: Scene, length: float | None) -> Scene:
+    """The scene with a small pit so long [m] in place of its defects, and balls with mass.
+
+    On the race of its first defect, or the outer one, under the load. None leaves it as it is;
+    ValueError with a sentence where there can be no such pit.
+    """
+    if length is None:
+        return scene
+    race = scene.defects[0].race if scene.defects else "outer"
+    try:
+        return scene.replace(defect=pit(scene, length, race), balls=WITH_MASS)
+    except ValueError as error:
+        raise ValueError(sentence_of(error)) from None
+
+
+def load_on_defect(scene: Scene) -> float | None:
+    """Radial load [N] of a scene towards its defect; None where it has several, or presses none.
+
+    A defect of the inner race turns through the load zone, and is met where that is loaded most.
+    """
+    if len(scene.defects) != 1:
+        return None
+    (defect,), force = scene.defects, complex(scene.load.fx, scene.load.fy)
+    towards = (force * cmath.rect(1.0, -defect.center)).real
+    load = abs(force) if defect.race == "inner" else towards
+    return load if load > 1e-6 * abs(force) else None
+
+
+def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
+    """A measurement of a scene as a sensor with noise would make it, its extent known.
+
+    Parameters
+    ----------
+    noise_db
+        signal over noise [dB], each direction against its own.
+    different
+        whether the machine's stiffnesses, load, damping and depth are off what the scene says, as
+        far as the sizing expects them to be.
+
+    Raises
+    ------
+    ValueError
+        with a sentence, where the scene does not move.
+    """
+    rng = np.random.default_rng(seed)
+    truth = scene
+    single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
+    if different and single:
+        (defect,) = scene.defects
+        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * Tolerances().spread
+        truth = variant(scene, defect.extent, defect.edge, exponents)
+    passing = scene.bearing.bpfo(scene.shaft_speed)
+    duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
+    duration += SETTLING
+    try:
+        moved = motion(truth, duration, RATE)
+    except ValueError as error:
+        raise ValueError(sentence_of(error)) from None
+    columns = [index for index, dof in enumerate(moved.dofs) if dof in ("x", "y")]
+    # not a whole number of anything: the page must find where the ball passes begin
+    first = round((SETTLING - rng.uniform(0.0, 0.1)) * RATE)
+    signal = moved.outer_acceleration[first:, columns]
+    if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
+        raise ValueError("Not possible: the simulated housing does not move along x or y.")
+    level = noise_level(truth, signal, columns, noise_db, duration, RATE)
+    noisy = signal + level * rng.standard_normal(signal.shape)
+    name = "Simulated" + (", balls with mass" if scene.balls == WITH_MASS else "")
+    name += f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else ""
+    directions = tuple(moved.dofs[index] for index in columns)
+    try:
+        recording = Recording(noisy, moved.sample_rate, directions, name)
+    except ValueError:
+        raise ValueError("Not possible: the simulated housing does not move.") from None
+    extent = scene.defects[0].extent if single else None
+    edge = scene.defects[0].edge if len(scene.defects) == 1 else None
+    return Measured(
+        recording, of_scene(scene, SIMULATED), extent,
+        true_part=true_part(scene), noiseless=math.isinf(noise_db),
+        true_speed=scene.shaft_speed, true_load=load_on_defect(scene), true_edge=edge,
+    )  # fmt: skip

@@ -8,6 +8,7 @@ passes would show.
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
@@ -89,6 +90,19 @@ def with_pit(scene: Scene, length: float | None) -> Scene:
         raise ValueError(sentence_of(error)) from None
 
 
+def load_on_defect(scene: Scene) -> float | None:
+    """Radial load [N] of a scene towards its defect; None where it has several, or presses none.
+
+    A defect of the inner race turns through the load zone, and is met where that is loaded most.
+    """
+    if len(scene.defects) != 1:
+        return None
+    (defect,), force = scene.defects, complex(scene.load.fx, scene.load.fy)
+    towards = (force * cmath.rect(1.0, -defect.center)).real
+    load = abs(force) if defect.race == "inner" else towards
+    return load if load > 1e-6 * abs(force) else None
+
+
 def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
     """A measurement of a scene as a sensor with noise would make it, its extent known.
 
@@ -134,8 +148,9 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
     extent = scene.defects[0].extent if single else None
+    edge = scene.defects[0].edge if len(scene.defects) == 1 else None
     return Measured(
         recording, of_scene(scene, SIMULATED), extent,
         true_part=true_part(scene), noiseless=math.isinf(noise_db),
-        true_speed=scene.shaft_speed,
+        true_speed=scene.shaft_speed, true_load=load_on_defect(scene), true_edge=edge,
     )  # fmt: skip

@@ -1,9 +1,10 @@
 // A view over the whole screen and back: its figures share the height that is left. A drawing of many
-// cells shows one of them with its axes, and arrows lead to the next; on a projector it begins with the
-// one that a lesson names.
+// cells shows one of them with its axes, and arrows lead to the next; on a projector and a phone it begins
+// with the one that a lesson names.
 
 const LAID_OUT = 150   // ms until figures have followed a change of their width
 const SENTENCE = 70    // px below enlarged figures
+const NARROW = 820, LOW = 300  // px, of a phone and of a cell on it
 
 function enlarging(model, root) {
   const part = (id) => root.querySelector(`#${id}`)
@@ -71,13 +72,19 @@ function enlarging(model, root) {
   }
   addEventListener("keydown", keys)
   on_event("tab", enlarge, () => { if (is_large()) set_large(false) })
-  let named = ""  // by a lesson, on a projector: shown once, all are a click away
+  let named = "", own_height = 0  // by a lesson, where there is room for one
   const show_named = () => {
-    const wanted = page.hasAttribute("data-projector") && model.cells.length ? page.dataset.cell ?? "" : ""
-    if (wanted === named || is_large() || !figures_on_screen(model.figures).length) return
+    const projected = page.hasAttribute("data-projector"), small = innerWidth <= NARROW
+    const wanted = (projected || small) && model.cells.length ? page.dataset.cell ?? "" : ""
+    const [view] = figures_on_screen(model.figures)
+    if (wanted === named || is_large() || !view) return
     named = wanted
     steps.hidden = !named
-    root.classList.toggle("only-steps", Boolean(named))
+    root.classList.toggle("only-steps", Boolean(named) && projected)
+    if (small) {
+      own_height ||= view.model.height
+      view.model.setv({ height: named ? LOW : own_height }, { sync: false })
+    }
     show_cell(model.cells.findIndex(([words]) => words === named))
   }
   for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)

@@ -50,7 +50,7 @@ SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
-LONGEST_ROLES = 1000
+LONGEST_ROLES = 20_000
 """[characters] of a field, and of that with the roles of all columns."""
 NOTHING = ""
 """The role of a column that is not used."""

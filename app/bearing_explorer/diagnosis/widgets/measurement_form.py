@@ -189,8 +189,11 @@ class MeasurementForm(pn.Column):
         """Show the line, or what is behind it, and the words that go with either."""
         mood = "bad" if state.bad else "busy" if state.busy else "good"
         words = state.words if mood != "good" or not self.folded else state.remarks
+        lines = f'<pre tabindex="0">{html.escape(state.lines)}</pre>' if state.lines else ""
         self._words.object = (
-            f'<p class="words {mood}" role="status">{html.escape(words)}</p>' if words else ""
+            f'<p class="words {mood}" role="status">{html.escape(words)}</p>{lines}'
+            if words
+            else ""
         )
         whole = f' title="{html.escape(state.whole_name)}"' if state.whole_name else ""
         self._line.object = f"<p{whole}>{html.escape(state.line)}</p>"

@@ -83,9 +83,12 @@ if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // and larger numbers on bars need more below the lowest
-const unit = Math.min(w/shown.end, (h - 70*(larger - 1))/half, of_rows), x = w/unit, y = h/unit
+// and the words on the load, top left, are above a ring that has no corner for them
+const above = w < 420 ? 50*larger : 0
+const unit = Math.min(w/shown.end, (h - above - 70*(larger - 1))/half, of_rows)
+const x = w/unit, end = (h + above)/unit, start = end - 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
-plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
+plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})
 """
 
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
+from bearingcore.files.channels import TIME, column_of
 from bearingcore.files.facts import named_in, names_a_fact
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
@@ -32,6 +33,9 @@ MOST_HEADINGS = 100
 LONGEST_REMARK = 200
 """[characters] of a line above the numbers that are kept."""
 
+LONGEST_LINE = 2**15
+"""[characters] of such a line in which the names of columns are looked for."""
+
 SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
@@ -40,6 +44,9 @@ READABLE = (
     "a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
+
+MOST_ROWS = 64
+"""Up to so many long rows are signals that are written in a row each."""
 
 MOST_WRONG = 0.01
 """Share of lines without numbers, from which on a text is no table."""
@@ -73,12 +80,13 @@ def read_text(
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
-    if width > most_columns:
-        turned = _rows(content[begin:], style, width, most_columns)
-        if turned is None or turned[0].size > most_numbers:
+    if width > min(MOST_ROWS, most_columns):
+        turned = _rows(content[begin:], style, width, MOST_ROWS)
+        if turned is not None and turned[0].size <= most_numbers:
+            columns, names = turned
+            return _about(columns, names or _headings(remarks, style, columns), remarks)
+        if width > most_columns:
             raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
-        columns, names = turned
-        return _about(columns, names or _headings(remarks, style, columns), remarks)
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style, width)
     read = _numbers(body, style, width, most_rows)
@@ -107,7 +115,8 @@ def _about(
     columns: NDArray[np.float64], headings: list[str] | None, remarks: list[str], *more: list[Any]
 ) -> tuple[dict[str, Any], NDArray[np.float64]]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
-    fields = {"names": names, "remarks": remarks, "headed": headings is not None}
+    kept = [line[:LONGEST_REMARK] for line in remarks]
+    fields = {"names": names, "remarks": kept, "headed": headings is not None}
     return {**fields, **dict(zip(("stamps", "notes"), more, strict=False))}, columns
 
 
@@ -328,7 +337,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
         bare = _decoded(line).strip()
         if bare[:1] in ("#", "%"):
             if len(remarks) < MOST_HEADINGS:
-                remarks.append(bare.lstrip("#% ")[:LONGEST_REMARK])
+                remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
         elif bare:
             begin = begin or bare
             rest = io.BytesIO(content)
@@ -339,7 +348,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
             if found is not None:
                 return *_one_column(*found, sample, remarks), place, remarks
             words += 1
-            remarks.append(_decoded(line) if numbered else bare[:LONGEST_REMARK])
+            remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
             if words > MOST_HEADINGS:
                 break
         place += len(line)
@@ -417,11 +426,12 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
         return numbers and names_a_fact(line)
     if unit_in(line) in UNITS and re.search(r"[\[(]", line):
         return False
-    return bool(named_in([line])) or ":" in line or "=" in line or len(line) > LONGEST_HEADING
+    said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
+    return said or bool(named_in([line]))
 
 
-LONGEST_HEADING = 60
-"""[characters] of the name of the only column."""
+LONGEST_HEADING = 4
+"""[words] of the name of the only column; more are a remark."""
 
 _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
@@ -460,6 +470,11 @@ def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] 
             names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
         if len(names) == width:
             return names
+    names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
+    said = [column_of(name) for name in names]
+    known = [bool(one.unit or one.direction or one.place or one.role == TIME) for one in said]
+    if len(names) > width and any(known[:width]) and not any(known[width:]):
+        return names[:width]  # columns of words at the end, empty and not delimited
     return None
 
 

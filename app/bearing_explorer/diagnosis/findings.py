@@ -174,9 +174,9 @@ class Findings:
 
     # Saying and doing
 
-    def _refuse(self, sentence: str) -> None:
-        """Say what is wrong with a file; the signal before it stays."""
-        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False)
+    def _refuse(self, sentence: str, lines: str = "") -> None:
+        """Say what is wrong with a file, above its first lines; the signal before it stays."""
+        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False, lines=lines)
 
     def _what_stays(self) -> str:
         if self.measured is not None:
@@ -188,7 +188,7 @@ class Findings:
         )
 
     def _tell(self, **news: Any) -> None:
-        before, self.state = self.at_work, replace(self.state, **news)
+        before, self.state = self.at_work, replace(self.state, **{"lines": "", **news})
         self.show(self.state)
         self.show_machine(self.state)
         if self.at_work != before:

@@ -50,7 +50,7 @@ SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
-LONGEST_ROLES = 1000
+LONGEST_ROLES = 20_000
 """[characters] of a field, and of that with the roles of all columns."""
 NOTHING = ""
 """The role of a column that is not used."""
@@ -63,12 +63,14 @@ ROLES = (
     *((f"speed {unit}", f"shaft speed in {unit}") for unit in SPEEDS),
 )
 """Possible roles of a column, as the form has them and in words."""
+DIRECTIONS = ("x", "y")
+"""Roles that are signals; each may have its unit behind it: "x g"."""
 APART = ";"
 """Between the roles of the columns in their field."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
-AS_HEADED = "units as headed"
-"""The choice of a unit where the headings of two signals give two."""
+AS_HEADED = "units of their own"
+"""The unit where two signals have two, by their headings or as a person says."""
 WAYS, LIKELY = "Say it", "Likely"
 """Headings in the list of bearings."""
 SIZES = ("unit", "sensitivity")
@@ -153,14 +155,17 @@ def with_roles(table: Table, text: str) -> Table:
     roles, guessed = text.split(APART), roles_of(table)
     if roles == guessed:
         return table
-    if len(roles) != len(guessed) or not set(roles) <= {role for role, _ in ROLES}:
+    known = {role for role, _ in ROLES} | {
+        f"{axis} {unit}" for axis in DIRECTIONS for unit in UNITS
+    }
+    if len(roles) != len(guessed) or not set(roles) <= known:
         raise FormError({"columns": f"{table.name} has other columns."})
     given: dict[int | str, Column] = {}
     for index, (role, was) in enumerate(zip(roles, guessed, strict=True)):
-        known, (kind, _, unit) = table.contents.columns[index], role.partition(" ")
-        if kind in ("x", "y"):
-            own = known.unit if known.unit in UNITS else None
-            given[index] = Column("", SIGNAL, own, kind, known.place)
+        column, (kind, _, unit) = table.contents.columns[index], role.partition(" ")
+        if kind in DIRECTIONS:
+            headed = column.unit if column.unit in UNITS else None
+            given[index] = Column("", SIGNAL, unit or headed, kind, column.place)
         elif role != was:
             given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
     try:
@@ -169,19 +174,36 @@ def with_roles(table: Table, text: str) -> Table:
         raise FormError({"columns": sentence_of(error)}) from None
 
 
-def one_of_each(roles: Sequence[str], index: int, role: str) -> str:
-    """The roles with another one for a column, which no other column has then."""
+def with_role(
+    roles: Sequence[str], units: Sequence[str], index: int, role: str, unit: str
+) -> dict[str, str]:
+    """The fields "columns" and "unit" with another role or unit of a column.
+
+    No other column keeps that role. Signals have one unit together until they are given two.
+    """
     kind = role.partition(" ")[0]
-    left = [NOTHING if kind and one.partition(" ")[0] == kind else one for one in roles]
-    left[index] = role
-    return APART.join(left)
+    roles = [NOTHING if kind and one.partition(" ")[0] == kind else one for one in roles]
+    roles[index] = role
+    own = {i: unit if i == index else units[i] for i, r in enumerate(roles) if r in DIRECTIONS}
+    known = set(own.values()) - {NOT_KNOWN}
+    if len(known) > 1:
+        roles = [f"{one} {own.get(i, '')}".strip() for i, one in enumerate(roles)]
+    said = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
+    return {"columns": APART.join(roles), **said}
+
+
+def roles_and_units(text: str) -> tuple[list[str], list[str]]:
+    """The roles out of their field, and the units that a person gave signals there."""
+    roles = text.split(APART)
+    signals = [one.partition(" ") if one[:2] in ("x ", "y ") else (one, "", "") for one in roles]
+    return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
 
 def _unit(table: Table) -> str:
     """The unit of the signals as the file says it, or `NOT_KNOWN`."""
     contents = table.contents
     roles = zip(roles_of(table), contents.columns, strict=True)
-    units = {column.unit for role, column in roles if role in ("x", "y")}
+    units = {column.unit for role, column in roles if role in DIRECTIONS}
     if len(units) > 1 and None not in units:
         return AS_HEADED
     return contents.unit.value if contents.unit.taken else NOT_KNOWN
@@ -251,7 +273,7 @@ def questions(table: Table) -> dict[str, str]:
     """Questions to answer before the signal can be drawn, by field."""
     contents = table.contents
     asked: dict[str, str] = {}
-    if not {"x", "y"} & set(roles_of(table)):
+    if not set(DIRECTIONS) & set(roles_of(table)):
         asked["columns"] = _which_column(table)
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
@@ -279,7 +301,8 @@ def proposed_unit(table: Table) -> str | None:
 
 def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
     """Questions to answer before the signal has a size, by field."""
-    if form["unit"] == NOT_KNOWN:
+    own = [unit for _, unit in _signals(table, form)] if form["unit"] == AS_HEADED else []
+    if form["unit"] == NOT_KNOWN or None in own:
         likely = proposed_unit(table)
         why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
         return {"unit": f"In what unit is it? The file does not say.{why}"}
@@ -295,8 +318,13 @@ def is_voltage(table: Table, form: Mapping[str, str]) -> bool:
     """Whether any of the signals that a form names is in volts."""
     if form["unit"] != AS_HEADED:
         return form["unit"] in VOLTAGES
-    roles = zip(form["columns"].split(APART), table.contents.columns, strict=False)
-    return any(role in ("x", "y") and column.unit in VOLTAGES for role, column in roles)
+    return any(unit in VOLTAGES for _, unit in _signals(table, form))
+
+
+def _signals(table: Table, form: Mapping[str, str]) -> list[tuple[str, str | None]]:
+    """Direction and unit of the columns that are signals."""
+    roles = zip(roles_and_units(form["columns"])[0], table.contents.columns, strict=False)
+    return [(role, column.unit) for role, column in roles if role in DIRECTIONS]
 
 
 def said(table: Table) -> str:
@@ -322,11 +350,12 @@ def load_of(table: Table) -> float | None:
 class ShownColumns:
     """The first lines of a file under the names and places of its columns, to choose their roles.
 
-    `rows` is how many lines the file has.
+    `headed` are the units of signals by the names, `rows` is how many lines the file has.
     """
 
     names: list[str]
     places: list[str]
+    headed: list[str]
     lines: list[list[str]]
     rows: int
 
@@ -336,6 +365,7 @@ def columns_of(table: Table) -> ShownColumns:
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],
+        [unit if (unit := one.unit) in UNITS and unit else "" for one in table.contents.columns],
         [[_cell(value) for value in line] for line in table.first_rows[:SHOWN_LINES]],
         len(table.columns),
     )
@@ -380,11 +410,11 @@ def read_form(
             numbers[name] = _read(name, texts)
         except ValueError as error:
             refused[name] = str(error)
-    roles = texts["columns"].split(APART)
-    chosen = {role: index for index, role in enumerate(roles) if role in ("x", "y")}
+    roles, _ = roles_and_units(texts["columns"])
+    chosen = {role: index for index, role in enumerate(roles) if role in DIRECTIONS}
     if not chosen:
         refused["columns"] = _which_column(table)
-    elif len(chosen) < sum(role in ("x", "y") for role in roles):
+    elif len(chosen) < sum(role in DIRECTIONS for role in roles):
         refused["columns"] = "Two columns are the signal along one direction: choose one of them."
     if texts["unit"] not in (*UNITS, AS_HEADED) and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."

@@ -28,6 +28,8 @@ class MeasurementState:
 
     words: str = FIRST_WORDS
     bad: bool = False
+    #: the first lines of a file that is refused
+    lines: str = ""
     busy: bool = False
     columns: ShownColumns | None = None
     values: dict[str, str] = field(default_factory=dict)

@@ -38,7 +38,7 @@ MOST_NUMBERS = 4_000_000
 class Arrival:
     """Files that come one after the other, and what was read of them.
 
-    `why`: the sentence on the first that cannot be read.
+    `why`: the sentence on the first that cannot be read. `lines`: the first ones of one alone.
     """
 
     count: int
@@ -48,6 +48,7 @@ class Arrival:
     newest: Read | None = None
     why: str = ""
     baseline: bool = False
+    lines: str = ""
 
     @property
     def words(self) -> str:

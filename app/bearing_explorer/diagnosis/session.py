@@ -21,7 +21,7 @@ from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordin
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated, with_pit
-from bearing_explorer.diagnosis.upload import Upload
+from bearing_explorer.diagnosis.upload import Upload, first_lines
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
@@ -128,6 +128,7 @@ class Measurement(SignalForm):
         self._tell(words=words, bad=False, busy=True)
         scene, find, kept = self._scene, self._bearings.find, self._given_machine
         content, request = upload.content, self._latest
+        arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:
             try:
@@ -160,7 +161,7 @@ class Measurement(SignalForm):
         self._arrival = None
         if arrival.newest is None:
             none = f"None of {arrival.count} files can be read. "
-            self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}")
+            self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}", arrival.lines)
             return
         self.series = arrival.series
         if arrival.baseline:

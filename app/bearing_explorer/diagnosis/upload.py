@@ -13,6 +13,9 @@ MOST_BYTES = 24 * 2**20
 PIECE = 2**20
 """[bytes] of the pieces that the browser sends; far below the limit of the websocket."""
 
+FIRST_LINES, LONGEST_LINE = 5, 120
+"""Lines of a refused text that are shown, and characters of each."""
+
 LONGEST_NAME = 60
 NAME_IN_LINE = 24
 """Characters of a name where it stands in a line with other facts."""
@@ -72,6 +75,14 @@ class Upload:
             raise ValueError(f"{self.name} was not received in full.")
         self._pieces.append(data)
         self._length += len(data)
+
+
+def first_lines(content: bytes) -> str:
+    """The first lines of a text, for a person who looks why it is refused; empty of other files."""
+    coded = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
+    text = content[:20_000].decode(coded, "replace")
+    lines = [line.expandtabs(4)[:LONGEST_LINE] for line in text.splitlines()[:FIRST_LINES]]
+    return "\n".join(lines) if all(line.isprintable() for line in lines) else ""
 
 
 def shown_name(name: Any) -> str:

@@ -9,10 +9,11 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form
+from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form, with_role
 from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
@@ -26,6 +27,7 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
+from bearing_explorer.diagnosis.widgets.measurement_form import roles_with_units
 from bearing_explorer.kit.simulated_signals import PITS
 from scipy.io import savemat, wavfile
 
@@ -340,6 +342,23 @@ def test_columns_in_two_units_are_each_read_in_their_own():
     assert "says g; mm/s is taken, as given" in made.state.remarks
 
 
+def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
+    made = brought("two.csv", csv_of(NOISE, "time,x,y"))
+
+    def choose(*column: Any) -> np.ndarray:
+        answer(made, **with_role(*roles_with_units(made.state), *column))
+        return made.measured.recording.acceleration
+
+    np.testing.assert_allclose(choose(1, "x", "g"), NOISE * 9.80665, rtol=1e-5)
+    assert made.state.values["unit"] == "g"
+    np.testing.assert_allclose(choose(2, "y", "m/s²"), NOISE * [9.80665, 1.0], rtol=1e-5)
+    assert roles_with_units(made.state) == (["time", "x", "y"], ["", "g", "m/s²"])
+    given = made.measured.origin.given
+    assert [given[index].unit for index in (1, 2)] == ["g", "m/s²"]
+    np.testing.assert_allclose(choose(1, "", "g")[:, 0], NOISE[:, 1], rtol=1e-5)
+    assert made.state.values["unit"] == "m/s²"
+
+
 @pytest.mark.parametrize(
     ("heading", "scale", "roles", "says"),
     [
@@ -489,6 +508,8 @@ def test_a_bad_file_gets_a_sentence_and_the_signal_before_it_stays(name, content
     assert told in made.state.words
     assert name in made.state.words
     assert made.state.words.endswith(f"{before.recording.name} stays.")
+    text = [] if name.endswith("mat") else content.decode().splitlines()
+    assert made.state.lines.splitlines() == text[:5]  # a person sees why
 
 
 def test_a_huge_file_is_refused_before_it_is_sent():

@@ -66,6 +66,7 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
         ("# duration = 0.5 s", None, None, None),
         ("# temperature: 45 °C", None, None, None),
         ("# samples = 2000", None, None, None),
+        ("Recorded on Monday beside the temperature sensor", None, None, None),
     ],
 )
 def test_remarks_above_one_column_are_no_names_of_it(remark, rate, turns, unit) -> None:
@@ -186,6 +187,7 @@ def test_a_row_of_units_may_name_a_speed() -> None:
         ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
         ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
         ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
+        ("time;acc de;acc nde;Inspector;Shift", ("time", "acc de", "acc nde")),
         ("time;acc;acc", ("time", "acc, column 2", "acc, column 3")),
         ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")),  # which one is missing?
     ],
@@ -236,6 +238,18 @@ def test_numbers_in_one_row_are_a_column(delimiter: str) -> None:
     check_one_signal(read(text), None)
     named = f"time{delimiter}" + delimiter.join(f"{t:.6f}" for t in TIME)
     check_one_signal(read(f"{named}\nacc{delimiter}{text}"))
+
+
+@pytest.mark.parametrize("count", [100, 1023])
+def test_of_many_columns_all_are_read_under_their_names(count: int) -> None:
+    channels = np.tile(SIGNAL[:300, :1], count)
+    names = [f"channel {i}" for i in range(count)]
+    made = read(rows(TIME[:300], channels, heading=",".join(["time", *names]), digits=6))
+    assert made.names == ("time", *names)
+    assert "Which is at this bearing?" in made.contents.choice.question
+    got = made.with_columns({count: Column("", "signal", "g", "y")}).recording([count], ["y"])
+    assert got.sample_rate == pytest.approx(RATE)
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:300, 0] * 9.80665)
 
 
 @pytest.mark.parametrize("gap", ["nan", "NaN", "", "-", "NULL", "n/a", "?", "overrun"])

@@ -18,8 +18,8 @@ from bearing_explorer.diagnosis.machine import (
     ROUGH,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
-from bearing_explorer.diagnosis.widgets.measurement_form import notes_html
 from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.bearings import FREQUENCIES
 
@@ -102,3 +102,14 @@ class MachineForm(pn.Column):
         self._forget.visible = bool(kept)
         self._notes.object = kept + notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
         self._notes.visible = bool(self._notes.object)
+
+
+def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:
+    """Beneath the fields: why they are refused, or where their values come from."""
+    facts = []
+    for name in fields:
+        words = state.refused.get(name) or state.reasons.get(name)
+        if words:
+            mark = "refused" if name in state.refused else "open" if name in state.open else ""
+            facts.append(Fact(html.escape(labels[name]), words, mark=mark))
+    return facts_html(facts)

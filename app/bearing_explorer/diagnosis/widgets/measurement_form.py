@@ -11,23 +11,24 @@ from typing import Any
 import panel as pn
 
 from bearing_explorer.diagnosis.form import (
-    APART,
     AS_HEADED,
+    DIRECTIONS,
     ROLES,
     USUAL_SENSITIVITY,
-    one_of_each,
+    roles_and_units,
+    with_role,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
+from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
 from bearing_explorer.kit.widgets.column_table import ColumnTable
-from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.file_upload import FileUpload
-from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
+from bearing_explorer.kit.widgets.form import Fields, button, entry, row, select
 from bearingcore.common import number
 from bearingcore.files import UNITS
 
@@ -51,7 +52,8 @@ class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
     Once there is a signal and no question it folds to a line, and unfolds again by a button. The
-    fields about a file are made when there is the first one.
+    fields about a file are made when there is the first one. Bearing and speed are among the
+    questions until there is a signal; then they are asked beside the answer.
     """
 
     def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
@@ -148,6 +150,14 @@ class MeasurementForm(pn.Column):
         if self._measurement is not None:
             self._measurement.join_parts()
 
+    def _answer_machine(self, answers: Mapping[str, str]) -> None:
+        if self._measurement is not None:
+            self._measurement.take_form({**self._shown.values, **answers})
+
+    def _forget_machine(self) -> None:
+        if self._measurement is not None:
+            self._measurement.forget_machine()
+
     def _answer(self, sure: bool) -> None:
         if self._measurement is not None and self._fields is not None:
             self._agreed = sure
@@ -179,8 +189,11 @@ class MeasurementForm(pn.Column):
         """Show the line, or what is behind it, and the words that go with either."""
         mood = "bad" if state.bad else "busy" if state.busy else "good"
         words = state.words if mood != "good" or not self.folded else state.remarks
+        lines = f'<pre tabindex="0">{html.escape(state.lines)}</pre>' if state.lines else ""
         self._words.object = (
-            f'<p class="words {mood}" role="status">{html.escape(words)}</p>' if words else ""
+            f'<p class="words {mood}" role="status">{html.escape(words)}</p>{lines}'
+            if words
+            else ""
         )
         whole = f' title="{html.escape(state.whole_name)}"' if state.whole_name else ""
         self._line.object = f"<p{whole}>{html.escape(state.line)}</p>"
@@ -198,26 +211,27 @@ class MeasurementForm(pn.Column):
         if self._measurement is not None:
             self._measurement.cancel()
 
-    def _role(self, index: int, role: str) -> None:
-        """Take another role of a column."""
+    def _role(self, index: int, role: str, unit: str) -> None:
+        """Take another role or unit of a column."""
         if self._fields is not None:
-            roles = self._fields.values["columns"].split(APART)
+            roles, units = roles_with_units(self._shown)
             if index < len(roles):
-                self._fields.values["columns"] = one_of_each(roles, index, role)
+                self._fields.values.update(with_role(roles, units, index, role, unit))
                 self._answer(False)
 
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
-        fields.values["columns"] = ""
-        self._table = ColumnTable(self._role, roles=[list(role) for role in ROLES])
+        fields.values |= {"columns": "", "unit": ""}
+        self._table = ColumnTable(
+            self._role, roles=[list(role) for role in ROLES], signals=[*DIRECTIONS]
+        )
         for name in LABELS:
-            if name == "unit":
-                fields.add(name, select(LABELS[name], [["", ""]]))
-            elif name != "columns":
+            if name not in ("columns", "unit"):
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
                 fields.add(name, entry(LABELS[name], placeholder=hint))
         self._agree = button("Use these answers", lambda: self._answer(True))
         self._notes = _text("")
+        self._machine = MachineForm(self._answer_machine, self._forget_machine)
         self._about_file[:] = [
             self._table, row(*fields.widgets.values(), self._agree), self._notes
         ]  # fmt: skip
@@ -225,24 +239,26 @@ class MeasurementForm(pn.Column):
 
     def _show_fields(self, state: MeasurementState) -> None:
         assert state.columns is not None
-        first = self._fields is None
         fields = self._fields = self._fields or self._make_fields()
         values = {name: state.values.get(name, "") for name in LABELS}
         fields.values.update(values)
-        mark = "refused" if "columns" in state.refused else ""
-        mark = mark or ("open" if "columns" in state.open else "")
-        self._table.show(asdict(state.columns), values["columns"].split(APART), mark)
-        units_now = units(state)
-        if first or units_now != units(self._shown):
-            fields.widgets["unit"].param.update(**choices(units_now), value=values["unit"])
+        marks = {
+            name: "refused" if name in state.refused else "open" if name in state.open else ""
+            for name in ("columns", "unit")
+        }
+        self._table.units = units(state)
+        self._table.show(asdict(state.columns), *roles_with_units(state), marks)
         fields.put({name: values[name] for name in fields.widgets})
         for name, widget in fields.widgets.items():
-            marks = {"refused": name in state.refused, "open": name in state.open}
-            widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
+            on = {"refused": name in state.refused, "open": name in state.open}
+            widget.css_classes = ["field", f"field-{name}", *(mark for mark in on if on[mark])]
         fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
         fields.widgets["sensitivity"].visible = state.voltage
         self._agree.visible = "sample_rate" in state.open
-        shown = ["columns", *(name for name, widget in fields.widgets.items() if widget.visible)]
+        if (not state.line) != (self._machine in self._about_file):
+            self._about_file[3:] = [] if state.line else [self._machine]
+        self._machine.show(state)
+        shown = ["columns", "unit", *(n for n, widget in fields.widgets.items() if widget.visible)]
         labels = {name: label.partition(" (")[0] for name, label in LABELS.items()}
         self._notes.object = notes_html(state, shown, labels)
 
@@ -254,20 +270,16 @@ def _text(words: str, **params: Any) -> pn.pane.HTML:
 def units(state: MeasurementState) -> list[list[str]]:
     """Options of the unit; one that the file does not state has to be chosen."""
     known = [[unit, unit] for unit in UNITS]
-    if state.values.get("unit") == AS_HEADED:
-        known.append([AS_HEADED, "as the headings say"])
-    if state.proposed is None and state.values.get("unit"):
+    if state.proposed is None and state.values.get("unit") not in ("", AS_HEADED):
         return known
     words = f"choose ({state.proposed} is likely)" if state.proposed else "choose"
     return [["", words], *known]
 
 
-def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:
-    """Beneath the fields: why they are refused, or where their values come from."""
-    facts = []
-    for name in fields:
-        words = state.refused.get(name) or state.reasons.get(name)
-        if words:
-            mark = "refused" if name in state.refused else "open" if name in state.open else ""
-            facts.append(Fact(html.escape(labels[name]), words, mark=mark))
-    return facts_html(facts)
+def roles_with_units(state: MeasurementState) -> tuple[list[str], list[str]]:
+    """The role of each column, and the unit that it has or would have as a signal."""
+    assert state.columns is not None
+    roles, given = roles_and_units(state.values["columns"])
+    one = state.values["unit"]
+    several = state.columns.headed if one == AS_HEADED else [one] * len(roles)
+    return roles, [own or other for own, other in zip(given, several, strict=False)]

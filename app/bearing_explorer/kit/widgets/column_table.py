@@ -18,29 +18,43 @@ class ColumnTable(JSComponent):
     Parameters
     ----------
     chosen
-        called with the number of a column and its new role.
+        called with the number of a column, its role and, of a signal, its unit.
     """
 
     roles = param.List(doc="What a column may be: [value, words].")
-    shown = param.Dict({}, doc="Names, places, first lines, roles, and whether they are asked for.")
+    signals = param.List(doc="Which of the roles have a unit.")
+    units = param.List(doc="In which units a signal may be: [value, words].")
+    shown = param.Dict({}, doc="Names, places, first lines, roles, units, and what is asked for.")
 
     _esm = scripts("element.js", "column_table.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("column_table.css")]
 
-    def __init__(self, chosen: Callable[[int, str], None], **params: Any) -> None:
+    def __init__(self, chosen: Callable[[int, str, str], None], **params: Any) -> None:
         super().__init__(margin=(8, 0, 8, 0), sizing_mode="stretch_width", **params)
         self._chosen = chosen
         self.on_msg(lambda event: self._take(event.data))
 
-    def show(self, columns: Mapping[str, Any], roles: Sequence[str], mark: str = "") -> None:
+    def show(
+        self,
+        columns: Mapping[str, Any],
+        roles: Sequence[str],
+        units: Sequence[str],
+        marks: Mapping[str, str],
+    ) -> None:
         """Show columns: their names, places of sensors, first lines, and how many rows there are.
 
-        `mark`: "open" where an answer is wanted, "refused" where it cannot be.
+        `marks` of "columns" and "unit": "open" where an answer is wanted, "refused" where it cannot
+        be.
         """
-        self.shown = {**columns, "roles": list(roles), "mark": mark}
+        self.shown = {**columns, "roles": [*roles], "units": [*units], "marks": {**marks}}
 
     def _take(self, data: Any) -> None:
         message = read(RoleOfColumn, data)
-        known = {value for value, _ in self.roles}
-        if message is not None and message.role in known and message.column >= 0:
-            self._chosen(message.column, message.role)
+        if message is None or message.column < 0:
+            return
+        known = (
+            message.role in {value for value, _ in self.roles},
+            message.unit in {value for value, _ in self.units},
+        )
+        if all(known):
+            self._chosen(message.column, message.role, message.unit)

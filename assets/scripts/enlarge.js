@@ -1,12 +1,14 @@
 // A view over the whole screen and back: its figures share the height that is left. A drawing of many
-// cells shows one of them with its axes, and arrows lead to the next.
+// cells shows one of them with its axes, and arrows lead to the next; on a projector and a phone it begins
+// with the one that a lesson names.
 
 const LAID_OUT = 150   // ms until figures have followed a change of their width
 const SENTENCE = 70    // px below enlarged figures
+const NARROW = 820, LOW = 300  // px, of a phone and of a cell on it
 
 function enlarging(model, root) {
   const part = (id) => root.querySelector(`#${id}`)
-  const enlarge = part("enlarge"), name = part("cell"), steps = part("steps")
+  const enlarge = part("enlarge"), name = part("cell"), steps = part("steps"), page = document.documentElement
   const host = () => enlarge.getRootNode().host?.getRootNode().host  // the view
   const is_large = () => Boolean(host()?.matches(".enlarged"))
   const heights = new Map()  // of its figures, while it is enlarged
@@ -59,10 +61,10 @@ function enlarging(model, root) {
   enlarge.addEventListener("click", () => set_large(!is_large()))
   const keys = (event) => {
     if (!enlarge.isConnected) return removeEventListener("keydown", keys)
-    if (!is_large() || event.defaultPrevented) return
+    if (!(is_large() || named) || event.defaultPrevented) return
     const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key]
     const [at] = event.composedPath()
-    if (event.key === "Escape" && !at.closest?.("dialog, [popover]:not(.view)")) set_large(false)
+    if (event.key === "Escape" && is_large() && !at.closest?.("dialog, [popover]:not(.view)")) set_large(false)
     else if (by && model.cells.length && !at.matches?.("input, select")) {
       event.preventDefault()
       step(by)
@@ -70,11 +72,27 @@ function enlarging(model, root) {
   }
   addEventListener("keydown", keys)
   on_event("tab", enlarge, () => { if (is_large()) set_large(false) })
+  let named = "", own_height = 0  // by a lesson, where there is room for one
+  const show_named = () => {
+    const projected = page.hasAttribute("data-projector"), small = innerWidth <= NARROW
+    const wanted = (projected || small) && model.cells.length ? page.dataset.cell ?? "" : ""
+    const [view] = figures_on_screen(model.figures)
+    if (wanted === named || is_large() || !view) return
+    named = wanted
+    steps.hidden = !named
+    root.classList.toggle("only-steps", Boolean(named) && projected)
+    if (small) {
+      own_height ||= view.model.height
+      view.model.setv({ height: named ? LOW : own_height }, { sync: false })
+    }
+    show_cell(model.cells.findIndex(([words]) => words === named))
+  }
+  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)
   on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
     if (!model.figures.includes(figure) || cell >= 0) return
     const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)
     if (at < 0) return
-    if (!is_large()) set_large(true)
+    if (!is_large() && !named) set_large(true)
     show_cell(at)
   })
   return enlarge

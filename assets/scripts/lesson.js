@@ -58,6 +58,7 @@ export function render({ model }) {
     const { given, tried } = answers()
     const veiled = predict && given === undefined && !tried ? predict.veil ?? watch : []
     root.toggleAttribute("data-lesson", open)
+    root.dataset.cell = (open && !listed && model.lesson.cell) || ""
     root.toggleAttribute("data-asks", open && !listed && asks)
     root.toggleAttribute("data-reads", lesson.classList.toggle("reads", open && (listed || reads)))
     announce("lesson", open ? { drag, watch, veiled } : null)

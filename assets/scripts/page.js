@@ -71,6 +71,7 @@
   on_event("drawn", root, () => { if (wanted !== null && is_open()) wait_for(null, "") })
 
   // Figures come and go with their tabs, each inside the shadow of another.
+  const NARROW = 820  // px
   let marked = [], veiled = []  // veiled: they would answer what is to be predicted
   const mark = () => {
     const missing = new Set([...marked, ...veiled])
@@ -84,6 +85,8 @@
       for (const part of parts) if (part.visible === hidden) part.setv({ visible: !hidden }, { sync: false })
       for (const name of [...missing]) if (is(name)) missing.delete(name)
     }
+    // on a phone there is room for the question, or for them
+    if (innerWidth <= NARROW) show_choices(main, !root.hasAttribute("data-asks"))
     return missing.size === 0
   }
   const figures_in = (view) => [...Bokeh.index.query(({ model, el }) => {
@@ -125,7 +128,7 @@
   // For a projector all words are larger: parts without figures as a whole, while figures have type of
   // their own (look.js), and views are below one another. With a lesson only the views that it marks
   // are there, two of them side by side, and their figures have the height that there is.
-  const LARGER = 1.64
+  const LARGER = 1.64, WIDTH_OF_SIGN = 12  // px
   const enlarge_words = () => {
     const large = root.hasAttribute("data-projector")
     const has_figure = (part) => {
@@ -146,28 +149,39 @@
     has_figure(document.body)
     setTimeout(fit, 120)
   }
+  const in_two_lines = (words) => {
+    const middle = words.length / 2, off = (at) => Math.abs(at - middle)
+    const spaces = [...words.matchAll(/ /g)].map(({ index }) => index).sort((a, b) => off(a) - off(b))
+    return spaces.length ? `${words.slice(0, spaces[0])}\n${words.slice(spaces[0] + 1)}` : words
+  }
   const own_size = new Map()  // of figures that are fitted
   const changes_of_size = new ResizeObserver(() => enlarge_soon())
   const fit = () => {
     if (!root.hasAttribute("data-projector") || !root.hasAttribute("data-lesson")) return
-    const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
     const views = [...inside(main)].filter((one) => one.matches(".view") && one.getClientRects().length)
-    for (const view of views) {
+    const drawn_in = (view) => figures_in(view).map(({ model, el }) => [model, el, el.getBoundingClientRect()]).filter(([, , { height }]) => height)
+    const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
+    for (const view of views) {  // what waits to be opened stands beside the figure
+      view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
+      if (view.matches(".watched")) view.getRootNode().host.classList.toggle("beside", views.some((one) => one.matches(".folded")))
+    }
+    for (const view of views.filter((one) => !one.matches(".folded"))) {
       const fits = views.length === 1 || view.matches(".watched")
       show_choices(view, !fits || !(root.hasAttribute("data-asks") || view.getRootNode().host.matches(".two-columns")))
       if (!fits) continue
       const box = view.getBoundingClientRect()
-      const plots = figures_in(view).map(({ model, el }) => [model, el, el.getBoundingClientRect()]).filter(([, , { height }]) => height)
+      const plots = drawn_in(view)
       const rows = new Set(plots.map(([, , { top }]) => Math.round(top))).size
       const end = Math.max(...plots.map(([, , { bottom }]) => bottom))
       const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
       for (const [model, el, { height }] of more ? plots : []) {
-        const { sizing_mode, height: high, min_height } = model
-        if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: high, min_height })
+        const { sizing_mode, height: own, min_height } = model
+        if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
         changes_of_size.observe(el)
-        model.setv({ sizing_mode: "stretch_width", height: Math.max(60, Math.round(height) + more), min_height: null }, { sync: false })
-        for (const axis of model.left)  // in two lines: large type is long
-          if (axis.axis_label && !axis.axis_label.includes("\n")) axis.setv({ axis_label: axis.axis_label.replace(" (", "\n(") }, { sync: false })
+        const high = Math.max(60, Math.round(height) + more)
+        model.setv({ sizing_mode: "stretch_width", height: high, min_height: null }, { sync: false })
+        for (const axis of model.left)  // in two lines, where large type is longer than the figure is high
+          if (axis.axis_label?.length * WIDTH_OF_SIGN > high && !axis.axis_label.includes("\n")) axis.setv({ axis_label: in_two_lines(axis.axis_label) }, { sync: false })
       }
     }
   }

@@ -33,8 +33,6 @@ class Record:
     shaft_speed: float
     """[rad/s]"""
     recording: Recording
-    outer_extent_deg: float | None = None
-    """Of a pit on the outer race, where it is known."""
     spall_extent_deg: float | None = None
     """Of a spall or pit on either race, where it is known."""
     grade: str = ""
@@ -59,8 +57,10 @@ def ball_bearing(
 CWRU = (9, 7.94, 39.04)
 CWRU_FAN_END = (8, 6.746, 28.50)
 CWRU_RPM = {"0": 1797.0, "1": 1772.0, "2": 1750.0, "3": 1730.0}
-CWRU_EXTENT_DEG = {"007": 0.43, "014": 0.87, "021": 1.30}
-CWRU_INNER_DEG = {"007": 0.66, "014": 1.31, "021": 1.97, "028": 2.62}
+CWRU_EXTENT_DEG = {
+    "OR": {"007": 0.43, "014": 0.87, "021": 1.30},
+    "IR": {"007": 0.66, "014": 1.31, "021": 1.97, "028": 2.62},
+}
 MFPT = (8, 0.235 * 25.4, 1.245 * 25.4)
 FEMTO = (13, 3.5, 25.6)
 GRADES = {
@@ -111,7 +111,7 @@ def _hitsm(path: Path, truth: str, turns: str, extent_deg: float | None) -> Reco
     )
     return Record(
         path.stem, truth, "HIT-SM 6205", ball_bearing(*CWRU), _speed(float(turns)), recording,
-        None, extent_deg,
+        extent_deg,
     )  # fmt: skip
 
 
@@ -138,17 +138,16 @@ def _cwru(path: Path) -> Record:
     kind = re.search(r"_(IR|OR|B)_?(\d{3})", name)
     truth = {"IR": "inner race", "OR": "outer race", "B": "ball"}[kind[1]] if kind else HEALTHY
     rate = 48_000.0 if name.startswith(("48k", "Normal")) else 12_000.0
-    extent = either = None
+    extent = None
     if kind and not fan_end:
-        extent = CWRU_EXTENT_DEG.get(kind[2]) if kind[1] == "OR" else None
-        either = CWRU_INNER_DEG.get(kind[2]) if kind[1] == "IR" else extent
+        extent = CWRU_EXTENT_DEG.get(kind[1], {}).get(kind[2])
     signal = np.asarray(content[variable], dtype=float).reshape(-1) * UNITS["g"]
     at_12_khz = number is not None and rate < 20_000.0 and not fan_end
     grade = next((g for g, files in GRADES.items() if number and number[1] in files.split()), "")
     return Record(
         name, truth, "CWRU 6203" if fan_end else "CWRU 6205",
         ball_bearing(*(CWRU_FAN_END if fan_end else CWRU)), _speed(turns),
-        Recording(signal, rate, ("y",), path.name), extent, either, grade if at_12_khz else "",
+        Recording(signal, rate, ("y",), path.name), extent, grade if at_12_khz else "",
     )  # fmt: skip
 
 

@@ -237,7 +237,8 @@ ON_SCREEN = """() => {
     controls: of(".controls-place").map(share),
     words: of(".words")[0].getBoundingClientRect().height,
     views: of(".watched")
-      .filter((view) => [...deep(view.shadowRoot)].some((part) => part.matches("canvas")))
+      .filter((view) => [...deep(view.shadowRoot)]
+        .some((part) => part.matches("canvas") && part.getClientRects().length))
       .map((view) => [share(view), view.getBoundingClientRect().height]),
     drawn: [...Bokeh.index.query(({ model, el }) => model.type === "Figure" && el.checkVisibility({
       visibilityProperty: true }))].map(({ el }) => share(el)),

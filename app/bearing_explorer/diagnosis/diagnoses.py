@@ -114,15 +114,18 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
     """The extent, or a sentence where there can be none. For any thread."""
 
     def measure() -> MeasuredExtent:
+        measured, bearing = question.measured, question.bearing
         found = measure_extent(
-            question.measured.recording,
-            question.bearing,
+            measured.recording,
+            bearing,
             question.speed,
             race=question.race or None,
-            load=question.load,
+            load=measured.true_load or question.load,
+            clearance=bearing.radial_clearance if measured.true_edge else None,
+            edge=measured.true_edge,
             diagnosis=question.diagnosis,
         )
-        unsized = question.measured.machine.by_frequencies
+        unsized = measured.machine.by_frequencies
         return dataclasses.replace(found, length=math.nan) if unsized else found
 
     return _or_why_not(measure)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from bokeh.embed import json_item
 
 from bearing_explorer.diagnosis.diagnoses import Question
+from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SIMULATED
 from bearing_explorer.diagnosis.next_steps import next_steps
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
@@ -204,10 +205,10 @@ def assumptions(
     measured, bearing = question.measured, question.bearing
     machine, recording = measured.machine, measured.recording
     given, values = dict(part_words.facts(answer, question)), measurement.state.values
-    load = measurement.state.load
+    load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
-    unknown = machine.exact_speed is None
+    unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
         ("File", recording.name, "" if measured.origin else "Simulated"),
         ("Signal", f"{with_prefix(recording.duration, 's')} along "
@@ -223,8 +224,10 @@ def assumptions(
          machine.source_of("bearing").capitalize()),
         ("Machine and support", kind or "not said: no zone", "Given" if kind else ""),
         ("Load", "typical ones, for the extent" if load is None
-         else with_prefix(load, "N"), "Assumed" if load is None else "From the file"),
-        ("Radial clearance", f"{clearance}, for the extent", "Assumed: usual of the bearing"),
+         else with_prefix(load, "N"),
+         "Assumed" if load is None else made if measured.true_load else "From the file"),
+        ("Radial clearance", f"{clearance}, for the extent",
+         made if measured.true_edge else "Assumed: usual of the bearing"),
         ("Demodulation band", given.get("Demodulation band", "none"), "Found"),
     ]  # fmt: skip
 

@@ -74,6 +74,9 @@ class Measured:
         the part that is damaged, or "none", where the signal is a simulated one; else "".
     true_speed
         [rad/s] of the shaft, where the signal is a simulated one.
+    true_load, true_edge
+        radial load [N] that presses balls into the defect, and how they roll over its edges, where
+        the signal is a simulated one of one defect, else None.
     noiseless
         whether it is simulated without any noise.
     in_si
@@ -87,6 +90,8 @@ class Measured:
     origin: Origin | None = None
     true_part: str = ""
     true_speed: float | None = None
+    true_load: float | None = None
+    true_edge: str | None = None
     noiseless: bool = False
     in_si: bool = True
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)

@@ -8,6 +8,7 @@ passes would show.
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
@@ -18,7 +19,7 @@ from bearing_explorer.diagnosis.model import motion
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Defect, Recording, Scene
-from bearingcore.diagnosis import Tolerances, variant
+from bearingcore.diagnosis import SPREAD, variant
 from bearingcore.scene import WITH_MASS, pit
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
@@ -89,6 +90,19 @@ def with_pit(scene: Scene, length: float | None) -> Scene:
         raise ValueError(sentence_of(error)) from None
 
 
+def load_on_defect(scene: Scene) -> float | None:
+    """Radial load [N] of a scene towards its defect; None where it has several, or presses none.
+
+    A defect of the inner race turns through the load zone, and is met where that is loaded most.
+    """
+    if len(scene.defects) != 1:
+        return None
+    (defect,), force = scene.defects, complex(scene.load.fx, scene.load.fy)
+    towards = (force * cmath.rect(1.0, -defect.center)).real
+    load = abs(force) if defect.race == "inner" else towards
+    return load if load > 1e-6 * abs(force) else None
+
+
 def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
     """A measurement of a scene as a sensor with noise would make it, its extent known.
 
@@ -97,8 +111,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     noise_db
         signal over noise [dB], each direction against its own.
     different
-        whether the machine's stiffnesses, load, damping and depth are off what the scene says, as
-        far as the sizing expects them to be.
+        whether the machine's stiffnesses, load, damping and depth are off what the scene says.
 
     Raises
     ------
@@ -110,7 +123,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
     if different and single:
         (defect,) = scene.defects
-        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * Tolerances().spread
+        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * SPREAD
         truth = variant(scene, defect.extent, defect.edge, exponents)
     passing = scene.bearing.bpfo(scene.shaft_speed)
     duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
@@ -135,8 +148,9 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
     extent = scene.defects[0].extent if single else None
+    edge = scene.defects[0].edge if len(scene.defects) == 1 else None
     return Measured(
         recording, of_scene(scene, SIMULATED), extent,
         true_part=true_part(scene), noiseless=math.isinf(noise_db),
-        true_speed=scene.shaft_speed,
+        true_speed=scene.shaft_speed, true_load=load_on_defect(scene), true_edge=edge,
     )  # fmt: skip

@@ -21,7 +21,6 @@ from bearing_explorer.explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.explorer.views.depth_profile import DepthProfile
 from bearing_explorer.explorer.views.displacement import Displacement, OperatingPoint
 from bearing_explorer.explorer.views.explore import ExplorePlane
-from bearing_explorer.explorer.views.free_directions import FreeDirections
 from bearing_explorer.explorer.views.life import LifeOfBearing
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.maps import StiffnessMaps
@@ -74,7 +73,7 @@ SECTIONS = (
         (VibrationInTime, VibrationSpectra, SlowPassage, MassInTime, WhichMechanism),
     ),
     Section("bearing", "Bearing", (BearingEditor,), "Machine"),
-    Section("model", "Rotor and support", (ModelEditor, FreeDirections, OperatingPoint), "Machine"),
+    Section("model", "Rotor and support", (ModelEditor, OperatingPoint), "Machine"),
     Section("life", "Life", (LifeOfBearing,), "Machine"),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels)),
     Section("explore", "Explore", (ExplorePlane,), "More"),

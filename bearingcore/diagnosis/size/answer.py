@@ -91,15 +91,13 @@ class Candidate:
         that this candidate is the true one, among all candidates.
     edge
         the edge model that fits best.
-    factors
-        by what the scene's numbers are multiplied to fit best, by name.
     waveform_misfit, spectrum_misfit : (d,)
         what is left unexplained of the mean ball pass; mean squared natural logarithm of the ratio
         of the smoothed spectra.
     level
         natural logarithm of simulated over measured power.
     scene
-        the fitted scene: its modes, bands, motion and spectrum are the candidate's.
+        with this defect: its modes, bands, motion and spectrum are the candidate's.
     passes
         its simulated ball passes.
     lag
@@ -110,7 +108,6 @@ class Candidate:
     extent: float
     probability: float
     edge: str
-    factors: dict[str, float]
     waveform_misfit: NDArray[np.float64]
     spectrum_misfit: NDArray[np.float64]
     level: float
@@ -174,8 +171,6 @@ class Sizing:
     passes: BallPasses
     band: Band
     recording: Recording = field(repr=False)
-    scores: NDArray[np.float64] = field(repr=False)
-    """(candidates,) before the temperature."""
     quality: PassQuality
     apart: float = 0.0
     diagnosis: Diagnosis | None = None
@@ -191,7 +186,7 @@ class Sizing:
         return str(self.status) if self.status in (AT_MOST, AT_LEAST) else ""
 
     def table(self) -> ResultTable:
-        """A row a candidate: extent, probability, edges, misfits, what was varied with it."""
+        """A row a candidate: extent, probability, edges and misfits."""
         candidates = self.candidates
         return table_of(
             ("extent", "rad", [c.extent for c in candidates]),
@@ -200,10 +195,6 @@ class Sizing:
             ("edge", "", [c.edge for c in candidates]),
             ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
             ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
-            *(
-                (f"{name}_factor", "1", [c.factors[name] for c in candidates])
-                for name in (candidates[0].factors if candidates else ())
-            ),
         )
 
     @property

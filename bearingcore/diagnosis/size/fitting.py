@@ -1,16 +1,15 @@
 """Defects that could have given a signal: simulated over all extents, the best ones refined.
 
-What is only roughly known about a scene is varied with the extent: a stiffness that is a tenth off
-moves the resonances further than a defect does, and would else be mistaken for one.
+The scene is taken as given, but for its edges: those most unlike the given ones are tried too.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -25,7 +24,6 @@ from bearingcore.diagnosis.size.matching import (
     Target,
 )
 from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
-from bearingcore.diagnosis.size.variants import Tolerances, variant
 from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses
@@ -40,28 +38,16 @@ EXTENT_STEP = math.radians(0.5)
 PITS = np.radians([0.2, 0.28, 0.4, 0.55, 0.75])
 """[rad] Shorter ones than two steps, which are simulated too."""
 
-DRAWS = 2
-"""Simulations of each extent with its scene's numbers varied, in addition to the one as given."""
-
 PARTS = 16
 """In which the library is simulated, so that progress can be shown and work given up."""
 
-PROMISING = 0.5
-"""Part of the extents that are simulated with the scene's numbers varied too."""
-
-NEIGHBOURS = 3
-"""Extents to either side that count for whether one is promising."""
-
-ROUGH_STEPS_A_CYCLE = 7.0
+ROUGH_STEPS_A_CYCLE = 7.7
 """Steps in a cycle of the highest natural frequency in the library: they move a few thousandths of
 a pass's power, and what it is compared with is never nearer than a twentieth."""
 
 CLOSED_ROUGHLY, CLOSED = 0.05, 0.005
 """Differences between passes, as a share of them, from which a motion has settled: in the library,
 and of what is refined."""
-
-MOST_OFF = 2.5
-"""Standard deviations by which a number of a scene may be off."""
 
 STARTS = 10
 STARTS_APART = math.radians(0.8)
@@ -79,9 +65,8 @@ OTHER_EDGE_HOPS = np.radians([0.2, 0.45, 0.7, 1.0, 1.3])
 
 Stop = Callable[[float], None]
 
-
-SMALL_TURN, SMALL = 0.3 * EXTENT_STEP, 0.3
-"""Changes of the extent [rad] and of a number [standard deviations] by which slopes are found."""
+SMALL_TURN = 0.3 * EXTENT_STEP
+"""Change of the extent [rad] by which slopes are found."""
 
 DAMPINGS = (0.02, 0.5, 10.0)
 """Of a step's curvature, tried in turn until one leads uphill."""
@@ -95,7 +80,7 @@ OTHER_EDGE = 1.0
 
 @dataclass(frozen=True)
 class Guess:
-    """A defect and a scene's numbers that could have given the signal.
+    """A defect that could have given the signal.
 
     Attributes
     ----------
@@ -103,27 +88,21 @@ class Guess:
         [rad]
     edge
         edge model.
-    offsets
-        of the scene's numbers in standard deviations, in the order of `Tolerances`.
     score
-        logarithm of how well it explains the signal, less what its offsets cost; before the
-        temperature.
+        logarithm of how well it explains the signal, before the temperature.
     lag
         ball-pass phase [rad] of the simulation at which the measured pass begins.
     level
         natural logarithm of simulated over measured power.
     extent_spread
-        standard deviation [rad] of the extent where the scene's numbers may vary; NaN until it was
-        refined.
+        standard deviation [rad] of the extent if what is left is noise; NaN until it was refined.
     """
 
     extent: float
     edge: str
-    offsets: NDArray[np.float64]
     score: float
     waveform_misfit: NDArray[np.float64]
     spectrum_misfit: NDArray[np.float64]
-    waveform_cost: NDArray[np.float64]
     lag: float
     level: float
     passes: BallPasses
@@ -141,40 +120,28 @@ class Search:
     scene: Scene
     target: Target
     columns: tuple[int, ...]
-    tolerances: Tolerances
 
     @property
     def count(self) -> int:
         """Harmonics that are compared."""
         return int(self.target.kept[-1]) + 1
 
-    def guess(
-        self,
-        extent: float,
-        edge: str,
-        offsets: NDArray[np.float64],
-        like: Guess | None = None,
-    ) -> Guess:
+    def guess(self, extent: float, edge: str, like: Guess | None = None) -> Guess:
         """Simulate a defect and compare it with the signal.
 
         The motion of a guess nearby goes on, where one is given.
         """
         extent = min(max(extent, LEAST_EXTENT), GREATEST_EXTENT)
-        offsets = np.where(self.tolerances.spread > 0.0, np.clip(offsets, -MOST_OFF, MOST_OFF), 0.0)
-        exponents = offsets * self.tolerances.spread
         begin = None if like is None else like.begin
-        passes, begin = self.simulator.passes(extent, edge, exponents, CLOSED, begin)
+        passes, begin = self.simulator.passes(extent, edge, CLOSED, begin)
         match = self.target.match(passes.harmonics[None], passes.power[None])
-        score = float(match.score[0]) - 0.5 * float(offsets @ offsets)
-        score -= OTHER_EDGE * (edge != self.edges[0])
+        score = float(match.score[0]) - OTHER_EDGE * (edge != self.edges[0])
         return Guess(
             extent,
             edge,
-            offsets,
             score,
             match.waveform_misfit[0],
             match.spectrum_misfit[0],
-            match.waveform_cost[0],
             float(match.lag[0]),
             float(match.level[0]),
             passes,
@@ -187,16 +154,12 @@ class Search:
     def edges(self) -> tuple[str, str]:
         """The edge model that was given, and the one most unlike it."""
         (defect,) = self.scene.defects
-        return edges_tried(defect.edge)
+        return defect.edge, "published" if defect.edge == "exact" else EDGES[-1]
 
     @cached_property
     def simulator(self) -> Simulator:
         """Of the scene, at the speed that was measured."""
         return Simulator(self.scene, self.target.measured.frequency, self.count, self.columns)
-
-    def varied(self, extent: float, edge: str, offsets: NDArray[np.float64]) -> Scene:
-        """The scene with a guess's defect and numbers."""
-        return variant(self.scene, extent, edge, offsets * self.tolerances.spread)
 
     def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
         """Residuals of least squares, so weighted that near `about` their sum is as the score."""
@@ -207,9 +170,7 @@ class Search:
         floored = SPECTRUM_FLOOR + about.spectrum_misfit
         spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
         left = (guess.waveform_residual * waveform).ravel()
-        return np.concatenate(
-            [left.real, left.imag, (guess.spectrum_residual * spectrum).ravel(), guess.offsets]
-        )
+        return np.concatenate([left.real, left.imag, (guess.spectrum_residual * spectrum).ravel()])
 
     def neighbouring(self, guess: Guess) -> Guess:
         """The best of extents a little shorter and longer, and of other edges, refined once.
@@ -218,7 +179,7 @@ class Search:
         out of step.
         """
         tried = [
-            self.guess(guess.extent + way * hop, edge, guess.offsets, guess)
+            self.guess(guess.extent + way * hop, edge, guess)
             for edge in self.edges
             for hop in (HOPS if edge == guess.edge else OTHER_EDGE_HOPS).tolist()
             for way in (-1.0, 1.0)
@@ -227,55 +188,25 @@ class Search:
 
     def refined(self, guess: Guess) -> Guess:
         """One Gauss-Newton step from a guess, or the best of what was tried on the way."""
-        count = len(guess.offsets)
         turned = min(SMALL_TURN, 0.2 * guess.extent)
-        tried = [
-            self.guess(guess.extent + turned, guess.edge, guess.offsets, guess),
-            *(
-                self.guess(guess.extent, guess.edge, guess.offsets + SMALL * unit, guess)
-                for unit in np.eye(count)
-            ),
-        ]
-        sizes = np.array([turned] + [SMALL] * count)[:, None]
+        tried = self.guess(guess.extent + turned, guess.edge, guess)
         here = self.residuals(guess, guess)
-        slope = np.array([self.residuals(other, guess) - here for other in tried]) / sizes
-        curvature = slope @ slope.T + 1e-9 * np.eye(1 + count)
-        furthest = np.array([min(3.0 * EXTENT_STEP, guess.extent)] + [1.0] * count)
-        best = guess
+        slope = (self.residuals(tried, guess) - here) / turned
+        curvature = float(slope @ slope) + 1e-9
+        furthest = min(3.0 * EXTENT_STEP, guess.extent)
+        best = max((guess, tried), key=lambda other: other.score)
         for damping in DAMPINGS:
-            damped = curvature + damping * np.diag(np.diag(curvature))
-            move = -np.linalg.solve(damped, slope @ here)
-            move *= min(1.0, float(np.min(furthest / np.maximum(np.abs(move), 1e-12))))
-            there = self.guess(guess.extent + move[0], guess.edge, guess.offsets + move[1:], guess)
-            if there.score > best.score:
-                best = there
+            move = -float(slope @ here) / ((1.0 + damping) * curvature)
+            move = min(max(move, -furthest), furthest)
+            there = self.guess(guess.extent + move, guess.edge, guess)
+            if there.score > guess.score:
+                best = max((best, there), key=lambda other: other.score)
                 break
-        best = max([best, *tried], key=lambda other: other.score)
-        inverse = np.linalg.inv(curvature)
-        spread = math.sqrt(float(inverse[0, 0]))
         # what is left says how far off the residuals are (a sandwich of curvatures)
-        left = here.copy()
-        left[-count:] = 1.0
-        lever = inverse[0] @ slope
-        scatter = math.sqrt(float(((lever * left) ** 2).sum()))
-        return dataclasses.replace(best, extent_spread=spread, extent_scatter=scatter)
-
-
-def edges_tried(given: str) -> tuple[str, str]:
-    """An edge model, and the one most unlike it."""
-    return given, "published" if given == "exact" else EDGES[-1]
-
-
-@dataclass(frozen=True)
-class _Library:
-    """Simulated signals of some extents: guesses not yet compared."""
-
-    extents: NDArray[np.float64]
-    edges: tuple[str, ...]
-    offsets: NDArray[np.float64]
-    harmonics: NDArray[np.complex128]
-    power: NDArray[np.float64]
-    begins: tuple[Begin | None, ...]
+        scatter = math.sqrt(float(((slope * here) ** 2).sum())) / curvature
+        return dataclasses.replace(
+            best, extent_spread=1.0 / math.sqrt(curvature), extent_scatter=scatter
+        )
 
 
 @dataclass(frozen=True)
@@ -286,13 +217,12 @@ class _Sought:
     frequency: float
     count: int
     columns: tuple[int, ...]
-    tolerances: Tolerances
 
 
 EXTENTS = np.concatenate([PITS, np.arange(2.0 * EXTENT_STEP, GREATEST_EXTENT, EXTENT_STEP)])
 """[rad] that are simulated."""
 
-_OF_PARTS = np.array_split(np.arange(len(EXTENTS)), PARTS)
+_OF_PARTS = np.array_split(EXTENTS, PARTS)
 
 
 @lru_cache(maxsize=8)
@@ -302,102 +232,36 @@ def _simulator(sought: _Sought) -> Simulator:
     )
 
 
-@lru_cache(maxsize=8 * PARTS)
-def _as_given(sought: _Sought, part: int) -> _Library:
-    """A part of all extents, in a scene as it was given."""
-    (defect,) = sought.scene.defects
-    simulator = _simulator(sought)
-    nothing = np.zeros(len(sought.tolerances.spread))
+@lru_cache(maxsize=16 * PARTS)
+def _library(
+    sought: _Sought, edge: str, part: int
+) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+    """Harmonics and power (m, N, d) of ball passes over a part of all extents."""
     begin: Begin | None = None
-    begins, passes = [], []
-    for index in _OF_PARTS[part].tolist():
+    passes = []
+    for extent in _OF_PARTS[part].tolist():
         # each begins as its neighbour goes on, and soon goes its own way
-        found, begin = simulator.passes(
-            float(EXTENTS[index]), defect.edge, nothing, CLOSED_ROUGHLY, begin
-        )
+        found, begin = _simulator(sought).passes(extent, edge, CLOSED_ROUGHLY, begin)
         passes.append(found)
-        begins.append(begin)
-    count = len(passes)
-    return _Library(
-        EXTENTS[_OF_PARTS[part]],
-        (defect.edge,) * count,
-        np.zeros((count, len(nothing))),
-        np.array([each.harmonics for each in passes]),
-        np.array([each.power for each in passes]),
-        tuple(begins),
-    )
-
-
-@lru_cache(maxsize=8 * len(EXTENTS))
-def _varied(sought: _Sought, index: int) -> _Library:
-    """About an extent, DRAWS times with the scene's numbers varied."""
-    (defect,) = sought.scene.defects
-    edges = edges_tried(defect.edge)
-    part = next(number for number, one in enumerate(_OF_PARTS) if index <= one[-1])
-    begin = _as_given(sought, part).begins[index - int(_OF_PARTS[part][0])]
-    rng = np.random.default_rng(index)
-    spread = sought.tolerances.spread
-    made, passes = [], []
-    for _ in range(DRAWS):
-        offsets = np.clip(rng.standard_normal(len(spread)), -2.0, 2.0) * (spread > 0.0)
-        extent = float(EXTENTS[index])
-        extent += rng.uniform(-0.5, 0.5) * min(EXTENT_STEP, extent)
-        made.append((extent, edges[rng.integers(2)], offsets))
-        passes.append(
-            _simulator(sought).passes(*made[-1][:2], offsets * spread, CLOSED_ROUGHLY, begin)[0]
-        )
-    return _Library(
-        np.array([extent for extent, _, _ in made]),
-        tuple(edge for _, edge, _ in made),
-        np.array([offsets for _, _, offsets in made]),
-        np.array([each.harmonics for each in passes]),
-        np.array([each.power for each in passes]),
-        (None,) * DRAWS,
-    )
-
-
-def _together(libraries: Sequence[_Library]) -> _Library:
-    return _Library(
-        np.concatenate([one.extents for one in libraries]),
-        tuple(edge for one in libraries for edge in one.edges),
-        np.concatenate([one.offsets for one in libraries]),
-        np.concatenate([one.harmonics for one in libraries]),
-        np.concatenate([one.power for one in libraries]),
-        (),
-    )
+    return np.array([one.harmonics for one in passes]), np.array([one.power for one in passes])
 
 
 def steps_needed(search: Search) -> int:
-    """Steps of all simulations of a search, about and at most: those of the scene as given."""
-    library = len(EXTENTS) * (1.0 + PROMISING * DRAWS)
+    """Steps of all simulations of a search, about and at most."""
+    library = len(search.edges) * len(EXTENTS)
     cells = math.ceil((GREATEST_EXTENT - LEAST_EXTENT) / search.scene.bearing.ball_spacing)
-    tries = 2 + len(search.tolerances.spread)
-    refined = tries * (STARTS + sum(FURTHER) + 3 * sum(HOPPING) + 2 * cells)
+    refined = 3 * (STARTS + sum(FURTHER) + 5 * sum(HOPPING) + 2 * cells)
     frequency = search.target.measured.frequency
-    return (math.ceil(library) + refined) * steps_of(search.scene, frequency, search.count)
+    return (library + refined) * steps_of(search.scene, frequency, search.count)
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Compared:
-    """Simulated signals, and how well they explain the measured one."""
+    """Simulated defects (m,), and how well each explains the signal."""
 
-    search: Search
-    scores: list[NDArray[np.float64]] = field(default_factory=list)
-    sources: list[tuple[float, str, NDArray[np.float64]]] = field(default_factory=list)
-
-    def add(self, library: _Library, score: NDArray[np.float64]) -> None:
-        """Signals with their scores (m,)."""
-        given, _ = self.search.edges
-        other = np.array([edge != given for edge in library.edges])
-        self.scores.append(score - 0.5 * (library.offsets**2).sum(axis=1) - OTHER_EDGE * other)
-        self.sources += list(
-            zip(library.extents.tolist(), library.edges, library.offsets, strict=True)
-        )
-
-    @property
-    def score(self) -> NDArray[np.float64]:
-        """(m,)"""
-        return np.concatenate(self.scores)
+    extents: NDArray[np.float64]
+    edges: tuple[str, ...]
+    score: NDArray[np.float64]
 
 
 def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> list[Guess]:
@@ -417,40 +281,27 @@ def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> li
 
 
 def _library_compared(search: Search, progress: Stop, threads: Executor) -> _Compared:
-    """All extents as the scene is given, and the promising half of them with it varied too."""
+    """All extents, with either edge."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     frequency = nominal * round(target.measured.frequency / nominal, 3)
-    sought = _Sought(scene, frequency, search.count, search.columns, search.tolerances)
+    sought = _Sought(scene, frequency, search.count, search.columns)
+    tasks = [(edge, part) for edge in search.edges for part in range(PARTS)]
 
-    def explained(library: _Library) -> tuple[_Library, NDArray[np.float64]]:
-        return library, target.match(library.harmonics, library.power).score
+    def explained(task: tuple[str, int]) -> NDArray[np.float64]:
+        score = target.match(*_library(sought, *task)).score
+        return score - OTHER_EDGE * (task[0] != search.edges[0])
 
-    def as_given(part: int) -> tuple[_Library, NDArray[np.float64]]:
-        return explained(_as_given(sought, part))
-
-    def varied(some: NDArray[np.int_]) -> tuple[_Library, NDArray[np.float64]]:
-        return explained(_together([_varied(sought, index) for index in some.tolist()]))
-
-    compared = _Compared(search)
-    for part, found in enumerate(threads.map(as_given, range(PARTS))):
-        compared.add(*found)
-        progress(0.3 * (part + 1) / PARTS)
-    # where no neighbour is any good, another stiffness or load does not make it so
-    near = maximum_of_neighbours(compared.score)
-    promising = np.sort(np.argsort(-near, kind="stable")[: round(PROMISING * len(near))])
-    for part, found in enumerate(threads.map(varied, np.array_split(promising, PARTS))):
-        compared.add(*found)
-        progress(0.3 + 0.2 * (part + 1) / PARTS)
-    return compared
-
-
-def maximum_of_neighbours(score: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The greatest of each score (n,) and NEIGHBOURS on either side."""
-    padded = np.pad(score, NEIGHBOURS, constant_values=-math.inf)
-    windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS + 1)
-    return np.asarray(windows.max(axis=1))
+    scores = []
+    for done, score in enumerate(threads.map(explained, tasks)):
+        scores.append(score)
+        progress(0.5 * (done + 1) / len(tasks))
+    return _Compared(
+        np.tile(EXTENTS, len(search.edges)),
+        tuple(edge for edge in search.edges for _ in EXTENTS),
+        np.concatenate(scores),
+    )
 
 
 def _refined(
@@ -461,7 +312,7 @@ def _refined(
     threads: Executor,
 ) -> list[Guess]:
     """The best guesses made better, and those of each cell."""
-    sources = compared.sources
+    sources = list(zip(compared.extents.tolist(), compared.edges, strict=True))
     order = np.argsort(-compared.score, kind="stable")
 
     def starts() -> Iterator[int]:

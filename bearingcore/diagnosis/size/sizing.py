@@ -1,10 +1,10 @@
 """The size of a defect from the vibration of the housing: analysis by synthesis.
 
 The time from a ball's entry to a ball's exit gives the extent only up to whole ball spacings
-(Petersen, Howard & Prime 2014, Section 4). So every extent is simulated, what is only roughly known
-about the scene is varied with it, and each candidate Δφ + k·360°/N_b judged by how well it explains
-the signal: the mean ball pass in both directions and the spectrum. The answer is a probability for
-each candidate, and a word where there is no clear result.
+(Petersen, Howard & Prime 2014, Section 4). So every extent is simulated in the scene as given, and
+each candidate Δφ + k·360°/N_b judged by how well it explains the signal: the mean ball pass in both
+directions and the spectrum. The answer is a probability for each candidate, and a word where there
+is no clear result.
 
 First comes the diagnosis, which needs no model of the machine: an extent is looked for only
 where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
@@ -44,7 +44,6 @@ from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.pass_quality import pass_quality
 from bearingcore.diagnosis.size.synthesis import comparison_band
-from bearingcore.diagnosis.size.variants import Tolerances
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, Scene
 from bearingcore.signals.averaging import average_passes
@@ -52,7 +51,7 @@ from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import check_samples
 
 MOST_STEPS = 100_000_000
-"""Steps of integration of all simulations together, by default: ten times what a usual
+"""Steps of integration of all simulations together, by default: thirty times what a usual
 scene takes, about a minute of one core."""
 
 TEMPERATURE = 3.0
@@ -60,7 +59,7 @@ TEMPERATURE = 3.0
 
 WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
-stated standard deviation that of the errors (`python -m tests.benchmarks.sizing paths`)."""
+stated standard deviation that of the errors (`python -m tests.benchmarks.sizing given`)."""
 
 SLACK = 0.25
 """Of the variance that the extent has where what is left is all that models err by: it counts with
@@ -79,7 +78,6 @@ def size_defect(
     scene: Scene,
     *,
     fault: str | None = None,
-    tolerances: Tolerances | None = None,
     support_known: bool = False,
     slip: float = 0.02,
     most_steps: int = MOST_STEPS,
@@ -103,8 +101,6 @@ def size_defect(
     fault
         "outer race" where that is known from elsewhere: then there is no diagnosis. None: there
         is.
-    tolerances
-        how well the scene is known; None for the usual.
     support_known
         True where masses and stiffness of the support are measured ones, or the signal is a
         simulated one of the scene. Else there is no size, and the status says why.
@@ -128,7 +124,6 @@ def size_defect(
     check_samples("acceleration", recording.acceleration, most_samples)
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
-    tolerances = tolerances if tolerances is not None else Tolerances()
     if fault is not None:
         checks.choice("fault", fault, (OUTER,))
     band = comparison_band(scene, recording.sample_rate)
@@ -153,7 +148,6 @@ def size_defect(
         passes,
         band,
         recording,
-        np.zeros(0),
         pass_quality(target),
     )
     if fault is None:
@@ -175,7 +169,7 @@ def size_defect(
 
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     progress = progress if progress is not None else _go_on
-    search = Search(scene, target, columns, tolerances)
+    search = Search(scene, target, columns)
     steps = steps_needed(search)
     if steps > most_steps:
         cost = (
@@ -227,7 +221,6 @@ def _answer(
         candidates=candidates,
         extent_uncertainty=spread,
         apart=apart,
-        scores=scores,
     )
 
 
@@ -259,19 +252,15 @@ def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[i
 
 
 def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
-    names = [f.name for f in dataclasses.fields(search.tolerances)]
-    exponents = guess.offsets * search.tolerances.spread
-    factors = {name: math.exp(x) for name, x in zip(names, exponents.tolist(), strict=True)}
     return Candidate(
         turns=math.floor(guess.extent / search.scene.bearing.ball_spacing),
         extent=guess.extent,
         probability=probability,
         edge=guess.edge,
-        factors=factors,
         waveform_misfit=guess.waveform_misfit,
         spectrum_misfit=guess.spectrum_misfit,
         level=guess.level,
-        scene=search.varied(guess.extent, guess.edge, guess.offsets),
+        scene=search.scene.replace(extent=guess.extent, edge=guess.edge),
         passes=guess.passes,
         lag=guess.lag,
     )

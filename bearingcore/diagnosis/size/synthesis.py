@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.diagnosis.size.variants import system_variant
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import SETTLING, moving_system
@@ -28,18 +27,12 @@ FEWEST_SIMULATED = 4
 SETTLED_FIRST = 0.03
 """[s] of motion after which one pass is first compared with the next."""
 
-STEPS_A_CYCLE = 9.0
+STEPS_A_CYCLE = 10.0
 """Steps in a cycle of the highest natural frequency: an error near 0.2 dB, far below what a wrong
 model does."""
 
 STEPS_A_PIT = 10.0
 """Least number of steps while a ball passes a defect; each sees the defect four times."""
-
-STIFFER = 1.1
-"""By how much the highest natural frequency may rise while a scene's numbers are varied."""
-
-MOST_ROWS = 4096
-"""Edges and depths that are kept."""
 
 Array = NDArray[np.float64]
 
@@ -77,7 +70,7 @@ def _steps(
     scene: Scene, frequency: float, count: int, steps_a_cycle: float = STEPS_A_CYCLE
 ) -> tuple[int, int, int]:
     """Steps of a ball pass, passes that are thrown away, passes that are averaged."""
-    fastest = STIFFER * float(np.nan_to_num(highest_natural_frequency(scene)))
+    fastest = float(np.nan_to_num(highest_natural_frequency(scene)))
     n = max(math.ceil(steps_a_cycle * fastest / frequency), 4 * count)
     passes = max(FEWEST_SIMULATED, math.ceil(AVERAGED * frequency))
     return n, math.ceil(SETTLING * frequency), passes
@@ -106,7 +99,7 @@ class Begin:
 
 
 class Simulator:
-    """Simulates ball passes of a scene whose defect and numbers are varied.
+    """Simulates ball passes of a scene whose defect is varied.
 
     What all of them share is made ready once: a simulation takes a third of a millisecond plus
     its steps else. A motion may begin where a neighbour's is, as far from its static state, and it
@@ -143,7 +136,7 @@ class Simulator:
         packed = packed_motion(scene)
         self._system, self._load = moving_system(packed), packed.load
         self._n, settle, averaged = _steps(scene, frequency, count, steps_a_cycle)
-        self._rows: dict[tuple[str, float], Array] = {}
+        self._rows: dict[str, Array] = {}
         self._averaged = averaged
         self._most = settle + averaged
         self._first = min(max(2, math.ceil(SETTLED_FIRST * frequency)), self._most)
@@ -152,18 +145,18 @@ class Simulator:
         self,
         extent: float,
         edge: str,
-        exponents: Array,
         closed: float = 0.0,
         begin: Begin | None = None,
     ) -> tuple[BallPasses, Begin | None]:
-        """Ball passes of a defect, the scene's numbers times exp(exponents), and where they end.
+        """Ball passes of a defect, and where they end.
 
         A motion has settled where two passes after each other differ by less than `closed`, as a
         share of their root mean square; where it never does the mean of many passes is taken.
         Coefficients are NaN where the motion diverged or had no static state to start from.
         """
-        system = system_variant(self._system, self._row(extent, edge, exponents[4]), exponents)
-        resting = self._resting(system, self._load.force * math.exp(exponents[2]))
+        path = kernels.Path(self._row(extent, edge)[None], self._system.path.tables)
+        system = self._system._replace(path=path)
+        resting = self._resting(system)
         if resting is None:
             return self._nothing(), None
         state = resting if begin is None else begin.moving + (resting - begin.resting)
@@ -195,26 +188,20 @@ class Simulator:
         )
         return found, Begin(history[-1, [0, 1, 3, 4]], resting)
 
-    def _row(self, extent: float, edge: str, deeper: float) -> Array:
-        """Path of a ball over a defect's edges; only the first of an edge and depth takes time."""
-        key = edge, float(deeper)
-        row = self._rows.get(key)
-        if row is None:
+    def _row(self, extent: float, edge: str) -> Array:
+        """Path of a ball over a defect's edges; only the first of an edge model takes time."""
+        if edge not in self._rows:
             (defect,) = self.scene.defects
-            depth = min(defect.depth * math.exp(deeper), self.scene.bearing.ball_radius)
-            changed = dataclasses.replace(defect, edge=edge, depth=depth)
-            row = changed.edge_row(self.scene.bearing)
-            if len(self._rows) < MOST_ROWS:
-                self._rows[key] = row
-        row = row.copy()
+            changed = dataclasses.replace(defect, edge=edge)
+            self._rows[edge] = changed.edge_row(self.scene.bearing)
+        row = self._rows[edge].copy()
         row[kernels.PATH_COLUMNS.index("half_extent")] = 0.5 * extent
         return row
 
-    def _resting(self, system: kernels.System, force: Array) -> Array | None:
+    def _resting(self, system: kernels.System) -> Array | None:
         """The static state (4, nd) at cage angle 0, or None."""
-        load = self._load._replace(force=force)
         q, _, _, _, status, *_ = kernels.static_states(
-            np.zeros(1), np.zeros(1), system.contacts, system.path, load
+            np.zeros(1), np.zeros(1), system.contacts, system.path, self._load
         )
         if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
             return None

@@ -63,8 +63,8 @@ FAULTS = [["", "the part of step 2"], [OUTER, "the outer race, as is known"]]
 
 KNOWN = "known"
 SUPPORTS = [
-    ["", "a guess: tries others (slower)"],
-    [KNOWN, "as in the scene"],
+    ["", "not measured: no size"],
+    [KNOWN, "measured, as in the scene"],
 ]
 """Knowledge of the machine's masses and springs: value and words."""
 

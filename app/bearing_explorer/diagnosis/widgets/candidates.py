@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Callable
 from typing import Any
@@ -70,7 +69,7 @@ def table_html(rows: list[dict[str, Any]], looked: int) -> str:
             f"<small>{one['length']}</small></th><td>{one['made_of']}</td>"
             f'<td class="bar"><i style="width: {width:.1f}%"></i></td>'
             f'<td class="percent">{one["percent"]}{truth}</td>'
-            f"<td>{one['explains']}<small>{html.escape(one['fitted'])}</small></td></tr>"
+            f"<td>{one['explains']}</td></tr>"
         )
     return (
         '<table><caption class="unseen">Candidates for the extent of the defect</caption>'
@@ -100,7 +99,6 @@ def rows(sized: Sized) -> list[dict[str, Any]]:
             "explains": "explains "
             f"{100.0 * max(1.0 - float(candidate.waveform_misfit.mean()), 0.0):.0f} % of the mean "
             "ball pass",
-            "fitted": fitted(candidate),
             "truth": in_degrees(truth) if index == nearest and truth is not None else "",
         }
         for index, candidate in enumerate(candidates)
@@ -111,17 +109,6 @@ def made_of(candidate: Candidate, spacing: float) -> str:
     """An extent as whole ball spacings [rad] and a rest."""
     rest = candidate.extent - candidate.turns * spacing
     return f"{candidate.turns} × {in_degrees(spacing)} + {in_degrees(rest)}"
-
-
-def fitted(candidate: Candidate) -> str:
-    """The factors by which a candidate differs from the scene."""
-    names = {"stiffness": "support", "load_deflection_factor": "contacts"}
-    parts = [
-        f"{names.get(name, name)} ×{factor:.2f}"
-        for name, factor in candidate.factors.items()
-        if abs(factor - 1.0) >= 0.005
-    ]
-    return ", ".join(parts) if parts else "the scene's numbers as they are"
 
 
 def along_race(extent: float, scene: Scene) -> str:

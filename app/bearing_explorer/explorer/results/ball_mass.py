@@ -64,9 +64,8 @@ class BallMass:
 
     Attributes
     ----------
-    scene, sample_rate [Hz], bandwidth [Hz], samples, settled, first
-        what moves, for how many samples; from which on it counts as settled, and which is the first
-        of `time`.
+    scene, sample_rate [Hz], samples
+        what moves, and for how many samples.
     step_rates : {balls: step rate} [Hz]
     broke_off
         why one of the motions ended early; empty if none did.
@@ -95,10 +94,7 @@ class BallMass:
 
     scene: Scene
     sample_rate: float
-    bandwidth: float
     samples: int
-    settled: int
-    first: int
     step_rates: dict[str, float]
     broke_off: str
     time: Array
@@ -195,10 +191,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     return BallMass(
         scene=scene,
         sample_rate=rate,
-        bandwidth=bandwidth,
         samples=len(heavy.time),
-        settled=first,
-        first=begin,
         step_rates={motion.scene.balls: motion.step_rate for motion in (massless, heavy)},
         broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
         time=time,

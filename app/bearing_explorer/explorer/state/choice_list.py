@@ -13,6 +13,7 @@ from typing import Any
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearingcore import MeasuredFloor, RoughFloor, Scene
 from bearingcore.bearings import KINDS
+from bearingcore.scene import TILT_FREE
 
 NOTHING = object()
 """The value of an option that is None in the core."""
@@ -239,6 +240,33 @@ BALLS = Choice(
     lesson_control=True,
 )
 
+IN_PART = "in part"
+DIRECTIONS = Choice(
+    "dofs",
+    "Shaft",
+    "Bodies",
+    (
+        Option(
+            "auto",
+            "On two bearings: tilt held",
+            "It does not tilt: the scene takes the fewest directions that are exact for it.",
+            NOTHING,
+        ),
+        Option(
+            TILT_FREE,
+            "On this bearing alone: tilt free",
+            "It may tilt, and a bearing carries less then.",
+        ),
+        Option(
+            IN_PART,
+            "Held in some directions by choice",
+            "As a simpler model is taken on the Accuracy tab, or by a link or a file.",
+        ),
+    ),
+    first=True,
+    not_in_lessons=frozenset({"auto", TILT_FREE, IN_PART}),
+)
+
 NUMBERS = Choice(
     "numbers",
     "Given as",
@@ -291,7 +319,9 @@ KIND = Choice(
     not_in_lessons=frozenset(KIND_OF_VARIANT),
 )
 
-CHOICE_LIST: tuple[Choice, ...] = (KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, NUMBERS, MATERIAL)
+CHOICE_LIST: tuple[Choice, ...] = (
+    KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, DIRECTIONS, NUMBERS, MATERIAL,
+)  # fmt: skip
 """All choices, in the order in which several are taken."""
 
 OF_SCENE = tuple(choice for choice in CHOICE_LIST if choice.of == "scene")
@@ -311,6 +341,7 @@ def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
         **{choice.name: choice.name_of(defect) for choice in OF_DEFECT},
         FLOOR.name: floor_name(defect.floor),
         **{choice.name: choice.name_of(scene) for choice in OF_SCENE},
+        DIRECTIONS.name: IN_PART if isinstance(scene.dofs, tuple) else scene.dofs or "auto",
         KIND.name: scene.bearing.kind.variant(scene.bearing),
         NUMBERS.name: "drawing" if scene.bearing.is_drawn else "direct",
         MATERIAL.name: scene.bearing.ball_material,

@@ -8,6 +8,7 @@ A lesson is a text file in Markdown with a head in TOML::
     preset = "fan-rig"                 # the scene to begin with ...
     drag = ["fy_n", "cage_angle_deg"]  # the controls shown with the words
     watch = ["load-distribution"]      # the figures to look at; they are marked
+    term = "k_yy"                      # of the stiffness: alone on a projector; may be left out
 
     [scene]                            # ... and what is changed in it
     extent_deg = 0
@@ -69,6 +70,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
 from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
 from bearingcore import presets
+from bearingcore.statics import TERM_SYMBOLS
 
 _Entries = TypeVar("_Entries", bound=msgspec.Struct)
 
@@ -150,6 +152,7 @@ class _Head(msgspec.Struct):
     preset: str
     drag: tuple[str, ...] = ()
     watch: tuple[str, ...] = ()
+    term: str = ""
     scene: dict[str, str | int | float] = {}
     predict: dict[str, Any] | None = None
 
@@ -170,6 +173,7 @@ class Lesson:
     watch: tuple[str, ...]
     parts: tuple[Part, ...]
     predict: Prediction | None = None
+    term: str = ""
     name: str = ""
 
     def begin(self, editor: SceneEditor) -> None:
@@ -187,6 +191,7 @@ class Lesson:
             "watch": list(self.watch),
             "parts": [asdict(part) for part in self.parts],
             "predict": msgspec.to_builtins(self.predict),
+            "cell": TERM_SYMBOLS.get(self.term, ""),
             "name": self.name,
         }
 
@@ -314,6 +319,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
         watch=checks.head.watch,
         parts=_parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, checks),
         predict=checks.prediction(),
+        term=checks.head.term,
     )
 
 
@@ -338,6 +344,7 @@ class _Checks:
         self._on_list("preset", [head.preset], list(presets), "a preset")
         self._on_list("drag", head.drag, DRAGGED, "a control of the page")
         self._on_list("watch", head.watch, self.tabs[head.tab], "a figure of this tab")
+        self._on_list("term", [head.term], ["", *TERM_SYMBOLS], "a term of the stiffness")
 
     def _decoded(self) -> _Head:
         try:

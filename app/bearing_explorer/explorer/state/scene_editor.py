@@ -22,7 +22,7 @@ from bearing_explorer.explorer.state.bearing_kinds import (
     hidden_of,
     scene_with,
 )
-from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, Choice, chosen_of
+from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, DIRECTIONS, Choice, chosen_of
 from bearing_explorer.explorer.state.field_values import (
     CAGE_ANGLE,
     FIELD_BY_KEY,
@@ -439,12 +439,13 @@ class SceneEditor:
             "numbers": self._take_numbers,
             "ball_material": self._take_ball_material,
             "kind": self._take_kind,
+            "dofs": self._take_dofs,
         }
         if (preset := choice.get("preset", "")) in presets:
             self.take_preset(preset)
         for known in CHOICE_LIST:
             name = choice.get(known.name, "")
-            if name in known.names:
+            if name in known.names or (name and known is DIRECTIONS):
                 act = own.get(known.name, partial(self._take_option, known))
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
@@ -454,7 +455,6 @@ class SceneEditor:
         for one, act in (
             ("defect", self._take_defect),
             ("bearing", self._take_listed),
-            ("dofs", self._take_dofs),
         ):
             if one in choice:
                 refused |= self._tried(one, act, choice[one])
@@ -504,7 +504,9 @@ class SceneEditor:
         named = tuple(name for name in DOF_NAMES if name in dofs.split())
         known = {"auto": None, TILT_FREE: TILT_FREE}
         if not named and dofs not in known:
-            raise ValueError("Choose at least one direction that can move.")
+            raise ValueError(
+                "Single directions are held by a simpler model, a link or a file: see Accuracy."
+            )
         self._change(dofs=known.get(dofs, named))
 
     def _take_defect(self, which: str) -> None:
@@ -635,9 +637,6 @@ class SceneEditor:
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,
                 "floor": floor.kind,  # of a file that could not be read there is no floor
-                "dofs": " ".join(scene.dofs)
-                if isinstance(scene.dofs, tuple)
-                else scene.dofs or "auto",
             },
             "defects": {
                 "names": [

@@ -20,6 +20,7 @@ from bearing_explorer.explorer.views.passage_view import (
     ball_names,
     event_lines,
     event_names,
+    in_slots,
     named,
     places_of_labels,
     traces,
@@ -80,35 +81,27 @@ class MassInTime(FoldedView[Results], PassageView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
-        missing = np.full(shown.time.size, np.nan)
-        signals = along_both(shown.time, shown.with_mass)
         massless = along_both(shown.time, shown.massless)
-        signals |= {f"{dof}_massless": one for dof, one in massless.items()}
+        moved, numbers = self.motions(
+            results,
+            lambda one: (one.ball_mass.time, one.ball_mass.with_mass),
+            {f"{dof}_massless": one for dof, one in massless.items()},
+        )
         balls = shown.balls[:SLOTS]
-        loads = {f"{race}{i}": missing for race in RACES_OF_LOADS for i in range(SLOTS)}
+        loads: dict[str, np.ndarray] = {}
         for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
-            loads |= {f"{race}{i}": load for i, load in enumerate(carried.T[:SLOTS])}
+            loads |= in_slots(race, carried)
         slot_of = {int(ball): float(slot) for slot, ball in enumerate(balls)}
         free = [(f.begin, f.end, slot_of[f.ball]) for f in shown.flights if f.ball in slot_of]
         flights = np.array(free, dtype=float).reshape(-1, 3).T
-        compared = compared_curves.sources(
-            "mass_motion",
-            ("time", *SHOWN),
-            results.compared_results,
-            lambda other: traces(
-                other.ball_mass.time, along_both(other.ball_mass.time, other.ball_mass.with_mass)
-            ),
-        )
         sources: Sources = {
-            **compared,
-            "mass_motion": traces(shown.time, signals),
+            **moved,
             "mass_loads": traces(shown.time, loads),
             "mass_flights": dict(zip(("from", "to", "slot"), flights, strict=True)),
             "mass_ball_names": ball_names(balls, bearing),
             "mass_events": event_rows(shown, float(shown.time[0]), float(shown.time[-1])),
         }
-        drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
-        return sources, self.ranges(shown.time, np.concatenate(drawn), shown.loads)
+        return sources, self.ranges(shown.time, numbers, shown.loads)
 
     def words(self, results: Results) -> str:
         shown = results.ball_mass

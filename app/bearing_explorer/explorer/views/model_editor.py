@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 import param
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.field_values import MODEL_GROUPS, values_of
 from bearing_explorer.explorer.views.control_view import ControlView, table_of_fields
@@ -14,6 +15,7 @@ from bearing_explorer.explorer.widgets.controls import Rows, spec_of
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearingcore.scene import FREE_TILT_WORDS
 
 
 class ModelRows(Rows):
@@ -38,7 +40,8 @@ class ModelEditor(ControlView):
     about = (
         "Two bodies, and the support of the housing. The rotor sits in the inner ring, the "
         "housing around the outer one, on springs and dampers. They decide natural frequencies "
-        "and vibration, never the static loads. What is left empty is not known."
+        "and vibration, never the static loads. What is left empty is not known. A shaft on two "
+        "bearings does not tilt; on this one alone it may, and the bearing carries less."
     )
     needs = frozenset({"contact_damping"})
 
@@ -47,6 +50,11 @@ class ModelEditor(ControlView):
         return self.rows
 
     def sentence(self, results: Results) -> str:
+        scene = results.scene
+        tilt = FREE_TILT_WORDS if {"rx", "ry"} & set(scene.active_dofs) else ""
+        return " ".join(filter(None, (self._bodies(results), reasons.not_needed(scene), tilt)))
+
+    def _bodies(self, results: Results) -> str:
         support = results.scene.support
         given = "given" if results.scene.contact_damping is not None else "from its stiffness"
         words = (

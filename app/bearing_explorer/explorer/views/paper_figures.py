@@ -66,11 +66,12 @@ class PaperFigure:
         found = [line for line in section.splitlines() if line.startswith(head)]
         return found[0].removeprefix(head) if found else ""
 
-    def link(self, tab: str, compared: bool) -> str:
-        """The address of its last scene on a tab; with the others as compared ones, if wanted."""
-        others = [one for one in self.scenes[:-1] if one.defects and compared]
+    @property
+    def link(self) -> str:
+        """The address of its last scene on its tab, with the others as compared ones."""
+        others = [one for one in self.scenes[:-1] if one.defects]
         drawn = tuple(Reference(one, usual_name(one)) for one in others)
-        return write(Place(self.scenes[-1], self.preset, tab=tab, compared=drawn))
+        return write(Place(self.scenes[-1], self.preset, tab=self.tab, compared=drawn))
 
 
 # Curves

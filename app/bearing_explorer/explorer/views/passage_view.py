@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearing_explorer.kit.plots import style
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import (
     ON_PAPER,
     Layer,
@@ -22,8 +24,10 @@ from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, View
+from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import Bearing
+
+Array = NDArray[np.float64]
 
 SLOTS = len(style.BALL_COLORS)
 PIXELS = 500  # stretches of a line that are kept apart
@@ -68,9 +72,7 @@ class PassageView(View):
             plots.append(plot)
         return plots
 
-    def ranges(
-        self, time: NDArray[np.float64], signals: NDArray[np.float64], loads: ArrayLike
-    ) -> Ranges:
+    def ranges(self, time: Array, signals: Array, loads: ArrayLike) -> Ranges:
         """Ranges of the axes, with room above the signals for the labels of the events."""
         room = 1.0 + 2.2 * ROW_HEIGHT * EVENT_ROWS
         greatest = np.nanmax(np.abs(signals), initial=0.0)
@@ -79,6 +81,34 @@ class PassageView(View):
             f"{self.prefix}_acceleration": self._acceleration.fit(greatest * room),
             f"{self.prefix}_load": self._load.fit(1.2 * np.asarray(loads)),
         }
+
+    def motions(
+        self,
+        results: Results,
+        of: Callable[[Results], tuple[Array, Mapping[str, Array]]],
+        more: Mapping[str, Array] = MappingProxyType({}),
+    ) -> tuple[Sources, Array]:
+        """Sources of the acceleration along x and y, of compared scenes too, and all their numbers.
+
+        `of`: time and acceleration of results. `more`: columns that are drawn besides.
+        """
+
+        def columns(one: Results) -> tuple[Array, dict[str, Array]]:
+            time, acceleration = of(one)
+            return time, along_both(time, acceleration)
+
+        name = f"{self.prefix}_motion"
+        compared = compared_curves.sources(
+            name,
+            ("time", *SHOWN),
+            results.compared_results,
+            lambda other: traces(*columns(other)),
+        )
+        time, own = columns(results)
+        drawn = own | dict(more)
+        numbers = [compared_curves.numbers(compared, dof) for dof in SHOWN]
+        sources: Sources = {**compared, name: traces(time, drawn)}
+        return sources, np.concatenate([*drawn.values(), *numbers])
 
     def names_of_balls(self) -> Layer:
         """The names of the balls in their colours."""
@@ -135,17 +165,20 @@ def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarr
     }
 
 
-def along_both(
-    time: NDArray[np.float64], acceleration: Mapping[str, NDArray[np.float64]]
-) -> dict[str, NDArray[np.float64]]:
+def along_both(time: Array, acceleration: Mapping[str, Array]) -> dict[str, Array]:
     """Acceleration along x and y over time; NaN where the housing cannot move."""
     missing = np.full(time.size, np.nan)
     return {dof: acceleration.get(dof, missing) for dof in SHOWN}
 
 
-def traces(
-    time: NDArray[np.float64], columns: Mapping[str, NDArray[np.float64]]
-) -> dict[str, np.ndarray]:
+def in_slots(name: str, loads: Array) -> dict[str, Array]:
+    """Loads of balls (n, balls) as a column for each of the slots that are drawn; NaN without."""
+    missing = np.full(len(loads), np.nan)
+    filled = list(loads.T[:SLOTS])
+    return {f"{name}{i}": filled[i] if i < len(filled) else missing for i in range(SLOTS)}
+
+
+def traces(time: Array, columns: Mapping[str, Array]) -> dict[str, np.ndarray]:
     """Columns over time, thinned out to what the pixels of a figure can show."""
     rows, drawn = least_and_greatest(np.stack(list(columns.values()), axis=1), PIXELS)
     return {"time": time[rows], **dict(zip(columns, drawn.T, strict=True))}

@@ -14,10 +14,10 @@ from bearing_explorer.explorer.views.passage_view import (
     LABEL_WIDTH,
     SLOTS,
     PassageView,
-    along_both,
     ball_names,
     event_lines,
     event_names,
+    in_slots,
     named,
     places_of_labels,
     traces,
@@ -52,7 +52,7 @@ class VibrationInTime(PassageView):
     prefix = "vibration"
 
     def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
-        compared = compared_curves.curves("vibration", "time", *SHOWN, width=1.1)
+        compared = compared_curves.curves("vibration_motion", "time", *SHOWN, width=1.1)
         return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
@@ -65,30 +65,19 @@ class VibrationInTime(PassageView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing
-        missing = np.full(shown.time.size, np.nan)
-        signals = along_both(shown.time, shown.acceleration)
-        loads = dict.fromkeys((f"load{i}" for i in range(SLOTS)), missing)
-        loads |= {f"load{i}": load for i, load in enumerate(shown.ball_load.T[:SLOTS])}
-        start, end = float(shown.time[0]), float(shown.time[-1])
-        compared = compared_curves.sources(
-            "vibration",
-            ("time", *SHOWN),
-            results.compared_results,
-            lambda other: traces(
-                other.excerpt.time, along_both(other.excerpt.time, other.excerpt.acceleration)
-            ),
+        moved, numbers = self.motions(
+            results, lambda one: (one.excerpt.time, one.excerpt.acceleration)
         )
+        start, end = float(shown.time[0]), float(shown.time[-1])
         sources: Sources = {
-            **compared,
-            "vibration_motion": traces(shown.time, signals),
-            "vibration_loads": traces(shown.time, loads),
+            **moved,
+            "vibration_loads": traces(shown.time, in_slots("load", shown.ball_load)),
             "vibration_static_loads": static_lines(shown),
             "vibration_events": event_rows(shown.events, start, end, bearing),
             "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),
         }
         carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
-        drawn = [*signals.values(), *(compared_curves.numbers(compared, dof) for dof in SHOWN)]
-        return sources, self.ranges(shown.time, np.concatenate(drawn), carried)
+        return sources, self.ranges(shown.time, numbers, carried)
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt

@@ -92,13 +92,17 @@ class StickyRange:
         )
 
 
-def nice_range(low: float, high: float, ticks: int = 8) -> tuple[float, float]:
-    """The narrowest range with about `ticks` round steps that holds `low` and `high`."""
+TICKS = 8
+"""Steps on an axis, about."""
+
+
+def nice_range(low: float, high: float) -> tuple[float, float]:
+    """The narrowest range with about `TICKS` round steps that holds `low` and `high`."""
     span = high - low
     if span <= 0.0:
         span = abs(low) or 1.0
         low, high = low - 0.5 * span, high + 0.5 * span
-    step = nice_step(span / ticks)
+    step = nice_step(span / TICKS)
     # a number on the edge up to rounding must not cost a whole step
     start = math.floor(low / step + 1e-9) * step
     end = math.ceil(high / step - 1e-9) * step

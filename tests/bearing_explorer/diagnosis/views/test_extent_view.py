@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import math
 from functools import cache
 
 import pytest
-from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, answered, extent_of
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.simulated import load_on_defect, simulated
 from bearing_explorer.diagnosis.views.extent import BEFORE, SpallExtent
 from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -56,6 +58,33 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
     assert min(abs(highest - entry), abs(highest - leave)) < 0.3
     assert view.csv().startswith("race,status,extent_deg")
     assert view.found is found
+
+
+def test_a_simulated_signal_is_measured_with_its_own_load_and_edges():
+    """Edges as published lose the load over twice the angle, which no measured spall does."""
+    truth = math.radians(14.3)
+    made = simulated(
+        presets["6203"].replace(race="inner", extent=truth, edge="published"), 20.0, False, 1
+    )
+    assert made.true_load == pytest.approx(700.0)
+
+    def held(about: Measured) -> list[bool]:
+        question = ExtentQuestion.about(about, whole=about.bearing, race="inner")
+        return [low <= truth <= high for _, low, high in extent_of(question).alternatives]
+
+    assert held(made) == [True, False]
+    assert held(dataclasses.replace(made, true_load=None, true_edge=None)) == [False, False]
+
+
+@pytest.mark.parametrize(
+    ("race", "center", "load"),
+    [("outer", 270.0, 100.0), ("outer", 330.0, 50.0), ("outer", 90.0, None), ("inner", 0.0, 100.0)],
+)
+def test_the_load_of_a_simulated_signal_is_that_towards_its_defect(race, center, load):
+    scene = presets["fan-rig"].replace(race=race, center=math.radians(center))
+    assert load_on_defect(scene) == (load and pytest.approx(load))
+    assert load_on_defect(scene.replace(fy=0.0)) is None
+    assert load_on_defect(scene.replace(defect=())) is None
 
 
 def test_where_there_is_none_the_page_says_why_and_draws_the_pass():

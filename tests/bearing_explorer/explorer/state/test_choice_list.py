@@ -6,6 +6,7 @@ import pytest
 from bearing_explorer.explorer.state.address import place_of, read, write
 from bearing_explorer.explorer.state.choice_list import (
     CHOICE_LIST,
+    IN_PART,
     OF_DEFECT,
     OF_SCENE,
     Choice,
@@ -14,6 +15,7 @@ from bearing_explorer.explorer.state.choice_list import (
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES
+from bearingcore.scene import TILT_FREE
 from bearingcore.scene.scene import BALLS
 
 
@@ -23,6 +25,20 @@ def test_every_option_of_the_core_can_be_chosen() -> None:
     assert offered["edge"] == EDGES
     assert offered["law"] == CONTACT_LAWS
     assert offered["balls"] == BALLS
+
+
+def test_a_shaft_is_held_freed_or_held_in_part() -> None:
+    editor = SceneEditor("liew-lim")
+    assert chosen_of(editor.scene)["dofs"] == TILT_FREE
+    for sent, dofs, chosen in (
+        ("auto", None, "auto"),
+        (TILT_FREE, TILT_FREE, TILT_FREE),
+        ("x y", ("x", "y"), IN_PART),
+    ):
+        assert editor.choose({"dofs": sent}) == {}
+        assert (editor.scene.dofs, editor.state()["choices"]["dofs"]) == (dofs, chosen)
+    assert "simpler model" in editor.choose({"dofs": IN_PART})["dofs"]
+    assert editor.scene.dofs == ("x", "y"), "what is refused changes nothing"
 
 
 @pytest.mark.parametrize("choice", [*OF_SCENE, *OF_DEFECT], ids=lambda choice: choice.name)

@@ -154,9 +154,28 @@ def fewest(edge: str) -> tuple[float, float]:
     return float(extents[np.argmin(balls)]), float(extents[np.argmin(stiffness)])
 
 
-def way_in(edge: str) -> float:
-    """How far [deg] inside the edge a ball has sunk by what it was pressed together."""
-    return 0.5 * (fewest(edge)[0] - 60.0)
+@cache
+def edges_freed(edge: str) -> tuple[float, float]:
+    """How far [deg] inside an edge a third ball frees two others: as it comes, as it goes."""
+    angles = np.arange(0.0, 15.0, 0.01)
+
+    def freed(extent_deg: float) -> float:
+        """Cage angle [deg] from which on six balls carry; at 0° three are around the middle."""
+        count = equilibrium(liew_lim(extent_deg, edge=edge), np.radians(angles)).loaded_balls
+        assert count[-1] == 6
+        return float(angles[np.flatnonzero(count != 6)[-1] + 1])
+
+    return freed(60.0), 0.5 * (66.0 - 60.0) - freed(66.0)
+
+
+IN_DEFECT = slice(8, 11)
+"""The three balls around the middle of the defect at a cage angle of 0."""
+
+
+def sunk_at(extent_deg: float, angle_deg: float) -> float:
+    """How far [µm] the shaft of the paper's scene has sunk."""
+    found = equilibrium(liew_lim(extent_deg), [math.radians(angle_deg)])
+    return -1e6 * float(found.displacement[0, 1])
 
 
 @cache
@@ -315,14 +334,17 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
          (math.degrees(LIEW_LIM.bearing.ball_spacing), 60)),
         ("with its load of 2 kN", (-1e-3 * LIEW_LIM.load.fy,)),
         ("60° About 62° 64°, as in the paper", (60, fewest("exact")[0], 64)),
-        ("sunk by the 20 µm",
-         (1e6 * LIEW_LIM.replace(edge="chord", extent=E(60.0)).defect.path(
-             np.array([E(240.0 + way_in("chord"))]), LIEW_LIM.bearing)[0],)),
+        ("the shaft has sunk by up to 38 µm", (sunk_at(64.0, 15.0),)),
+        ("the shaft sinks by 55 µm", (sunk_at(70.0, 0.0),)),
+        ("on its floor, 50 µm down", (1e6 * LIEW_LIM.defect.depth,)),
+        ("at 64° they carry 523, 23 and 523 N",
+         (64, *equilibrium(liew_lim(64.0), [0.0]).ball_load[0, IN_DEFECT])),
         ("Eq. 6 as published", (6,)),
         ("a factor of 0.25 under the root", (0.25,)),
-        ("is 0.87° and the extent is 61.75°", (way_in("chord"), fewest("chord")[0])),
-        ("= 1.75°, and the fewest balls are at 63.5°",
-         (way_in("published"), fewest("published")[0])),
+        ("= 2.4° and = 1.1°, and the fewest balls are at 63.5°",
+         (*edges_freed("published"), fewest("published")[0])),
+        ("they are 1.2° and 0.6°, and the extent is 61.75°",
+         (*edges_freed("chord"), fewest("chord")[0])),
         ("(exact) gives 62°", (fewest("exact")[0],)),
         ("extents: 63.75°, 61.75° and 62°", tuple(fewest(edge)[1] for edge in EDGES)),
         ("so the sentence says 63° and 62°", (63, 62)),
@@ -505,7 +527,13 @@ def test_what_lessons_say_in_words() -> None:
     tied = [f"k_{a}{b}" for a in "xy" for b in ("z", "rx", "ry")]
     assert all(not loads(fan()).term(term).any() for term in tied)
     # 6
-    assert way_in("published") == pytest.approx(2.0 * way_in("chord"), rel=0.01)
+    for edge in EDGES:  # to the half degree of a map's steps
+        assert 60.0 + sum(edges_freed(edge)) == pytest.approx(fewest(edge)[0], abs=0.25)
+    turned = over_spacing(liew_lim(64.0))
+    assert 2 * np.count_nonzero(turned.loaded_balls == 6) > len(turned.loaded_balls)
+    assert between(turned.loaded_balls) == (6, 10)
+    for extent_deg in np.arange(60.0, 72.0, 0.5):  # three balls inside are never all free
+        assert equilibrium(liew_lim(extent_deg), [0.0]).ball_load[0, IN_DEFECT].max() > 1.0
     found = {edge: Results(liew_lim(edge=edge)).maps for edge in EDGES}
     least = {
         e: math.degrees(m.extents[np.nanargmin(m.mean_loaded_balls)]) for e, m in found.items()
@@ -672,6 +700,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
         ('["fy_n"]', '"fy_n"', 5, "Expected `array`, got `str`"),
         ('["fy_n"]', '["fy"]', 5, "“fy” is not a control of the page"),
+        ('watch = ["bearing"]', 'term = "kyy"', 6, "“kyy” is not a term"),
         (
             "extent_deg = 64",
             "extent_deg = 640",

@@ -4,11 +4,8 @@ import math
 from xml.etree import ElementTree
 
 import pytest
-from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing_editor import facts_of
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
-from bearing_explorer.explorer.views.free_directions import FreeDirections
-from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
 
@@ -37,13 +34,3 @@ def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None
     assert ("roller_length_mm" in groups) == (bearing.kind.element == "roller")
     assert ("row_distance_mm" in groups) == (len(bearing.rows) == 2)
     assert "nan" not in bearing_picture(bearing)
-
-
-def test_free_directions_are_those_that_the_scene_needs_or_forced() -> None:
-    view = FreeDirections(PackedSource())
-    assert view.sentence(Results(presets["fan-rig"])) == (
-        "x and y are free. Not needed here: z, θx and θy (no load along the shaft, no moment)."
-    )
-    forced = Results(presets["liew-lim"].replace(dofs=("x", "y")))
-    assert "are held by choice" in view.sentence(forced)
-    assert view.table(forced)["free"].tolist() == [1.0, 1.0, 0.0, 0.0, 0.0]

@@ -10,7 +10,7 @@ import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
-from bearing_explorer.explorer.views.free_directions import FreeDirections
+from bearing_explorer.explorer.views.model_editor import ModelEditor
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
 from bearing_explorer.explorer.views.overview.stiffness import (
@@ -191,7 +191,7 @@ def test_cells_of_terms_are_apart_and_inside(count: int) -> None:
 
 def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     def said(scene: Scene) -> list[str]:
-        views = (OverviewStiffness, Stiffness, FreeDirections)
+        views = (OverviewStiffness, Stiffness, ModelEditor)
         return [view(PackedSource()).sentence(Results(scene)) for view in views]
 
     short, *full = said(FAN_RIG)

@@ -41,14 +41,11 @@ def test_what_the_paper_says_comes_out() -> None:
 
 def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
     figure = BY_NUMBER[4]
-    place = read(figure.link(figure.tab, compared=True))
+    place = read(figure.link)
     assert place is not None
     assert (place.tab, place.scene) == ("stiffness", figure.scenes[-1])
     assert [one.scene for one in place.compared] == figure.scenes[1:-1]
     assert [one.name for one in place.compared] == ["5°, 50 µm", "40°, 50 µm"]
-    alone = read(figure.link("paper", compared=False))
-    assert alone is not None
-    assert alone.compared == ()
 
 
 def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:

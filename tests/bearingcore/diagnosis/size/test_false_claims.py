@@ -43,12 +43,14 @@ def knocks() -> MeasuredExtent:
     return found
 
 
-def test_a_spall_is_not_called_a_pit_where_the_envelope_knocks_twice(made):
-    claim = judged(made)
-    assert claim.status == AT_MOST
-    assert made.end(AT_MOST) < math.radians(1.6)
-    assert made.status == SizingStatus.TWO_KNOCKS
+def test_a_spall_is_not_called_a_pit_where_the_envelope_knocks_twice(made, knocks):
+    """The search itself refuses it; a pit that it did claim would be refused for its knocks."""
+    assert judged(made).status == made.status == SizingStatus.UNEXPLAINED
     assert not made.bound
+    assert not made.conclusive
+    claim = dataclasses.replace(made, status=AT_MOST)
+    assert claim.end(AT_MOST) < math.radians(1.6)
+    assert confirmed(claim, knocks).status == SizingStatus.TWO_KNOCKS
     assert made.status.sentence.endswith(".")
 
 
@@ -70,6 +72,10 @@ def test_a_spall_of_a_spacing_and_a_rest_is_counted_where_the_support_is_measure
     assert both.conclusive
     unknown = size_defect(recording, RIG, fault="outer race")
     assert unknown.status == SizingStatus.SUPPORT_NOT_MEASURED
+    assert not unknown.candidates
+    assert not unknown.conclusive
+    assert not unknown.bound
+    assert "measured masses and stiffness of the support" in unknown.sentence
 
 
 @pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")

@@ -162,13 +162,15 @@ class Requests:
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
         editor = self.editor
-        was_changed, waited = editor.changed, bool(editor.draft)
+        was_changed, waited, had_effects = editor.changed, bool(editor.draft), editor.effects
         refused, changed = editor.set(given)
         names = [name for name in changed if name not in given]
         names += [name for name in editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in editor.values and name not in refused]
-        if names or waited or was_changed != editor.changed:
+        if had_effects and not editor.effects:
+            self.show_controls(state=editor.state())
+        elif names or waited or was_changed != editor.changed:
             self.show_controls(state=editor.state(names))
         if refused:
             self.show_controls(refused=refused)

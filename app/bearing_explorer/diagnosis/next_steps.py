@@ -32,7 +32,7 @@ def next_steps(
     trend
         of several records, where there is one.
     """
-    several = trend is not None and len(trend.points) > 1
+    several = trend is not None and len(trend.points) > 1 and question.measured.in_si
     change = float(trend.rms_change[-1]) if several and trend is not None else 1.0
     if not found.names_a_part:
         return _without_a_part(found, zone, change)

@@ -63,7 +63,7 @@ if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}
 return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """
-const text = si(row.load, 'N', 2)
+const text = si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
 return row.most || room > 7*text.length ? text : ''
@@ -83,7 +83,9 @@ if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // and larger numbers on bars need more below the lowest
-const unit = Math.min(w/shown.end, (h - 70*(larger - 1))/half, of_rows), x = w/unit, y = h/unit
+const of_bars = (h - 44*larger)/{1.0 + BAR_START + BAR_LENGTH}
+const unit = Math.min(w/shown.end, (h - 70*(larger - 1))/half, of_rows, of_bars)
+const x = w/unit, y = h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
 """

@@ -63,7 +63,7 @@ if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}
 return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """
-const text = si(row.load, 'N', 2)
+const text = si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
 return row.most || room > 7*text.length ? text : ''
@@ -85,7 +85,8 @@ const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // and larger numbers on bars need more below the lowest
 // and the words on the load, top left, are above a ring that has no corner for them
 const above = w < 420 ? 50*larger : 0
-const unit = Math.min(w/shown.end, (h - above - 70*(larger - 1))/half, of_rows)
+const of_bars = (h - above - 44*larger)/{1.0 + BAR_START + BAR_LENGTH}
+const unit = Math.min(w/shown.end, (h - above - 70*(larger - 1))/half, of_rows, of_bars)
 const x = w/unit, end = (h + above)/unit, start = end - 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})

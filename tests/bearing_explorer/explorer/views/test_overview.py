@@ -10,6 +10,7 @@ import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.model_editor import ModelEditor
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
@@ -22,7 +23,6 @@ from bearing_explorer.explorer.views.overview.stiffness import (
 )
 from bearing_explorer.explorer.views.overview.words import Cause, story
 from bearing_explorer.explorer.views.stiffness import Stiffness
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Scene, equilibrium, presets

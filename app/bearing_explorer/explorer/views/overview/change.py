@@ -99,7 +99,7 @@ def _alike_but_for_play(now: Bearing, before: Bearing) -> bool:
 
 
 def _masses_words(now: Scene, before: Scene, words: str) -> str:
-    """How much rotor and housing weigh, where that has changed and the cause does not name it."""
+    """Masses of rotor and housing, where they have changed and the cause does not name them."""
     weighed = [
         f"the {part} is {number(after)} kg instead of {number(former)} kg"
         for part, name in (("rotor", "inner_mass"), ("housing", "outer_mass"))

@@ -46,6 +46,7 @@ UNITS: Mapping[str, Unit] = {
     "rpm": Unit("rad/s", math.pi / 30.0, "rpm"),
     "N": Unit("N", 1.0, "n"),
     "kN": Unit("N", 1e3, "kn"),
+    "lbf": Unit("N", 4.4482216152605, "lbf"),
     "N·m": Unit("N·m", 1.0, "n_m"),
     "N/m": Unit("N/m", 1.0, "n_per_m"),
     "MN/m": Unit("N/m", 1e6, "mn_per_m"),
@@ -71,6 +72,11 @@ UNITS: Mapping[str, Unit] = {
     "dB": Unit("dB", 1.0, "db"),
 }
 """All units by the text that stands behind a number."""
+
+
+def units_like(unit: str) -> list[str]:
+    """Units of the same kind as `unit`, itself among them."""
+    return [name for name, one in UNITS.items() if one.si == UNITS[unit].si]
 
 
 def factor_between(given: str, wanted: str) -> float | None:

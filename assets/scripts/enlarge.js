@@ -72,7 +72,7 @@ function enlarging(model, root) {
   }
   addEventListener("keydown", keys)
   on_event("tab", enlarge, () => { if (is_large()) set_large(false) })
-  let named = "", own_height = 0  // by a lesson, where there is room for one
+  let named = "", own_size = null  // by a lesson, where there is room for one
   const show_named = () => {
     const projected = page.hasAttribute("data-projector"), small = innerWidth <= NARROW
     const wanted = (projected || small) && model.cells.length ? page.dataset.cell ?? "" : ""
@@ -82,12 +82,16 @@ function enlarging(model, root) {
     steps.hidden = !named
     root.classList.toggle("only-steps", Boolean(named) && projected)
     if (small) {
-      own_height ||= view.model.height
-      view.model.setv({ height: named ? LOW : own_height }, { sync: false })
+      const { sizing_mode, height, min_height } = view.model
+      own_size ??= { sizing_mode, height, min_height }
+      view.model.setv(named ? { sizing_mode: "stretch_width", height: LOW, min_height: null } : own_size, { sync: false })
     }
     show_cell(model.cells.findIndex(([words]) => words === named))
   }
-  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)
+  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, () => {
+    show_named()
+    setTimeout(show_named, LAID_OUT)  // a tab that opens again is on the screen a little later
+  })
   on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
     if (!model.figures.includes(figure) || cell >= 0) return
     const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)

@@ -9,7 +9,7 @@
 
 const REMEMBERED = "bearing-explorer.lessons"
 
-// What this tab of the browser remembers: the last lesson, and the answers given in each.
+// What this tab of the browser remembers: the answers given in each lesson.
 function remembered() {
   try {
     return Object(JSON.parse(sessionStorage.getItem(REMEMBERED)))
@@ -78,7 +78,6 @@ export function render({ model }) {
   select.addEventListener("change", () => {
     const number = Number(select.value)
     if (number < 0) list()
-    else if (listed && began() && number === model.lesson.number) show()
     else go(number)
   })
   const projector = button("Projector", () => announce("projector", !root.hasAttribute("data-projector")),
@@ -171,7 +170,6 @@ export function render({ model }) {
     listed = steps.hidden = parts.hidden = false
     const { number, title, parts: written, predict } = model.lesson
     const { revealed, tried } = resumed ? answers() : {}
-    remember({ last: number })
     select.value = String(number)
     back.disabled = next_of(number, -1) < 0
     next.disabled = next_of(number, 1) < 0
@@ -215,26 +213,15 @@ export function render({ model }) {
     resumed = false
   }
 
-  let scrolled = 0
   const set_open = (wanted) => {
-    if (open) scrolled = place()?.scrollTop ?? 0
     open = wanted
     lesson.hidden = !open
   }
   const toggle = () => {
     set_open(!open)
-    const { last } = remembered()
-    if (!open) {
-      if (began()) ask(model, { lesson: "" })
-    } else if (began()) {  // back to where one was
-      ask(model, { lesson: model.lesson.number, words_only: true })
-      requestAnimationFrame(() => place()?.scrollTo(0, scrolled))
-    } else if (Number.isInteger(last) && usable(last)) {
-      resumed = true
-      ask(model, { lesson: last, words_only: true })
-    } else return list()
+    if (open) return list()  // the scene may be another than that of the lesson before
+    if (began()) ask(model, { lesson: "" })
     send_event()
-    if (open) words.querySelector("h2")?.focus({ preventScroll: true })
   }
   on_event("projector", lesson, show_projector)
   on_event("lessons", lesson, (which) => {

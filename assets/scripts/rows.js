@@ -19,7 +19,8 @@ const format = (value, step) => {
   const digits = Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)))
   // A typed number keeps its own digits, a dragged one those of the step.
   const short = Number(value.toFixed(digits))
-  return String(Math.abs(short - value) <= 1e-9 * Math.abs(value) ? short : value)
+  const own = String(value).length > 10 ? Number(value.toPrecision(7)) : value  // of another unit
+  return String(Math.abs(short - value) <= 1e-9 * Math.abs(value) ? short : own)
     .replace("-", "\u2212")
 }
 
@@ -191,7 +192,11 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     row.root.classList.toggle("refused", !!sentence)
     row.number?.setAttribute("aria-invalid", sentence ? "true" : "false")
   }
-  // A text that was refused does not stay as if it were the value; its sentence does.
+  // A text that was refused does not stay as if it were the value; its sentence does, until the
+  // next change.
+  const forget_refused = () => {
+    for (const name of Object.keys(rows)) if (!drafted.includes(name)) refuse(name, "")
+  }
   const restore = (name) => {
     const row = rows[name]
     if (row && row.number.getAttribute("aria-invalid") === "true" && !drafted.includes(name))
@@ -199,11 +204,21 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   const move = (name, value) => move_all({ [name]: value })
   const move_all = (set) => {
+    forget_refused()
     for (const [name, value] of Object.entries(set)) {
       refuse(name, "")
       put(name, value, true)
     }
     push_all(set)
+  }
+
+  // A number is sent as typed, or with its sign `turned`: a refusal quotes the text as typed.
+  let typed_text = "", sent_text = ""
+  const type_in = (message, text = "") => {
+    forget_refused()
+    typed_text = text.trim()
+    sent_text = Object.values(message.typed ?? {})[0] ?? ""
+    send(message)
   }
 
   const control = ({ name, label, sign, symbol, unit, about }) => {
@@ -239,14 +254,14 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       input.addEventListener("keyup", (event) => holds(event, false))
       input.addEventListener("blur", () => { if (held) holds({ key: "End" }, false) })
     }
-    number.addEventListener("change", () => send({ typed: { [name]: turned(name, number.value) } }))
+    number.addEventListener("change", () => type_in({ typed: { [name]: turned(name, number.value) } }, number.value))
     number.addEventListener("blur", () => restore(name))
     number.addEventListener("input", () => {  // what is typed back is no error any more
       const { least, most } = limit_of(name), given = number_in(number)
       if (given >= least && given <= most) refuse(name, "")
     })
     second.number.addEventListener("blur", () => show_second(name))
-    second.number.addEventListener("change", () => send({ second: { [name]: second.number.value } }))
+    second.number.addEventListener("change", () => type_in({ second: { [name]: second.number.value } }))
     number.addEventListener("keydown", (event) => {
       if (event.key === "Escape") {
         refuse(name, "")
@@ -271,7 +286,10 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const note = element("p", { class: "note", id: `note-${name}` })
     for (const option of options)
       select.append(element("option", { value: option.value, title: option.about }, option.label))
-    select.addEventListener("change", () => send({ choose: { [name]: select.value } }))
+    select.addEventListener("change", () => {
+      forget_refused()
+      send({ choose: { [name]: select.value } })
+    })
     const more = element("button", {
       type: "button", class: "info", "aria-controls": `note-${name}`,
       "aria-label": `About ${label.toLowerCase()}`, title: "About this choice",
@@ -333,7 +351,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const listen = (takes = take) => model.on("msg:custom", (message) => {
     if (message.state) takes(message.state)
     for (const [name, sentence] of Object.entries(message.refused ?? {})) {
-      refuse(name, sentence)
+      refuse(name, sentence.replace(`“${sent_text}”`, `“${typed_text}”`))
       if (rows[name]?.root.querySelector("input:focus") !== rows[name]?.number) restore(name)
     }
   })

@@ -90,7 +90,7 @@ def _outer_race(scene: Scene) -> str:
 #: what moves it
 TABS = {
     "Overview": (4, 3, _frequency, "Length of the defect"),
-    "Load": (3, 3, _most_loaded, "Length of the defect"),
+    "Load": (4, 3, _most_loaded, "Length of the defect"),
     "Stiffness: Curves": (1, 1, _stiffest, "Length of the defect"),
     "Stiffness: Maps": (1, 1, _now_stiff, "Length of the defect"),
     "Frequencies": (1, 1, _frequency, "Length of the defect"),
@@ -146,7 +146,9 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     visitor.page.bring_to_front()
     theme = "dark" if tab in IN_DARK else "light"
     if visitor.page.locator("html").get_attribute("data-theme") != theme:
+        visitor.press("Help")
         visitor.press("Dark colours")
+        visitor.page.keyboard.press("Escape")
     visitor.go_to(tab)
     headings = visitor.main.get_by_role("heading", level=2)
     visitor.wait(lambda: headings.count() >= cards and len(visitor.figures()) >= figures)

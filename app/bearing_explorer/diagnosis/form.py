@@ -252,6 +252,8 @@ def reasons(table: Table) -> dict[str, str]:
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     found = {"columns": choice.reason} if choice.reason else {}
     found["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
+    if _unit(table) == AS_HEADED:
+        found["unit"] = "By the heading of each column, or as given over it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
     found["sensitivity"] = "See the label of the sensor."

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from collections.abc import Sequence
 
 from bearing_explorer.explorer.inputs import Inputs
 from bearing_explorer.explorer.requests import ForReport, Requests
@@ -23,8 +22,6 @@ from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
-
-Found = TypeVar("Found")
 
 
 class Explorer:
@@ -128,14 +125,6 @@ class Explorer:
         self._last_state.follow(self.scene, self.bookmarks.moving)
         self.page.mark = self.requests.mark
         self.page.draw()
-
-    def show_tab(self, message: Any) -> None:
-        """Open the tab that a message names."""
-        self.page.show_tab(message)
-
-    def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
-        """Compute something off the event loop, then take it."""
-        self.page.in_background(compute, take)
 
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""

@@ -26,6 +26,7 @@ from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.half import Page
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.views.base import View
 from bearingcore.bearings import MOST_BYTES
@@ -48,17 +49,15 @@ class ForReport(NamedTuple):
     found: dict[str, Any]
 
 
-class Page(Protocol):
-    """The part of a session that requests need."""
+class Owner(Protocol):
+    """The part of the scene's half that requests need."""
+
+    @property
+    def page(self) -> Page:
+        """The session."""
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
-
-    def show_tab(self, message: Any) -> None:
-        """Open the tab that a message names."""
-
-    def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
-        """Compute something off the event loop, then take it."""
 
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""
@@ -73,8 +72,8 @@ class Requests:
         the scene, and its steps and links.
     lessons
         those that the page offers.
-    page
-        the session.
+    owner
+        the half of the session whose scene it is.
     """
 
     def __init__(
@@ -82,7 +81,7 @@ class Requests:
         editor: SceneEditor,
         bookmarks: Bookmarks,
         lessons: Sequence[Lesson | Fault],
-        page: Page,
+        owner: Owner,
     ) -> None:
         self.editor, self.bookmarks = editor, bookmarks
         #: number of the newest change of the browser
@@ -95,7 +94,7 @@ class Requests:
             None
         )
         self.simulate: Callable[[str, str, str], None] = lambda noise, machine, pit: None
-        self._page = page
+        self._owner = owner
         self._reporting = False
         self._open_lesson_of_link()
         self.controls = Controls(self.change_scene, state=editor.state())
@@ -122,13 +121,13 @@ class Requests:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if (text := message.get("search")) is not None:
             listed, show = self.editor.listed, self.controls.send
-            self._page.in_background(
+            self._owner.page.in_background(
                 lambda: listed.search(text), lambda found: show({"found": found})
             )
             return
         self.mark = message.get("mark", self.mark)
         if compiling.STATICS in compiling.left():
-            self._page.draw()  # sliders do not move yet, and the mark is answered
+            self._owner.draw()  # sliders do not move yet, and the mark is answered
             return
         try:
             if "reset" in message:
@@ -155,7 +154,7 @@ class Requests:
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
-            self._page.draw()  # even a refusal is answered, or the browser would wait for its mark
+            self._owner.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
         """Take numbers; what is refused stays as it was, with a sentence.
@@ -163,13 +162,15 @@ class Requests:
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
         editor = self.editor
-        was_changed, waited = editor.changed, bool(editor.draft)
+        was_changed, waited, had_effects = editor.changed, bool(editor.draft), editor.effects
         refused, changed = editor.set(given)
         names = [name for name in changed if name not in given]
         names += [name for name in editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in editor.values and name not in refused]
-        if names or waited or was_changed != editor.changed:
+        if had_effects and not editor.effects:
+            self.show_controls(state=editor.state())
+        elif names or waited or was_changed != editor.changed:
             self.show_controls(state=editor.state(names))
         if refused:
             self.show_controls(refused=refused)
@@ -191,7 +192,7 @@ class Requests:
         """
         if file is not None:
             name, text = file["name"], file["text"][: longest + 1]
-            self._page.in_background(
+            self._owner.page.in_background(
                 lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
             )
 
@@ -199,7 +200,7 @@ class Requests:
         take(name, found)
         self.show_controls(state=self.editor.state())
         self.show_links()
-        self._page.draw()
+        self._owner.draw()
 
     # The bar above the controls
 
@@ -217,10 +218,10 @@ class Requests:
         if self.bookmarks.go(message) or tab:
             self.show_controls(state=self.editor.state())
         if tab:
-            self._page.show_tab({"show": tab})
+            self._owner.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
-            self._page.in_background(
+            self._owner.page.in_background(
                 lambda: read_request(wanted),
                 lambda found: self._taken(
                     lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
@@ -235,7 +236,7 @@ class Requests:
         self.bookmarks.leave()
         self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
         if isinstance(place, Place):
-            self._page.show_tab({"show": place.tab})
+            self._owner.page.show_tab({"show": place.tab})
 
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make a report; `base` is the address of the page without its query.
@@ -247,7 +248,7 @@ class Requests:
         )
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
-        parts = self._page.for_report()
+        parts = self._owner.for_report()
         on_signal = self.report_on_signal(about) if words.get("measured") else None
         if isinstance(on_signal, str):
             self.bookmarks.say(f"No report: {on_signal}")
@@ -266,7 +267,7 @@ class Requests:
             self.share.answer(report=made)
 
         self._reporting = True
-        self._page.in_background(make, take)
+        self._owner.page.in_background(make, take)
 
     # Lessons
 
@@ -302,7 +303,7 @@ class Requests:
             if lesson is not None:
                 lesson.begin(self.editor)
                 self.show_controls(state=self.editor.state())
-            self._page.show_tab(message if lesson is None else {"show": lesson.tab})
+            self._owner.page.show_tab(message if lesson is None else {"show": lesson.tab})
         self.change_scene(message)  # the mark, and what a button changes
         if "simulate" in message and begins:
             wish = message["simulate"]

@@ -6,6 +6,7 @@ Degrees, micrometres and hertz live here and in the browser; behind this module 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
@@ -13,7 +14,7 @@ from typing import Any
 from bearing_explorer.kit.sentences import label_inside, with_unit
 from bearingcore import Defect, RoughFloor, Scene
 from bearingcore.fields import FIELDS, Field, Range
-from bearingcore.units import read_number
+from bearingcore.units import read_number, units_like
 
 SHOWN_FIELDS = tuple(field for field in FIELDS if field.group)
 """Fields that can be set on the page, in its order."""
@@ -132,7 +133,9 @@ def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
     low, high = sorted((field.read_sign * least, field.read_sign * most))
     span = f"{with_unit(low, '')} to {with_unit(high, field.shown_unit)}"
     if not math.isfinite(value):
-        shown = f"“{text}” is not a number" if text else "A number is missing"
+        units = units_like(field.shown_unit) if re.match(r"[+−-]?[\d.,]", text) else []
+        of = f" in {', '.join(units)}" if len(units) > 1 else ""
+        shown = f"“{text}” is not a number{of}" if text else "A number is missing"
         raise ValueError(f"{shown}: {label_inside(field)} goes from {span}.")
     if not least <= value <= most:
         shown = with_unit(field.read_sign * value, field.shown_unit)

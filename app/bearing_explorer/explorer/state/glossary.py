@@ -33,7 +33,7 @@ TERMS = (
     Term("Floquet multiplier", "", "", "Growth of a small disturbance in a period."),
     Term("Harmonic", "", "Hz", "A whole multiple of a frequency."),
     Term("Hertz contact", "", "", "Curved bodies: load grows as compression<sup>1.5</sup>."),
-    Term("Life", "L<sub>10</sub>", "10⁶ turns", "Turns that nine of ten bearings reach."),
+    Term("Life", "L<sub>10r</sub>", "10⁶ turns", "Turns that nine of ten bearings reach."),
     Term("Load zone", "", "°", "The part of the race in which balls carry load."),
     Term("Mode", "", "", "A shape of vibration, named after the direction that moves most."),
     Term("Natural frequency", "f", "Hz", "Frequency at which rotor and housing vibrate freely."),

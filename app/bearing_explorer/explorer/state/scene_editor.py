@@ -153,8 +153,8 @@ class SceneEditor:
     draft: Values = field(init=False, default_factory=dict)
     """Dimensions that were entered and wait until they fit together."""
     faults: Refused = field(init=False, default_factory=dict)
-    effects: dict[str, str] = field(init=False, default_factory=dict)
-    """Sentences on the effect of the last choices, by their names, where it is not plain."""
+    _effects: dict[str, str] = field(init=False, default_factory=dict)
+    _scene_of_effects: Scene | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
@@ -227,6 +227,14 @@ class SceneEditor:
         self.floors = [dataclasses.replace(floor) for floor in kept.floors]
 
     @property
+    def effects(self) -> Mapping[str, str]:
+        """Sentences on the effect of the last choices, by their names, where it is not plain.
+
+        They are about the scene that those choices made: with another one there are none.
+        """
+        return self._effects if self._scene_of_effects == self.scene else {}
+
+    @property
     def defects(self) -> tuple[Defect, ...]:
         """All defects on the list, also those without extent or depth."""
         return defects_of(self.scene)
@@ -287,7 +295,7 @@ class SceneEditor:
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        self.effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
+        self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
         self.drop_draft()
@@ -433,7 +441,7 @@ class SceneEditor:
     def choose(self, choice: Mapping[str, str]) -> Refused:
         """Take choices out of lists; what is not on a list is passed over."""
         refused: Refused = {}
-        self.effects = {}
+        self._effects = {}
         own = {
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
@@ -458,6 +466,7 @@ class SceneEditor:
         ):
             if one in choice:
                 refused |= self._tried(one, act, choice[one])
+        self._scene_of_effects = self.scene
         return refused
 
     def _tried(self, name: str, act: Callable[[str], None], value: str) -> Refused:
@@ -489,7 +498,7 @@ class SceneEditor:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
         self._take(scene)
         if effect:
-            self.effects["kind"] = effect
+            self._effects["kind"] = effect
         self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
         self._write_values()
         self.drop_draft()
@@ -550,7 +559,7 @@ class SceneEditor:
         if how == "drawing" and not bearing.is_drawn:
             made = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
             self._take(self.scene.replace(bearing=made))
-            self.effects["numbers"] = (
+            self._effects["numbers"] = (
                 f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
                 f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
                 "them where the drawing says otherwise. The load-deflection factor was "

@@ -30,6 +30,7 @@ from bearingcore.scene import ball_angles
 HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
 HEIGHT, STILL_HEIGHT = 250, 520  # [px] at least, with the scale of colours; outside of the page
 BAR_START = 0.05  # beyond the outer ring
+LOWEST = 1.52  # end of the longest bar, from the middle
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
 ROW_NAMES = 1.5  # below the middle of the rows: their names
 SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
@@ -63,7 +64,7 @@ if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}
 return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """
-const text = si(row.load, 'N', 2)
+const text = si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
 return row.most || room > 7*text.length ? text : ''
@@ -82,10 +83,15 @@ try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not
 if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
-// and larger numbers on bars need more below the lowest
-const unit = Math.min(w/shown.end, (h - 70*(larger - 1))/half, of_rows), x = w/unit, y = h/unit
+// the words on the load, top left, are above a ring that has no corner for them
+const above = w < 420 ? 50*larger : 0
+// the number on the lowest bar is below it, and larger numbers need more
+const low = 21*larger
+const room = 2*(h - above - low - 35*(larger - 1))/(half + {LOWEST})
+const unit = Math.min(w/shown.end, room, of_rows), x = w/unit
+const start = (half - {LOWEST})/2 - (h - above + low)/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
-plot.y_range.setv({{start: -y, end: y, reset_start: -y, reset_end: y}})
+plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})
 """
 
 

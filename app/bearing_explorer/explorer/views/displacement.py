@@ -14,6 +14,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import facts_pane, html_table, html_text
 from bearingcore import DOF_NAMES
+from bearingcore.common import ResultTable
 from bearingcore.scene import DOF_SYMBOLS
 
 _THIS_SCENE = "this scene"
@@ -103,20 +104,18 @@ class OperatingPoint(Displacement):
     title = "Operating point"
     about = (
         "Displacement, and stiffness to copy, in N, m and rad. A row is a load on the inner ring, "
-        "a column the displacement that it resists: the mean in time, as rotor programs want it; "
-        "the file has the one at this cage angle too. Directions that are held have a stiffness "
-        "as well."
+        "a column the displacement that it resists: at this cage angle, and the mean in time over "
+        "a period, as rotor programs want it. Directions that are held have a stiffness as well."
     )
 
     def html(self, named: tuple[str, Results]) -> str:
-        """Both tables of a scene, under its name where it has one."""
-        load, *columns = named[1].ranges.state.stiffness_table().named().values()
-        heads = ("", *map(_per, DOF_NAMES))
-        rows = (
-            (html_text(str(one)), *(_digits(float(value), 5) for value in line))
-            for one, line in zip(load, _without_noise(np.stack(columns, axis=1)), strict=True)
+        """The tables of a scene, under its name where it has one."""
+        results = named[1]
+        return (
+            super().html(named)
+            + _stiffness_html(_WHEN[0], results.now.stiffness_table(0))
+            + _stiffness_html("mean in time", results.ranges.state.stiffness_table())
         )
-        return super().html(named) + html_table(heads, rows, named=True)
 
     def sentence(self, results: Results) -> str:
         state = results.ranges.state
@@ -135,6 +134,16 @@ class OperatingPoint(Displacement):
                 for column, values in columns.items():
                     found.setdefault(column, []).extend(values)
         return {column: np.array(values) for column, values in found.items()}
+
+
+def _stiffness_html(when: str, table: ResultTable) -> str:
+    load, *columns = table.named().values()
+    rows = (
+        (html_text(str(one)), *(_digits(float(value), 5) for value in line))
+        for one, line in zip(load, _without_noise(np.stack(columns, axis=1)), strict=True)
+    )
+    heads = ("", *map(_per, DOF_NAMES))
+    return _headed(f"Stiffness {when}", html_table(heads, rows, named=True))
 
 
 def _without_noise(values: np.ndarray) -> np.ndarray:

@@ -205,9 +205,10 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             "The load under which nine of ten bearings reach a million turns.",
         ),
         Fact(
-            "Life L<sub>10</sub>",
+            "Life L<sub>10r</sub>",
             turns_in_words(lasts.million_revolutions) if known else "not known",
-            "Turns that nine of ten bearings reach.",
+            "Turns that nine of ten bearings reach, from the load of each ball or roller by "
+            "ISO 16281.",
         ),
         Fact(
             "at the speed of the scene",
@@ -215,7 +216,7 @@ def _life(results: Results, found: Endurance) -> FactGroup:
             "This life in hours.",
         ),
         Fact(
-            "Equivalent load P",
+            "Dynamic equivalent reference load P",
             style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
             "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
             "rollers.",
@@ -234,7 +235,23 @@ def _life(results: Results, found: Endurance) -> FactGroup:
     profile = PROFILE if results.scene.bearing.kind.line_contact else ""
     if not known and not words:
         words = lasts.sentence
-    return FactGroup(title, " ".join(filter(None, (words, profile, found.assumed))), facts)
+    against = _against_iso_281(lasts, found.rating) if known else ""
+    words = " ".join(filter(None, (words, against, profile, found.assumed)))
+    return FactGroup(title, words, facts)
+
+
+def _against_iso_281(lasts: Life, rating: float) -> str:
+    """The life by ISO 281 for the radial load alone, and why it differs; empty with other loads."""
+    load, bearing = lasts.scene.load, lasts.scene.bearing
+    radial = math.hypot(load.fx, load.fy)
+    if load.fz or load.mx or load.my or not radial:
+        return ""
+    turns = (rating / radial) ** (10.0 / 3.0 if bearing.kind.line_contact else 3.0)
+    return (
+        f"ISO 281 with P = F<sub>r</sub> would give {turns_in_words(turns)}: it takes half of a "
+        f"row as loaded{', unevenly along the rollers' if bearing.kind.line_contact else ''}; here "
+        "life and P follow from the computed loads, with clearance (ISO 16281)."
+    )
 
 
 def _hours(lasts: Life) -> str:

@@ -71,7 +71,7 @@ class Side:
     @classmethod
     def of(cls, field: Field) -> Side:
         """The side for a field of the scene."""
-        return cls(field.key, field.label, field.symbol.replace("_", ""), field.shown_unit)
+        return cls(field.key, field.signed_label, field.symbol.replace("_", ""), field.shown_unit)
 
     @property
     def quantity(self) -> style.AxisQuantity:

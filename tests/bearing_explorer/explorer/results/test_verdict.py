@@ -47,7 +47,7 @@ def test_nothing_is_called_converged_where_a_cone_leaves_its_cup(
     for kind in (LoadDistribution, NaturalFrequencies):
         assert missing in kind(PackedSource()).sentence(results)
     facts = {fact.name: fact.value for group in groups_of(results) for fact in group.facts}
-    assert facts["Life L<sub>10</sub>"] == "not known"
+    assert facts["Life L<sub>10r</sub>"] == "not known"
     assert facts["at the speed of the scene"] == "not known"
     assert missing in " ".join(group.words for group in groups_of(results))
     assert missing in LifeOfBearing(PackedSource()).sentence(results)

@@ -38,6 +38,11 @@ def test_numbers_are_read_as_people_write_them(given: object, value: float) -> N
         ("-1", "−1° is out of range: length of the defect goes from 0 to 360°."),
         (math.inf, "“inf” is not a number: length of the defect goes from 0 to 360°."),
         ("", "A number is missing: length of the defect goes from 0 to 360°."),
+        (
+            "1.2.3",
+            "“1.2.3” is not a number in rad, deg, °, mrad: length of the defect goes from 0 "
+            "to 360°.",
+        ),
         ([1, 2], "“[1, 2]” is not a number: length of the defect goes from 0 to 360°."),
     ],
 )

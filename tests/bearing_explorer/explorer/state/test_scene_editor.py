@@ -53,6 +53,26 @@ def test_a_drawing_gives_what_follows_from_it(editor: SceneEditor) -> None:
     assert editor.state()["effects"] == {}
 
 
+def test_the_note_on_a_bearing_belongs_to_the_scene_it_describes(editor: SceneEditor) -> None:
+    def note() -> str:
+        return editor.state()["effects"].get("preset", "")
+
+    editor.choose({"bearing": "NU 208"})
+    assert "3710 N down" in note()
+    roller = editor.snapshot()
+    editor.choose({"bearing": "6205"})
+    assert "933 N down" in note()
+    ball = editor.snapshot()
+    editor.restore(roller)
+    assert note() == ""
+    editor.restore(ball)
+    assert "933 N down" in note()
+    editor.set({"fy_n": -500.0})
+    assert note() == ""
+    editor.take_preset("fan-rig")
+    assert note() == ""
+
+
 def test_grooves_go_with_their_ball() -> None:
     editor = SceneEditor("6205")
     before = editor.scene.bearing

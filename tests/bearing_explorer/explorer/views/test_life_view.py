@@ -35,7 +35,7 @@ def test_the_numbers_are_those_of_the_core() -> None:
     lasts = life(scene.healthy(), dynamic_load_rating(scene.bearing), positions="all")
     healthy = said["Life of the healthy bearing"]
     assert "computed from the dimensions by ISO 281" in healthy["Dynamic load rating C<sub>r</sub>"]
-    turns = number(healthy["Life L<sub>10</sub>"])
+    turns = number(healthy["Life L<sub>10r</sub>"])
     assert turns == pytest.approx(lasts.million_revolutions, rel=5e-3)
     hours = number(healthy["at the speed of the scene"])
     assert hours == pytest.approx(1e6 * lasts.million_revolutions / (1797.0 * 60.0), rel=5e-3)

@@ -10,6 +10,7 @@ import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.model_editor import ModelEditor
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import BAND_NAME_WIDTH, named_bands
@@ -61,6 +62,21 @@ def test_the_cause_is_that_of_the_change() -> None:
     assert "more balls carry" in told(FAN_RIG.replace(fz=200.0), FAN_RIG)
     back = told(FAN_RIG, LONGER)
     assert "balls near the line of the load carry more of it again, so k_yy rises" in back
+
+
+def test_a_change_of_bearing_is_one_cause_and_names_the_rotor_that_came_with_it() -> None:
+    editor = SceneEditor("fan-rig")
+    scenes = [editor.scene]
+    for name in ("NU 208", "30206", "NJ 208", "6205"):
+        assert editor.choose({"bearing": name}) == {}
+        scenes.append(editor.scene)
+        said = told(*reversed(scenes[-2:]))
+        assert said.startswith("Another bearing: ")
+        masses = [f"{scene.support.inner_mass:.3g} kg" for scene in reversed(scenes[-2:])]
+        assert f"(frequencies go with √(k/m): the rotor is {' instead of '.join(masses)})" in said
+    heavier = told(FAN_RIG.replace(inner_mass=9.0), FAN_RIG)
+    assert heavier.startswith("Mass of the rotor")
+    assert "instead of" not in heavier, "it is named once"
 
 
 def test_only_what_really_changed_is_said() -> None:

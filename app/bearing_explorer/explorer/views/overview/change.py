@@ -12,12 +12,15 @@ from bearing_explorer.explorer.state.difference import difference, separated
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.overview.words import Cause, each_alone, story
 from bearing_explorer.kit.plots.element_words import with_elements_of
+from bearing_explorer.kit.sentences import label_inside
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
+from bearingcore.common import number
+from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Scene
+    from bearingcore import Bearing, Scene
 
 _PLAY = ("contact_angle", "radial_clearance")
 """Fields of a bearing that are its play."""
@@ -56,12 +59,12 @@ class LastChange(View):
             return _NOTHING
         reference = before or results.grey
         now, then = results.scene, reference.scene
-        same = now.bearing.replace(**{name: getattr(then.bearing, name) for name in _PLAY})
-        played = now.bearing != then.bearing and same == then.bearing
+        played = now.bearing != then.bearing and _alike_but_for_play(now.bearing, then.bearing)
         cause = Cause(
             words,
             defect=now.healthy() == then.healthy(),
             masses=now.support != then.support,
+            weighs=_masses_words(now, then, words),
             contacts=(now.bearing != then.bearing and not played) or now.balls != then.balls,
             why_not="" if before is None else why_not(now, then),
             play=reasons.play(now.bearing, then.bearing) if played else "",
@@ -85,6 +88,25 @@ class LastChange(View):
             "before": np.array([_only(before.get(name)) for name in now]),
             "now": np.array([_only(column) for column in now.values()]),
         }
+
+
+def _alike_but_for_play(now: Bearing, before: Bearing) -> bool:
+    """Whether contact angle and clearance alone differ."""
+    try:
+        return now.replace(**{name: getattr(before, name) for name in _PLAY}) == before
+    except ValueError:  # of another kind, which they do not fit
+        return False
+
+
+def _masses_words(now: Scene, before: Scene, words: str) -> str:
+    """Masses of rotor and housing, where they have changed and the cause does not name them."""
+    weighed = [
+        f"the {part} is {number(after)} kg instead of {number(former)} kg"
+        for part, name in (("rotor", "inner_mass"), ("housing", "outer_mass"))
+        for after, former in [(getattr(now.support, name), getattr(before.support, name))]
+        if after != former and label_inside(FIELD_OF[name]) not in words.lower()
+    ]
+    return f"frequencies go with √(k/m): {' and '.join(weighed)}" if weighed else ""
 
 
 def why_not(now: Scene, before: Scene) -> str:

@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""
+RADIAL = ("k_xx", "k_yy")
+"""Terms that are always shown: sentences speak of them."""
 MOST_POINTS = 61
 """Of a trace: a cell is little more than a hundred pixels wide."""
 
@@ -96,8 +98,9 @@ class OverviewStiffness(View):
     name = "overview-stiffness"
     title = "Stiffness"
     about = (
-        "The terms of the stiffness matrix that vary as the bearing turns, or differ from the "
-        "grey ones, with their value now. Blue: this scene. Grey: {grey}."
+        "The radial stiffness, and the other terms of the stiffness matrix that vary as the "
+        "bearing turns or differ from the grey ones, with their value now. Blue: this scene. "
+        "Grey: {grey}."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
     compact = True
@@ -172,12 +175,14 @@ def free_terms(dofs: Sequence[str]) -> set[str]:
 def lively_terms(
     results: Results, answers: Sequence[Equilibrium], scales: Sequence[float]
 ) -> list[int]:
-    """Which of the 15 terms matter here and vary, or differ from another answer's."""
+    """Which of the 15 terms matter here: k_xx and k_yy; others if they vary or differ."""
     free = free_terms(results.equilibrium.dofs)
     found = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
         own, *others = (cleaned(answer.term(term), scale) for answer in answers)
-        if term in free and any(is_lively(own, other, scale) for other in others):
+        if term in free and (
+            term in RADIAL or any(is_lively(own, other, scale) for other in others)
+        ):
             found.append(i)
     return found
 

@@ -46,6 +46,8 @@ class Cause:
         why the loads stay exactly as they are, should they.
     play
         effect of contact angle and clearance on the play of the bearing, in words.
+    weighs
+        masses that changed without being named in `words`, for a frequency that moves.
     """
 
     words: str
@@ -54,6 +56,7 @@ class Cause:
     contacts: bool = False
     why_not: str = ""
     play: str = ""
+    weighs: str = ""
 
 
 def story(by: Cause, now: Chain, before: Chain) -> str:
@@ -71,6 +74,8 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     peaks = (along, *(dof for dof in now.peaks if dof != along))
     heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
     band = band_words(label, now.bands[label], before.bands[label]) if label else ""
+    if band and by.weighs:
+        band += f" ({by.weighs})"
     own = label and f"k_{label[:-1] * 2}"
     follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""

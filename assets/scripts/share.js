@@ -43,7 +43,10 @@ export function render({ model }) {
   const part = (id) => root.querySelector(`#${id}`)
   const link = part("link"), name = part("name")
   // What happened, in a sentence
+  let passing
   const say = (sentence) => {
+    clearTimeout(passing) // what is saved is news for some seconds
+    if (sentence.endsWith(" is saved.")) passing = setTimeout(say, 6000, "")
     part("said").textContent = sentence
     part("notice").hidden = !sentence
     if (sentence) root.querySelector(":popover-open")?.hidePopover()

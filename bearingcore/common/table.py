@@ -215,7 +215,9 @@ def shown_as_table(result: type[T]) -> type[T]:
         return f"<p>{escape(heading(self))}</p>{self.table()._repr_html_()}"
 
     shown: Any = result
-    shown.__repr__, shown.__str__, shown._repr_html_ = short_repr, text, html
+    shown.__repr__, shown._repr_html_ = short_repr, html
+    if "__str__" not in vars(result):
+        shown.__str__ = text
     return result
 
 

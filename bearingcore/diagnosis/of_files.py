@@ -6,6 +6,7 @@ import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import fill
 from typing import Any, overload
 
 from bearingcore.bearings.named import BearingLike
@@ -39,6 +40,12 @@ class FolderDiagnosis:
     names: tuple[str, ...]
     answers: tuple[Diagnosis | None, ...]
     sentences: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """A paragraph a file, whole."""
+        named = zip(self.names, self.sentences, strict=True)
+        lines = (fill(f"{name}: {words}", 100, subsequent_indent="    ") for name, words in named)
+        return "\n".join(lines)
 
     def table(self) -> ResultTable:
         """A row a file: part, probability, shaft speed and the answer in words."""
@@ -188,9 +195,10 @@ def _recording(
         chosen = says.choice.columns
         if not chosen:
             names = [table.names[i] for i in says.choice.options or range(len(table.names))]
-            question = f"{says.choice.question} " if says.choice.question else ""
-            wanted = f"{question}columns=[...] out of {', '.join(names)}"
-            raise checks.refuse("columns", None, wanted)
+            why = says.choice.question or says.choice.reason or "Which column is the signal?"
+            raise ValueError(
+                f"{table.name}: {why} Say it with columns=[...], one or two of {', '.join(names)}."
+            )
         directions, columns = directions or tuple(chosen), tuple(chosen.values())
     if directions is None:
         directions = ("x", "y")[-len(columns) :]

@@ -207,7 +207,8 @@ def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:
-        return Choice({"y": signals[0]}, f"{why}, the only signal there; its direction is not said")
+        only = "the only signal there; its direction is not said"
+        return Choice({"y": signals[0]}, f"{why}, {only}" if why else only)
     question = (
         f"The file holds {len(signals)} signals, and nothing says where or in which direction they "
         "were measured. Which is at this bearing?"

@@ -164,10 +164,11 @@ def contents_of(table: FileColumns) -> FileContents:
         and _moves(table.columns[:, index])
         for index, column in enumerate(columns)
     ]
+    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
     choice = choose(
         columns,
         moving,
-        "as given" if by_hand else known.why or "as the headings say",
+        "as given" if by_hand else known.why or ("as the headings say" if headed else ""),
         table.name,
         known.place,
     )

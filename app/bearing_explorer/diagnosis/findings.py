@@ -29,6 +29,7 @@ from bearing_explorer.diagnosis.measurement_state import (
     MeasurementState,
     Sized,
 )
+from bearing_explorer.diagnosis.model import NOT_TAKEN
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.executors import FILES, in_thread
@@ -143,11 +144,13 @@ class Findings:
 
     @property
     def at_work(self) -> str:
-        """Work that is under way, for the status line; empty where nothing is."""
+        """Work that is under way, or a refusal, for the status line; empty where nothing is."""
         if self.state.busy:
             return "Reading the signal"
         if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
             return "Analysing the signal"
+        if self.state.bad:
+            return NOT_TAKEN
         return "Searching the list of bearings" if self.listed.busy else ""
 
     def listed_question(self, about: Question) -> ListQuestion:

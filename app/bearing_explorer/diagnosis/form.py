@@ -374,7 +374,8 @@ def columns_of(table: Table) -> ShownColumns:
 
 
 def _cell(value: float) -> str:
-    return f"{value:.10g}" if np.isfinite(value) else "–"
+    digits = 10 if abs(value) < 1e10 else 15  # milliseconds since 1970 have 13
+    return f"{value:.{digits}g}" if np.isfinite(value) else "–"
 
 
 def usable(table: Table) -> bool:

@@ -29,6 +29,10 @@ class _Nothing:
     name: str = ""
 
 
+NOT_TAKEN = "Not taken: see the top of Diagnosis"
+"""In the status line where a file or an answer is refused."""
+
+
 @dataclass(frozen=True)
 class Model:
     """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
@@ -51,7 +55,7 @@ class Model:
         """The status line: a signal has no equilibrium to converge."""
         details = [f"{1e3 * seconds:.1f} ms of computing"]
         resting = not self.moving
-        mood = "busy" if self.at_work else "good"
+        mood = "bad" if self.at_work == NOT_TAKEN else "busy" if self.at_work else "good"
         words = self.at_work or "Ready"
         return {"mood": mood, "words": words, "details": details, "resting": resting}
 

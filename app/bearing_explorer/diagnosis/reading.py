@@ -33,6 +33,9 @@ from bearingcore.errors import FieldError
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
 
+MOST_NAMED = 3
+"""Files left out that are named."""
+
 
 @dataclass
 class Arrival:
@@ -57,6 +60,20 @@ class Arrival:
             return ""
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
         return f"{self.number} of {self.count} files{of}: "
+
+    @property
+    def which(self) -> str:
+        """Rows left out of the file that is shown; of several, its name, and those left out."""
+        if self.newest is None:
+            return ""
+        words, count = [self.newest.cut], len(self.series.tables)
+        if self.series.together and count > 1:
+            words.append(f"{self.newest.table.name} is shown, the last of {count} files.")
+        if self.series.together and self.series.left_out:
+            words.append(f"Left out: {' '.join(self.series.left_out[:MOST_NAMED])}")
+            if (more := len(self.series.left_out) - MOST_NAMED) > 0:
+                words.append(f"And {more} more.")
+        return " ".join(filter(None, words))
 
     def take(self, name: str, found: Read | str, inside: int = 1) -> None:
         """Take what was read, or why nothing was; one of so many `inside` one file."""

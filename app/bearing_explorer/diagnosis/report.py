@@ -185,7 +185,7 @@ def findings(
     grown = "one record shows none"
     if trend is not None and len(trend.trend.points) > 1:
         grown = words_on(trend.trend, measured.in_si)
-    elif files > 1:
+    elif files > 1 and measurement.series.together:
         grown = f"{files} files are there; it is not computed yet"
     return [
         ("Severity", f"{level}. {severity(measured, kind)}"),

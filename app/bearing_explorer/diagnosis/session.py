@@ -167,7 +167,7 @@ class Measurement(SignalForm):
         if arrival.baseline:
             self._take_baseline(arrival.newest.table.name)
         else:
-            self._take_read(arrival.newest)
+            self._take_read(replace(arrival.newest, cut=arrival.which))
 
     def _take_baseline(self, name: str) -> None:
         """The files of the series are compared with the first one, which came now."""

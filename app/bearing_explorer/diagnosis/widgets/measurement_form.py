@@ -190,6 +190,8 @@ class MeasurementForm(pn.Column):
         mood = "bad" if state.bad else "busy" if state.busy else "good"
         words = state.words if mood != "good" or not self.folded else state.remarks
         lines = f'<pre tabindex="0">{html.escape(state.lines)}</pre>' if state.lines else ""
+        # what is refused stands above the files, where it is seen at once
+        self._words.styles = {"order": "-1" if mood == "bad" else "0"}
         self._words.object = (
             f'<p class="words {mood}" role="status">{html.escape(words)}</p>{lines}'
             if words

@@ -15,6 +15,7 @@ from bearingcore.diagnosis.part.diagnose import diagnose as diagnose_recording
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.files.facts import Finding
 from bearingcore.files.table import MOST_BYTES, Table, read_table
+from bearingcore.files.units import kind_of
 from bearingcore.signals.recording import Recording
 
 FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
@@ -95,8 +96,9 @@ def diagnose(
         [rad/s], good to `slip`; a pair (from, to) if it is rough; None: what recording or file say,
         else it is looked for between 300 and 6000 turns a minute.
     columns, directions, unit, sample_rate, sensitivity
-        what a file does not say, or says wrongly: see `Table.recording`. Without a unit the numbers
-        are taken as they are: their scale does not count here.
+        what a file does not say, or says wrongly: see `Table.recording`. Without a unit, or
+        in volts without a sensitivity, the numbers are taken as they are: their scale does not
+        count here.
     **more
         `slip` (0.02): by how much balls may pass faster or slower than the shaft speed says, as a
         fraction. `most_samples` (20,000,000): of all directions that may be analysed; where there
@@ -196,6 +198,10 @@ def _recording(
     units |= {number: one.unit for number, one in enumerate(says.columns)}
     if unit is None and not all(units.get(column) for column in columns):
         unit = says.unit.value if says.unit.taken else "m/s²"
+    if sensitivity is None and "voltage" in {
+        kind_of(one) for one in [unit or units.get(column) for column in columns] if one
+    }:
+        unit = "m/s²"  # without the sensor's sensitivity, as they are
     rate = says.sample_rate
     if sample_rate is None and rate is not None and rate.taken:
         sample_rate = rate.value

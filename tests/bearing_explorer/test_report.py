@@ -27,6 +27,7 @@ from bokeh.document import Document
 
 from bearingcore import Defect, presets
 from bearingcore.common.numbers import number, probability
+from bearingcore.diagnosis import DiagnosisStatus
 from tests.helpers.measuring import measuring
 from tests.helpers.stability import found_map
 
@@ -214,3 +215,6 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     assert says in words
     assert (PRACTICE in words) == (fault == "outer race")
     assert (ONE_RECORD in words) == (fault == "outer race" and change is None)
+    if fault == "cannot tell":
+        open_speed = dataclasses.replace(found, status=DiagnosisStatus.SPEED_OPEN)
+        assert next_steps(open_speed, question, zone).startswith("Enter the shaft speed")

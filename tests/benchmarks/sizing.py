@@ -11,9 +11,9 @@ passages: entry to exit (`measure_extent`) on either race, balls with mass, thre
 1-30°, 6-20 Hz, 80-400 N, behind paths that ring; whole ball spacings more or less are as right,
 and counted apart ("but for spacings").
 
-"Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %. Wrong
-is a size that is off by more than that and by more than 4 deviations, or a bound that the truth is
-beyond.
+"Right k" is an answer within half a ball spacing of the truth, "extent" one within 1° or 5 %, or of
+passages one whose interval holds the truth. Wrong is a size that is off by more than that and by
+more than 4 deviations, or a bound that the truth is beyond.
 """
 
 from __future__ import annotations
@@ -247,7 +247,7 @@ def passages(family: int, number: int) -> list[Answer]:
             found.measured or either,
             AT_MOST if bounded else "",
             high,
-            0.0,
+            0.5 * (high - low),
             found.sentence or str(found.status),
             time.perf_counter() - begin,
         )
@@ -291,7 +291,8 @@ def print_table(answers: Sequence[Answer]) -> None:
     })  # fmt: skip
     classes = pd.cut(frame["stated %"], [0.0, 50.0, 70.0, 90.0, 99.0, 99.9, 100.1], right=False)
     groups = frame.groupby(classes.rename("probability of the answer, %"), observed=True)
-    print(f"\n{groups.mean().round(2).assign(signals=groups.size()).to_string()}\n")
+    if classes.notna().any():
+        print(f"\n{groups.mean().round(2).assign(signals=groups.size()).to_string()}\n")
     ratio = [
         (a.extent - a.truth) / a.uncertainty for a in answers if a.conclusive and a.right_turns
     ]

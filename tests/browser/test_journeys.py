@@ -577,7 +577,7 @@ def test_what_each_column_is_is_chosen_over_the_first_lines(visitor: Visitor, la
     main.get_by_label("Unit of the signal").select_option("m/s²")
     visitor.choose("Measured bearing", "that of the scene")
     visitor.choose("Measured speed", "given:")
-    visitor.type("Hz or rpm", "420 rpm")
+    visitor.type("Hz, or with its unit: rpm", "420 rpm")
     visitor.reads(re.compile("outer race is (probably )?damaged"))
 
 

@@ -35,6 +35,9 @@ PITCH_DIAMETER = 39e-3
 SPEEDS = (1e-3, 1e4)
 """[Hz] between which a shaft speed may be typed."""
 
+FASTEST_BARE = 300.0
+"""[Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
+
 FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed")
 """Of the form that says it."""
 
@@ -310,12 +313,17 @@ def _order(name: str, text: str, turns: float | None) -> float:
 
 
 def read_speed(text: str) -> float:
-    """[Hz], of a number with or without its unit."""
+    """[Hz], of a number with its unit, or of one in Hz so low that no rpm can be meant."""
     words, (least, most) = "The shaft speed", SPEEDS
     bare = text.lower()
     per_minute = bare.endswith(("rpm", "/min", "u/min", "1/min"))
     bare = re.sub(r"\s*(rpm|[u1]?/min|hz)$", "", bare)
     value = number_of(bare, words, "rpm" if per_minute else "Hz", 0.0, math.inf)
+    if bare == text.lower() and FASTEST_BARE < value <= most:
+        raise ValueError(
+            f"A number alone is in Hz: {words.lower()} is {number(60.0 * value, 6)} rpm. Did you "
+            f"mean {bare} rpm? Type it with its unit."
+        )
     value = value / 60.0 if per_minute else value
     if not least <= value <= most:
         raise ValueError(

@@ -10,7 +10,7 @@ from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.views.part_words import the
 from bearingcore import Diagnosis, Trend
 from bearingcore.common import number
-from bearingcore.diagnosis import LIKELY, NONE_SEEN
+from bearingcore.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
 
 GROWN = 2.0
 """Times the baseline's root mean square from which on the vibration has clearly grown."""
@@ -32,7 +32,7 @@ def next_steps(
     trend
         of several records, where there is one.
     """
-    several = trend is not None and len(trend.points) > 1
+    several = trend is not None and len(trend.points) > 1 and question.measured.in_si
     change = float(trend.rms_change[-1]) if several and trend is not None else 1.0
     if not found.names_a_part:
         return _without_a_part(found, zone, change)
@@ -72,6 +72,11 @@ def _how_soon(part: str, zone: str, change: float, unsure: bool) -> str:
 def _without_a_part(found: Diagnosis, zone: str, change: float) -> str:
     if found.fault == NONE_SEEN:
         words = "Measure again at the usual interval."
+    elif found.status == DiagnosisStatus.SPEED_OPEN:
+        words = (
+            "Enter the shaft speed, read from a tachometer, a stroboscope or the drive: this "
+            "record may be enough then."
+        )
     else:
         words = (
             "This record decides nothing about the bearing: measure again, with the sensor closer "

@@ -184,7 +184,7 @@ def findings(
     files = len(measurement.series.tables)
     grown = "one record shows none"
     if trend is not None and len(trend.trend.points) > 1:
-        grown = words_on(trend.trend)
+        grown = words_on(trend.trend, measured.in_si)
     elif files > 1:
         grown = f"{files} files are there; it is not computed yet"
     return [

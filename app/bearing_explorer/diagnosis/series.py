@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from bearing_explorer.diagnosis.form import fill, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
@@ -84,15 +85,19 @@ def recordings_of(
     """The recordings of a series along a direction; without files the one that is shown.
 
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; `kept` are answers on the machine for those that say nothing of it. In another
-    unit, or one that is not known, a file cannot be compared and is left out.
+    that is `shown`; `kept` are answers on the machine for those that say nothing of it. A unit that
+    a person gave holds for files of the same kind and columns. In another unit, or one that is not
+    known, a file cannot be compared and is left out.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
     recordings, origins, left_out = [], [], list(series.left_out)
+    families = {table.name: (Path(table.name).suffix, *table.names) for table in series.tables}
+    family = families.get(shown.recording.name)
+    own = {name: text for name, text in changed.items() if name != "unit"}
     for table in series.tables:
         try:
-            told, form = fill(table, changed)
+            told, form = fill(table, changed if families[table.name] == family else own)
             found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")

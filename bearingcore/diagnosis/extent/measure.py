@@ -253,7 +253,8 @@ def measure_extent(
         the interval. A load that is not given is taken to be 0.1 to 5 % of the dynamic rating.
     edge
         how a ball rolls over the edges, see `Defect`, where that is known, as of a simulated
-        signal; None: as measured spalls suggest.
+        signal; None: as measured spalls suggest, whose offsets those of "published" exceed, so
+        that extents and bounds of a signal simulated with it are too small.
     diagnosis
         what `diagnose` says, where that is known already.
 

@@ -50,6 +50,14 @@ def too_slow(rate: float, needed: float) -> str:
     )
 
 
+def too_far(known: str, end: str, speed: float, why: str) -> str:
+    """Unfit at one end of the speeds [Hz] that are looked for."""
+    return (
+        f"The shaft speed {known}. At the {end} speed looked for, {number(60.0 * speed, 4)} rpm: "
+        f"{why} Give the shaft speed; this record may be enough then."
+    )
+
+
 def damaged(own: PartEvidence) -> str:
     """A part is named."""
     shown = int((own.harmonics > own.noise).sum())

@@ -54,7 +54,7 @@ _SENTENCES = {
     DiagnosisStatus.TOO_SHORT: "The recording holds too few ball passes.",
     DiagnosisStatus.TOO_COARSE: "The sample rate is too low to show how impacts repeat.",
     DiagnosisStatus.TOO_LONG: "The recording has more samples than are allowed.",
-    DiagnosisStatus.SPEED_OPEN: "Which part knocks depends on the shaft speed, which is not known.",
+    DiagnosisStatus.SPEED_OPEN: "The answer depends on the shaft speed, which is not known.",
     DiagnosisStatus.BEARING_OPEN: (
         "Which part is damaged depends on the bearing, which is not known."
     ),

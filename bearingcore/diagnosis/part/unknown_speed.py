@@ -32,9 +32,14 @@ def in_range(
     the range. Which it is, the shaft's own lines at that speed decide.
     """
     parts = part_lines(bearing)
-    refused = unfit(signal, parts, low) or unfit(signal, parts, high)
-    if refused is not None:
-        return silent(*refused, source)
+    slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
+    if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
+        return silent(*(fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow), source)
+    if (refused := slow or fast) is not None:
+        known = "is known only roughly" if high <= NARROW * low else "is not known"
+        words = say.too_far(known, "fastest" if slow is None else "slowest",
+                            high if slow is None else low, refused[1])  # fmt: skip
+        return silent(DiagnosisStatus.SPEED_OPEN, words, source)
     own = signal.shaft(low, high)
     hypotheses = []
     if own.clear:

@@ -195,6 +195,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
         ("sample_rate", "-5", "possible: 1 to 1·10⁷ Hz"),
         ("shaft_speed", "0", "possible:"),
         ("shaft_speed", "rpm", "is missing"),
+        ("shaft_speed", "1797", "107820 rpm. Did you mean 1797 rpm?"),
         ("full_scale", "0", "possible"),
         ("unit", "furlongs", "one of m/s², g, mg"),
         ("columns", "time;y;y;", "Two columns are the signal"),

@@ -226,7 +226,9 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         unit, _ = shown_unit(self.found.measured)
         shown = self.found.trend
         across = HOURS if np.isfinite(shown.hours).all() else NUMBER
-        self._plots["lines"].visible = self._key_of_lines.visible = bool(
+        in_si = self.found.measured.in_si
+        self._plots["rms"].visible = in_si
+        self._plots["lines"].visible = self._key_of_lines.visible = in_si and bool(
             np.isfinite(shown.clear_lines).any()
         )
         self._plots["extent"].visible = any(
@@ -245,6 +247,8 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         shown, size = found.trend, 1.0 / shown_unit(found.measured)[1]
         hours = shown.hours
         x = hours if np.isfinite(hours).all() else np.arange(1.0, len(shown.points) + 1.0)
+        comparable = 1.0 if found.measured.in_si else np.nan
+        size *= comparable  # levels in unknown units are not compared
         rms = shown.column("rms") * size
         extent, low, high = (
             np.degrees([getattr(point.extent, name) for point in shown.points])
@@ -276,7 +280,7 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         if found is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."
-        words = words_on(found.trend)
+        words = words_on(found.trend, found.measured.in_si)
         if out := found.recordings.left_out:
             more = f" and {len(out) - MOST_NAMED} more" if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
@@ -288,7 +292,9 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         found = self.found
         if found is None or not self.drawn:
             return {}
-        return named_columns(found.trend.table(), found.measured.in_si)
+        columns = named_columns(found.trend.table(), found.measured.in_si)
+        return {name: column for name, column in columns.items()
+                if found.measured.in_si or "rms_change" not in name}  # fmt: skip
 
     def python(self) -> str:
         """Lines of Python that read the files and compute the trend without the page."""
@@ -299,18 +305,23 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         return python_lines(found, model)
 
 
-def words_on(shown: Trend) -> str:
-    """The trend in sentences: level, kurtosis, lines and extent, first and last."""
+NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit"
+
+
+def words_on(shown: Trend, in_si: bool) -> str:
+    """The trend in sentences: level (`in_si` only), kurtosis, lines, extent, first and last."""
     first, last = shown.points[0], shown.points[-1]
     if len(shown.points) == 1:
         return f"One recording along {shown.direction}: {part_words(shown)}"
     most = int(shown.rms_change.argmax())
     base = shown.points[shown.baseline].name
-    words = (
-        f"{len(shown.points)} recordings along {shown.direction}. Root mean square of the last is "
-        f"{style.number(float(shown.rms_change[-1]), 3)} times that of the baseline, {base}"
+    level = (
+        f"Root mean square of the last is {style.number(float(shown.rms_change[-1]), 3)} times "
+        f"that of the baseline, {base}"
     )
-    if most != len(shown.points) - 1:
+    words = f"{len(shown.points)} recordings along {shown.direction}. "
+    words += level if in_si else NO_LEVELS
+    if in_si and most != len(shown.points) - 1:
         top = style.number(float(shown.rms_change[most]), 3)
         words += f"; {top} times at most, in {shown.points[most].name}"
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]

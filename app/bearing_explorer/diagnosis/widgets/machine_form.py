@@ -31,7 +31,7 @@ LABELS = {
     "ftf": "FTF",
     "bsf": "BSF",
     "speed": "Measured speed",
-    "shaft_speed": "Hz or rpm",
+    "shaft_speed": "Hz, or with its unit: rpm",
 }
 NO_BEARINGS = [["", "choose", WAYS]]
 HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm"}

@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
 from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
-from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, words_on
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -124,6 +124,9 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
     assert ranges["trend_rms"][1] > rms[-1]
     assert len(view.table(MODEL)["rms_m_per_s2"]) == 3
+    words = words_on(view.found.trend, in_si=False)
+    assert NO_LEVELS in words
+    assert "times" not in words
 
 
 def test_another_baseline_needs_no_file_again(

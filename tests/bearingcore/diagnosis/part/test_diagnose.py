@@ -230,6 +230,18 @@ def test_an_unknown_speed_is_looked_for(damaged):
     assert found.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)
 
 
+def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_one(damaged):
+    """At 300 rpm half a second holds 9 ball passes; at the machine's own speed it holds enough."""
+    half = Recording(damaged["outer race"][:6000], MOTOR.rate, ("y",))
+    found = diagnose(half, MOTOR.bearing, None)
+    assert found.status == DiagnosisStatus.SPEED_OPEN
+    assert found.sentence.startswith("No clear result: the shaft speed is not known.")
+    assert "slowest speed looked for, 300 rpm: 0.5 s hold 9 ball passes" in found.sentence
+    assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
+    hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
+    assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT
+
+
 def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     rng = np.random.default_rng(16)
     signal = knocks(MOTOR, "outer race", rng)

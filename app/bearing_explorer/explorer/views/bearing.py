@@ -30,8 +30,9 @@ from bearingcore.scene import ball_angles
 HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
 HEIGHT, STILL_HEIGHT = 250, 520  # [px] at least, with the scale of colours; outside of the page
 BAR_START = 0.05  # beyond the outer ring
-LOWEST = 1.52  # end of the longest bar, from the middle
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+LOWEST = 1.52  # end of the longest bar, from the middle
+HIGHEST = 1.3  # of a ring with words above it, from the middle
 ROW_NAMES = 1.5  # below the middle of the rows: their names
 SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
 NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
@@ -85,11 +86,12 @@ if (!(w > 0 && h > 0)) return
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // the words on the load, top left, are above a ring that has no corner for them
 const above = w < 420 ? 50*larger : 0
+const high = above ? {HIGHEST} : half
 // the number on the lowest bar is below it, and larger numbers need more
 const low = 21*larger
-const room = 2*(h - above - low - 35*(larger - 1))/(half + {LOWEST})
+const room = 2*(h - above - low - 35*(larger - 1))/(high + {LOWEST})
 const unit = Math.min(w/shown.end, room, of_rows), x = w/unit
-const start = (half - {LOWEST})/2 - (h - above + low)/unit, end = start + 2*h/unit
+const start = (high - {LOWEST})/2 - (h - above + low)/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})
 """

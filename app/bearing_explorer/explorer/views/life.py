@@ -247,10 +247,11 @@ def _against_iso_281(lasts: Life, rating: float) -> str:
     if load.fz or load.mx or load.my or not radial:
         return ""
     turns = (rating / radial) ** (10.0 / 3.0 if bearing.kind.line_contact else 3.0)
+    uneven = ", unevenly along the rollers" if bearing.kind.line_contact else ""
     return (
-        f"ISO 281 with P = F<sub>r</sub> would give {turns_in_words(turns)}: it takes half of a "
-        f"row as loaded{', unevenly along the rollers' if bearing.kind.line_contact else ''}; here "
-        "life and P follow from the computed loads, with clearance (ISO 16281)."
+        f"ISO 281 with P = Fr, the radial load, would give {turns_in_words(turns)}: it takes half "
+        f"of a row as loaded{uneven}; here life and P follow from the computed loads, with "
+        "clearance (ISO 16281)."
     )
 
 

@@ -152,6 +152,7 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     visitor.go_to(tab)
     headings = visitor.main.get_by_role("heading", level=2)
     visitor.wait(lambda: headings.count() >= cards and len(visitor.figures()) >= figures)
+    visitor.look_over()
     visitor.steady()
     assert "blank" not in visitor.figures()
     assert not _NOTHING.search(" ".join(visitor.sentences()))

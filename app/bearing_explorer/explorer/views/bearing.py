@@ -85,7 +85,7 @@ if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
 const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // the words on the load, top left, are above a ring that has no corner for them
-const above = w < 420 ? 50*larger : 0
+const above = w < Math.min(420, 1.2*h) ? 50*larger : 0
 const high = above ? {HIGHEST} : half
 // the number on the lowest bar is below it, and larger numbers need more
 const low = 21*larger

@@ -575,7 +575,7 @@ def test_what_each_column_is_is_chosen_over_the_first_lines(visitor: Visitor, la
         visitor.reads(re.compile("odd.csv is read"))
         choose(2, "y")
         visitor.reads(re.compile(r"odd.csv: 3 s along y at 48\D000 Hz"))
-    main.get_by_label("Unit of the signal").select_option("m/s²")
+    main.get_by_label("Unit of the signal").locator("visible=true").select_option("m/s²")
     visitor.choose("Measured bearing", "that of the scene")
     visitor.choose("Measured speed", "given:")
     visitor.type("Hz, or with its unit: rpm", "420 rpm")

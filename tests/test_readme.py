@@ -35,6 +35,6 @@ def test_every_block_of_python_runs(
     assert "Equilibrium" in printed[0]
     assert "[121 rows x 37 columns]" in printed[0]
     assert "of a catalogue, by the bearing's number" in printed[1]
-    assert "FolderDiagnosis" in printed[2]
+    assert "a_1797rpm.csv" in printed[2]
     assert names["motion"].completed
     assert np.isfinite(names["density"]).all()

@@ -490,6 +490,8 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     desk.reads(re.compile(r"38\.[4-8]°"))
     desk.steady()
     assert len(desk.figures()) >= 3
+    desk.look_over()
+    desk.steady()
     assert "blank" not in desk.figures()
     desk.press(re.compile(r"38\.\d° into the scene"))
     desk.wait(lambda: abs(desk.number("Length of the defect") - 38.6) < 0.3)

@@ -192,7 +192,7 @@ def test_a_projector_has_large_type_and_large_figures(
     page.goto(f"{explorer.url}{link}#projector")
     page.wait_for_function("window.__frames >= 1")
     rest(page)
-    page.wait_for_function("document.querySelector('.lesson-place').currentCSSZoom > 1.6")
+    page.wait_for_function("document.querySelector('footer').currentCSSZoom > 1.6")
     if "lesson" in link:
         page.get_by_role("button", name="Answer", exact=True).click()
     rest(page)

@@ -229,12 +229,17 @@ class Scene:
         """True where tilts are held, as `dofs` says nothing of them, that the load would cause."""
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
-    def with_former_dofs(self) -> Self:
-        """The scene of a file or link that says nothing of directions.
+    def with_tilts_as(self, said: object) -> Self:
+        """The scene of a file or link in which `dofs` is `said`, read with None for "tilt held".
 
-        Tilts are free in it, as they were where `dofs` said nothing.
+        Where they say nothing tilts are free, as they were before there was a choice; held ones
+        are the default but where the load has a moment.
         """
-        return dataclasses.replace(self, dofs=TILT_FREE) if self.holds_tilt_unasked else self
+        if said is None and self.holds_tilt_unasked:
+            return dataclasses.replace(self, dofs=TILT_FREE)
+        if said == TILT_HELD and self.load.has_moment:
+            return dataclasses.replace(self, dofs=TILT_HELD)
+        return self
 
     def healthy(self) -> Scene:
         """The same scene without its defects."""
@@ -244,7 +249,7 @@ class Scene:
         """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
-        # what says nothing had free tilts before there was a choice: see `with_former_dofs`
+        # what says nothing had free tilts before there was a choice: see `with_tilts_as`
         if self.holds_tilt_unasked:
             data["dofs"] = TILT_HELD
         elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
@@ -284,12 +289,9 @@ class Scene:
                 )
             table["bearing"] = bearing
         said = table.get("dofs")
-        if said == TILT_HELD:  # without a moment that is the default
+        if said == TILT_HELD:
             table["dofs"] = None
-        scene = scene_file.from_data(cls, "scene", table, top=True)
-        if said is None:
-            return scene.with_former_dofs()
-        return scene.replace(dofs=said) if said == TILT_HELD and scene.load.has_moment else scene
+        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(said)
 
     def to_toml(self) -> str:
         """The scene as text that `from_toml` reads; SI units and radians."""

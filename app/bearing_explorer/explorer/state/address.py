@@ -383,11 +383,10 @@ def _read(given: dict[str, str]) -> Place:
         for part, changes in fields.items()
     }
     defect = defects[0] if count == 1 else tuple(defects)
-    held = own_fields.get("dofs") == TILT_HELD and not parts["load"].has_moment
-    if held:  # that is the default
+    said = own_fields.get("dofs")
+    if said == TILT_HELD:
         own_fields["dofs"] = None
-    scene = dataclasses.replace(base, defect=defect, **parts, **own_fields)
-    scene = scene if held else scene.with_former_dofs()
+    scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
     tab = FORMER_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 

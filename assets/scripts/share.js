@@ -45,11 +45,14 @@ export function render({ model }) {
   // What happened, in a sentence
   let passing
   const say = (sentence) => {
-    clearTimeout(passing) // what is saved is news for some seconds
-    if (sentence.endsWith(" is saved.")) passing = setTimeout(say, 6000, "")
+    clearTimeout(passing)
     part("said").textContent = sentence
     part("notice").hidden = !sentence
     if (sentence) root.querySelector(":popover-open")?.hidePopover()
+  }
+  const say_saved = (file) => {  // which is news for some seconds
+    say(`${file} is saved.`)
+    passing = setTimeout(say, 6000, "")
   }
   link.addEventListener("focus", () => link.select())
   const take_scene = sends_text(part("scene-file"), LARGEST_FILE, say, (file) => ask(model, { file }),
@@ -146,7 +149,7 @@ export function render({ model }) {
   model.on("msg:custom", ({ file: saved, kept, report: page }) => {
     if (saved) {
       save_file(saved.name, saved.text, saved.type)
-      say(`${saved.name} is saved.`)
+      say_saved(saved.name)
     }
     if (kept) {
       const others = read_kept().filter((item) => item.name !== kept.name)
@@ -157,7 +160,7 @@ export function render({ model }) {
       }
     }
     if (page === null) failed("on the server")
-    else if (page) make_report(page).then((name) => say(`${name} is saved.`), failed)
+    else if (page) make_report(page).then(say_saved, failed)
   })
 
   // Keys: not where text is typed, which has an undo of its own.

@@ -9,7 +9,7 @@ import asyncio
 import copy
 import logging
 from collections.abc import Awaitable, Callable, Coroutine
-from dataclasses import replace
+from dataclasses import InitVar, dataclass, replace
 from typing import Any, Self
 
 from bearing_explorer.diagnosis.diagnoses import (
@@ -40,6 +40,7 @@ from bearingcore.diagnosis import ListedBearing
 log = logging.getLogger(__name__)
 
 
+@dataclass(eq=False, repr=False)
 class Findings:
     """The signal of one session, its state, and the answers that are computed in the background.
 
@@ -55,7 +56,12 @@ class Findings:
         requests a drawing.
     """
 
-    def __init__(
+    scene: InitVar[Callable[[], Scene]]
+    bearings: InitVar[BearingTable]
+    assign: InitVar[Callable[[Change], Awaitable[None]]]
+    draw: InitVar[Callable[[], None]]
+
+    def __post_init__(
         self,
         scene: Callable[[], Scene],
         bearings: BearingTable,

@@ -32,16 +32,16 @@ def next_steps(
     trend
         of several records, where there is one.
     """
-    several = trend is not None and len(trend.points) > 1 and question.measured.in_si
-    change = float(trend.rms_change[-1]) if several and trend is not None else 1.0
+    records = len(trend.points) if trend is not None and question.measured.in_si else 1
+    change = float(trend.rms_change[-1]) if trend is not None and records > 1 else 1.0
     if not found.names_a_part:
         return _without_a_part(found, zone, change)
     part = the(found.fault)
     words = [_how_soon(part, zone, change, found.probability < LIKELY)]
-    if several:
+    if records > 1:
         words.append(
-            f"Over {len(trend.points) if trend else 0} records the vibration became "
-            f"{number(change, 2)} times that of the baseline."
+            f"Over {records} records the vibration became {number(change, 2)} times that of the "
+            "baseline."
         )
     else:
         words.append(ONE_RECORD)

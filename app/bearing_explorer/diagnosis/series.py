@@ -43,6 +43,11 @@ class Series:
     together: bool = False
     shortened: bool = False
 
+    @property
+    def parts(self) -> int:
+        """Files that can be joined to one signal."""
+        return len(self.tables) if self.together and not self.shortened else 0
+
     def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
         """With a further file, of `count` that come; it replaces an earlier one of its name.
 

@@ -10,8 +10,8 @@ opens a form with questions; its faults are sentences, and the signal before it 
 from __future__ import annotations
 
 import logging
-from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 
 from bearing_explorer.diagnosis.form import fill
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
@@ -22,39 +22,32 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated, with_pit
 from bearing_explorer.diagnosis.upload import Upload, first_lines
-from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
-from bearingcore import Scene, join_tables
+from bearingcore import join_tables
 from bearingcore.errors import FieldError
 from bearingcore.files import files_inside
 
 log = logging.getLogger(__name__)
 
 
+@dataclass(eq=False, repr=False)
 class Measurement(SignalForm):
     """The measurement of one session: its files come in, or the scene is measured.
 
     Call its methods on the event loop of the session. See `Findings` for the parameters.
     """
 
-    def __init__(
-        self,
-        scene: Callable[[], Scene],
-        bearings: BearingTable,
-        assign: Callable[[Change], Awaitable[None]],
-        draw: Callable[[], None],
-    ) -> None:
-        super().__init__(scene, bearings, assign, draw)
-        #: called with the first byte of the next piece of a file; the number `of` comes back with
-        #: the piece, by which files are kept apart
-        self.want: Callable[[int, int], None] = lambda begin, of: None
-        #: called when the next of several files may come
-        self.more: Callable[[], None] = lambda: None
-        self._upload: Upload | None = None
-        self._uploads = 0
-        self._simulations = 0
+    #: called with the first byte of the next piece of a file; the number `of` comes back with the
+    #: piece, by which files are kept apart
+    want: Callable[[int, int], None] = field(
+        default_factory=lambda: lambda begin, of: None, init=False
+    )
+    #: called when the next of several files may come
+    more: Callable[[], None] = field(default_factory=lambda: lambda: None, init=False)
+    _upload: Upload | None = field(default=None, init=False)
+    _uploads: int = field(default=0, init=False)
+    _simulations: int = field(default=0, init=False)
 
     def stop(self) -> None:
         super().stop()

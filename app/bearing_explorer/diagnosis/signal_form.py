@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from bearing_explorer.diagnosis.findings import Findings
@@ -41,38 +41,31 @@ from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, rea
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
-from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.compute.jobs import Change
-from bearingcore import Scene, Table
+from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
 
 
+@dataclass(eq=False, repr=False)
 class SignalForm(Findings):
     """The form that a file and a person fill in, and the signal as it says. See `Findings`."""
 
-    def __init__(
-        self,
-        scene: Callable[[], Scene],
-        bearings: BearingTable,
-        assign: Callable[[Change], Awaitable[None]],
-        draw: Callable[[], None],
-    ) -> None:
-        super().__init__(scene, bearings, assign, draw)
-        #: the files that were read
-        self.series = Series()
-        #: words for reports
-        self.about = AboutMeasurement()
-        #: takes a message as the controls send it; None where there are no controls
-        self.change_scene: Callable[[dict[str, Any]], None] | None = None
-        self._arrival: Arrival | None = None
-        self._as_read: Table | None = None
-        self._first: dict[str, str] = {}  # the form as it was filled in
-        self._agreed: dict[str, str] = {}  # guesses that a person agreed to
-        self._kept: dict[str, str] = {}  # answers that were given for the file before
-        self._taken: dict[str, str] = {}  # the form of the signal as it is drawn
-        self._parts: tuple[str, ...] = ()  # files that were joined to the one that is shown
-        self._cut = ""
+    #: the files that were read
+    series: Series = field(default=Series(), init=False)
+    #: words for reports
+    about: AboutMeasurement = field(default=AboutMeasurement(), init=False)
+    #: takes a message as the controls send it; None where there are no controls
+    change_scene: Callable[[dict[str, Any]], None] | None = field(default=None, init=False)
+    _arrival: Arrival | None = field(default=None, init=False)
+    _as_read: Table | None = field(default=None, init=False)
+    # the form as it was filled in, guesses that a person agreed to, answers that were given for the
+    # file before, and the form of the signal as it is drawn
+    _first: dict[str, str] = field(default_factory=dict, init=False)
+    _agreed: dict[str, str] = field(default_factory=dict, init=False)
+    _kept: dict[str, str] = field(default_factory=dict, init=False)
+    _taken: dict[str, str] = field(default_factory=dict, init=False)
+    _parts: tuple[str, ...] = field(default=(), init=False)  # files joined to the one shown
+    _cut: str = field(default="", init=False)
 
     def stop(self) -> None:
         super().stop()
@@ -174,9 +167,7 @@ class SignalForm(Findings):
             speeds=speeds_of(table),
             settling=False,
             kept_from=before if found.kept else "",
-            parts=0
-            if self.series.shortened or not self.series.together
-            else len(self.series.tables),
+            parts=self.series.parts,
             arrival=self.state.arrival + 1,
             **self._in_short(found.form),
         )

@@ -207,7 +207,10 @@
       unpainted.delete(view)
       return paint.call(view)
     }
-    const idle = window.requestIdleCallback ?? ((act) => setTimeout(act, 50))
+    // A browser may have no idle time for minutes: then it is painted all the same.
+    const idle = window.requestIdleCallback
+      ? (act) => requestIdleCallback(act, { timeout: REST })
+      : (act) => setTimeout(act, 50)
     let rest
     const paint_one = () => {
       const [view] = unpainted

@@ -115,7 +115,7 @@ class ExplorePlane(SceneJobView[Plane]):
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
         values |= dict(zip(_BAND, _FIRST_BAND, strict=True))
         # loads that point down, as weights do: without a load there is nothing to map
-        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
+        values["y_from"] = f"{-0.05 * editor.limits['fy_n'].least:g}"
         if self._request is None:
             self._request = self.request_of(values, editor)
         return values, fills
@@ -278,7 +278,7 @@ def _place(plane: Plane, at: tuple[Any, ...]) -> str:
     prefixed = unit not in ("", "°")
     shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
     where = [
-        f"{sweep.field.label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
+        f"{sweep.field.read_label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]
     return f"{shown} at {' and '.join(where)}"

@@ -16,7 +16,7 @@ def plane_fields(headings: bool = False) -> list[FieldSpec]:
     quantities = [
         [
             q.key,
-            f"{q.signed_label} ({q.shown_unit})" if q.shown_unit else q.signed_label,
+            f"{q.read_label} ({q.shown_unit})" if q.shown_unit else q.read_label,
             *([q.group] if headings else []),
         ]
         for q in SWEEPABLE.values()

@@ -54,7 +54,7 @@ CHOICES: dict[str, dict[str, Any]] = {
     "explore": PLANE | {"output": "k_xx_mean"},
     "stability-map": PLANE | {"grid": "13"},
     "speed-run": {"from": "7", "to": "9", "count": "25"},
-    "accuracy": {"experiment": "angles"},
+    "accuracy": {"experiment": "statics"},
     "diagnosis": {"speed": "rough"},
     "sizing": {"support": "known"},  # among others it takes five times the time
     "measured-spectrum": {"direction": "x", "scale": "linear"},

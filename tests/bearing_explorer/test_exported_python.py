@@ -56,7 +56,6 @@ CHOICES: dict[str, dict[str, Any]] = {
     "speed-run": {"from": "7", "to": "9", "count": "25"},
     "accuracy": {"experiment": "angles"},
     "diagnosis": {"speed": "rough"},
-    "sizing": {"support": "known"},  # among others it takes five times the time
     "measured-spectrum": {"direction": "x", "scale": "linear"},
     "measured-envelope": {"low": "400", "high": "3000"},
 }
@@ -66,7 +65,6 @@ CASES = [
     *(("two defects", name) for name in ("depth-profile", "maps", "vibration-time")),
     *(("inner race", name) for name in ("load-distribution", "modes", "vibration-spectrum")),
     *(("balls with mass", name) for name in ("bearing", "stiffness", "mass-time")),
-    ("error of the extent", "explore"),
 ]
 RECORDED = 'it\'s "a" file.wav'
 
@@ -90,8 +88,6 @@ def shown(case: tuple[str, str]) -> tuple[View, Results]:
     name = case[1]
     scene, cage_angle, compared = SCENES.get(case[0], SCENES["dragged"])
     choices = CHOICES.get(name, {})
-    if case[0] == "error of the extent":  # none has an answer, which is quick
-        scene, choices = SCENES["inner race"][0], choices | {"output": "extent_error"}
     results = Results(scene, cage_angle, compared=compared)
     view = VIEWS[name](PackedSource())
     if isinstance(view, MeasuredView):

@@ -13,7 +13,6 @@ from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectr
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.signal_figure import figure_of
-from bearing_explorer.diagnosis.views.sizing import DefectSize
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.kit.half import Section
 
@@ -27,7 +26,6 @@ SECTIONS = (
             MeasuredSignal,
             PartDiagnosis,
             SpallExtent,
-            DefectSize,
             TrendOfFiles,
             MeasuredIndicators,
             MeasuredSpectrum,

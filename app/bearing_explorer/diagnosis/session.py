@@ -223,7 +223,7 @@ class Measurement(SignalForm):
         self._in_background(make, self._take_simulated, "The scene")
 
     def _take_simulated(self, found: Measured) -> None:
-        self._table, self._cut, self.measured, self.sized = None, "", found, None
+        self._table, self._cut, self.measured = None, "", found
         self.state = MeasurementState(
             arrival=self.state.arrival + 1,
             values={"speed": SIMULATED},

@@ -90,7 +90,6 @@ class PartDiagnosis(LookView, MeasuredView):
         "other parts. The strong ones were found within the slip, the faint ones follow from the "
         "geometry."
     )
-    without_size = True
     computes = True
     look_fields = FIELDS
     finds_speed = True
@@ -273,7 +272,7 @@ class PartDiagnosis(LookView, MeasuredView):
     def sentence(self, model: Model) -> str:
         question = None if self.measurement is None else self.measurement.question()
         if question is None:
-            return self.why_nothing if self.measured is None else NOTHING_NAMED
+            return "" if self.measured is None else NOTHING_NAMED
         answer = self.answer()
         if answer is None:
             return BUSY

@@ -52,7 +52,6 @@ PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz",
          "y_to": "12", "grid": "8"}  # fmt: skip
 CHOICES: dict[str, dict[str, Any]] = {
     "explore": PLANE | {"output": "k_xx_mean"},
-    "stability-map": PLANE | {"grid": "13"},
     "speed-run": {"from": "7", "to": "9", "count": "25"},
     "accuracy": {"experiment": "angles"},
     "diagnosis": {"speed": "rough"},

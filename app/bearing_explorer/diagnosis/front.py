@@ -5,7 +5,6 @@ from __future__ import annotations
 from bearing_explorer.diagnosis.half import DiagnosisOfSignal
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
-from bearing_explorer.diagnosis.views.how_sure import HowSure
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
@@ -32,7 +31,6 @@ SECTIONS = (
             MeasuredEnvelope,
             MeasuredKurtogram,
             MeasuredSpectrogram,
-            HowSure,
         ),
     ),
 )

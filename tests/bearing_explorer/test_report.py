@@ -146,7 +146,7 @@ def test_a_scene_without_an_answer_has_a_report() -> None:
 def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page() -> None:
     """With a unit that is guessed and a speed that is typed in; a journey prints the sheet."""
     scene = presets["6205"]
-    measured = simulated(scene.replace(race="outer", extent=0.2), 20.0, False, 1)
+    measured = simulated(scene.replace(race="outer", extent=0.2), 20.0, 1)
     recording = dataclasses.replace(measured.recording, name=NASTY)
     measured = dataclasses.replace(measured, recording=recording, true_load=None, true_edge=None)
     session = measuring(measured)
@@ -208,7 +208,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
 def test_the_next_step_rests_on_part_zone_and_growth(
     fault: str, zone: str, change: float | None, begins: str, says: str
 ) -> None:
-    question = Question.about(simulated(presets["6205"], 20.0, False, 1))
+    question = Question.about(simulated(presets["6205"], 20.0, 1))
     found = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:

@@ -57,7 +57,7 @@ def quick() -> Iterator[None]:
 @cache
 def silent() -> bytes:
     """An outer race of a 6205 at 1797 rpm, in a file that says neither bearing nor speed."""
-    recording = simulated(MOTOR, 20.0, False, 1).recording
+    recording = simulated(MOTOR, 20.0, 1).recording
     time = np.arange(len(recording.acceleration)) / recording.sample_rate
     file = io.StringIO()
     columns = np.column_stack([time, recording.acceleration[:, 1]])
@@ -250,7 +250,7 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
         return str(halves.diagnosis.inputs().content().status(0.0, frozenset())["words"])
 
     assert words() == "Ready"
-    measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    measurement.measured = simulated(MOTOR, 20.0, 1)
     question = measurement.question()
     assert question is not None
     assert words() == "Analysing the signal"
@@ -267,7 +267,7 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
 def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
     halves = Halves()
     halves.session.draw = lambda: None  # type: ignore[method-assign]
-    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
     halves.explorer.requests.change_links({"report": "http://localhost", "measured": True})
     assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 

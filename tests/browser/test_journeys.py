@@ -939,20 +939,6 @@ def test_a_scene_is_saved_changed_opened_and_swept(visitor: Visitor, tmp_path: P
     visitor.bring(visitor.scene, "mine.toml", text)
     expect(visitor.box("Length of the defect")).to_have_value("38.6")
 
-    file, out = tmp_path / "sweep.toml", tmp_path / "out.zarr"
-    wanted = '\n[sweep]\noutputs = ["k_yy_mean"]\n[sweep.over]\nfy = [-50.0, -100.0]\n'
-    file.write_text(text.decode() + wanted, encoding="utf-8")
-    scripts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    module, function = scripts["scripts"]["bearing-sweep"].split(":")
-    start = f"import sys; from {module} import {function} as main; sys.exit(main())"
-    command = [sys.executable, "-c", start, str(file), "--out", str(out), "--workers", "1"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    import zarr
-
-    swept = zarr.open_group(out, mode="r")["k_yy_mean"][:]
-    assert swept[1] > swept[0] > 0.0
-
 
 def test_a_floor_is_brought_in_a_file(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "load")

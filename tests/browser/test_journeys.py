@@ -740,7 +740,19 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
 
 
 _NAME = "<img src=x onerror=alert(1)>"
-"""Of a compared scene: a name is text, whatever it looks like."""
+"""Of a kept scene: a name is text, whatever it looks like."""
+
+
+def test_a_scene_is_kept_and_opened_again(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "stiffness")
+    menu = visitor.menu("Compare")
+    menu.get_by_role("textbox").fill(_NAME)
+    menu.get_by_role("button", name="Keep", exact=True).click()
+    visitor.reads(_NAME, menu)
+    visitor.page.keyboard.press("Escape")
+    visitor.sees_change(lambda: visitor.type("Length of the defect", "60"))
+    visitor.menu("Compare").get_by_role("button", name=_NAME, exact=True).click()
+    expect(visitor.box("Length of the defect")).to_have_value("12.9")
 
 
 @pytest.mark.proof

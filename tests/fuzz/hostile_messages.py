@@ -38,7 +38,6 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("Controls", {"mark": 1, "choose": {"dofs": "x y z"}}),
     ("Controls", {"mark": 1, "reset": True, "released": True}),
     ("Controls", {"mark": 1, "floor": _FILE}),
-    ("Controls", {"mark": 1, "catalogue": _FILE}),
     ("ShareBar", {"mark": 1, "file": _FILE}),
     ("ShareBar", {"mark": 1, "undo": True}),
     ("ShareBar", {"mark": 1, "redo": True, "compare_here": "a", "number": 0, "remove": True}),

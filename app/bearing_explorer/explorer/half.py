@@ -18,7 +18,6 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
 from bearing_explorer.explorer.views.parts import SceneParts
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
@@ -33,8 +32,6 @@ class Explorer:
         its tabs.
     address
         the query of the page's address; it is not trusted.
-    bearings
-        to choose from.
     """
 
     def __init__(
@@ -43,14 +40,13 @@ class Explorer:
         preset: str = "fan-rig",
         address: str = "",
         lessons: Sequence[Lesson | Fault] = (),
-        bearings: BearingTable | None = None,
     ) -> None:
         self.sections = tuple(sections)
         self._page: Page | None = None
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
-        self.editor = SceneEditor(preset, bearings or BearingTable())
+        self.editor = SceneEditor(preset)
         self.bookmarks = Bookmarks(self.editor, address)
         self.requests = Requests(self.editor, self.bookmarks, lessons, self)
         self.share, self.lesson = self.requests.share, self.requests.lesson

@@ -19,12 +19,11 @@ from bearing_explorer.explorer.state.scene_editor import LARGEST_FILE, SceneEdit
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
-from bearing_explorer.kit.bearing_list import read_table
+from bearing_explorer.kit.bearing_list import search_bearings
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.half import Page
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.views.base import View
-from bearingcore.bearings import MOST_BYTES
 from bearingcore.common import LARGEST_TEXT
 
 log = logging.getLogger(__name__)
@@ -116,9 +115,9 @@ class Requests:
     def change_scene(self, message: Any) -> None:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if (text := message.get("search")) is not None:
-            listed, show = self.editor.listed, self.controls.send
+            show = self.controls.send
             self._owner.page.in_background(
-                lambda: listed.search(text), lambda found: show({"found": found})
+                lambda: search_bearings(text), lambda found: show({"found": found})
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -144,9 +143,6 @@ class Requests:
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
             self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
-            self._open_file(
-                message.get("catalogue"), MOST_BYTES, read_table, self.editor.listed.take
-            )
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()

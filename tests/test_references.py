@@ -38,7 +38,6 @@ FILE_ENDS = {
 LIBRARIES = {
     "np": "numpy",
     "pn": "panel",
-    "hv": "holoviews",
     "figure": "bokeh.plotting.figure",
     "Document": "bokeh.document.Document",
 }

@@ -69,7 +69,6 @@ class Explorer:
             self.editor,
             ask=self.requests.change_scene,
             add_controls=self.requests.panels.append,
-            take_steps=self._take_steps,
             open_link=self.requests.open_link,
             set_life_inputs=self._set_life_inputs,
             set_grey=self._set_grey,
@@ -128,11 +127,6 @@ class Explorer:
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
         return ForReport(results, kinds, found)
-
-    def _take_steps(self, step_rate: float | None) -> None:
-        """March motions with steps [Hz] set by hand, or None: with the program's own."""
-        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
-        self.draw()
 
     def _set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""

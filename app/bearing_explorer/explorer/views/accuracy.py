@@ -229,12 +229,12 @@ class Accuracy(SceneJobView[Found]):
             **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
-        cost, steps = self._cost.values["cost"], results.settings.step_rate
+        cost = self._cost.values["cost"]
         for one, chart in self._charts:
             part, pale = _part(own, one), _part(base, one)
             if part is not None and not self._same:
                 pale = None  # of another scene
-            chart.draw(part, pale, cost, steps, reasons.get(one.experiment, ""))
+            chart.draw(part, pale, cost, reasons.get(one.experiment, ""))
         self._stability.draw(own, base, results.scene.shaft_speed)
         self._foot.object = foot(own, base, self._shown(results))
 

@@ -616,8 +616,8 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
     for charts, words in (
-        ("Models", "Fewer directions, against all five"),
-        ("Stability", "Vertical: linear limit"),
+        ("Balls with mass", "Massless balls, and steps of heavy ones"),
+        ("Stability", "The factor by which a ball pass"),
         ("Statics", "Solvers, against energy minima"),
     ):
         visitor.choose("Charts of", charts)
@@ -625,7 +625,7 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
         visitor.look_over()
         visitor.wait(lambda: "blank" not in visitor.figures())
     visitor.choose("Charts of", "Motion")
-    visitor.choose("What to measure", "Cage angles")  # shows the charts that it is in
+    visitor.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
     before = visitor.figures()
     visitor.press("Measure on this machine")
     visitor.reads(re.compile(r"\d+ points after"))

@@ -12,7 +12,7 @@ from bearingcore import DOF_NAMES, contact_damping, equilibrium, orbit, presets,
 from tests.outside.capabilities import ROOT
 from tests.outside.elements import Defect, Rows
 from tests.outside.march import Problem, by_runge_kutta
-from tests.outside.plane import Plane
+from tests.outside.plane import Plane, damped
 from tests.outside.test_kinds import CASES
 from tests.outside.witness import witness
 
@@ -136,6 +136,38 @@ def test_points_of_the_motion_charts(preset: str) -> None:
         off = np.sum((size * (found - true)) ** 2)
         error = math.sqrt(off / np.sum((size * true) ** 2))
         assert error == pytest.approx(point["errors"]["series L2"], rel=2e-3), point["setting"]
+
+
+@witness(
+    "chart: stability",
+    by="the polynomial of RK4 at the eigenvalues of K, M and C by `plane.py`",
+    compared="least step rate of the fan rig by linear theory, its highest frequency", within=0.01,
+)  # fmt: skip
+def test_linear_limit_of_the_stability_chart() -> None:
+    cage = np.linspace(0.0, 2.0 * math.pi / 14, 361)
+    _, k, along = PLANE.solve(100.0, cage, 1.5 * math.pi, HURT)
+    assert chart("stability")["highest_frequency"] == pytest.approx(
+        damped(k, C * along, 2.0, (212.2e6, 1648.2)).max(), rel=0.01
+    )
+    rates_of_all = []
+    for bearing, dampers in zip(k, C * along, strict=True):
+        K, D = (
+            np.block([[one, -one], [-one, one + ground * np.eye(2)]]) / 2.0
+            for one, ground in ((bearing, 212.2e6), (dampers, 1648.2))
+        )
+        values = np.linalg.eigvals(np.block([[np.zeros((4, 4)), np.eye(4)], [-K, -D]]))
+
+        def grows(rate: float, values: np.ndarray = values) -> bool:
+            z = values / rate
+            return bool(np.abs(1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0).max() > 1.0)
+
+        low, high = 1e3, 1e5
+        while high / low > 1.0001:
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if grows(middle) else (low, middle)
+        rates_of_all.append(high)
+    limit = chart("stability")["linear_limit"]["RK4"]
+    assert limit == pytest.approx(max(rates_of_all), rel=0.01)
 
 
 @witness(

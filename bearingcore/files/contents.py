@@ -23,6 +23,7 @@ from bearingcore.files.channels import (
     Column,
     choose,
     column_of,
+    names_a_frequency,
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
@@ -172,6 +173,10 @@ def contents_of(table: FileColumns) -> FileContents:
         table.name,
         known.place,
     )
+    if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
+        choice = Choice(
+            {}, "", f"“{axis}” rises evenly as in a spectrum: export the signal over time."
+        )
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     said = {**{one.name: _text(one) for one in named}, **table.texts}
@@ -240,7 +245,7 @@ def _columns(
         found = sampling_of(values, TIMES[unit])
         return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
     if stamped:
-        return tuple(columns), times_of(table.columns[:, stamped[0]], "s")
+        return tuple(columns), times_of(table.columns[:, stamped[0]], "s", sure=True)
     return _with_times(table, columns)
 
 
@@ -261,13 +266,23 @@ def _with_times(
         elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
             # what rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
-            if not sampling.trouble:
+            if not sampling.trouble and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
     time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
-    return tuple(columns), None if time is None else found[time]
+    if time is None:
+        return tuple(columns), None
+    first = found[time]
+    for index, other in found.items():
+        rate = other.sample_rate
+        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
+            said = (
+                f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
+            )
+            return tuple(columns), dataclasses.replace(first, stated=False, reason=said)
+    return tuple(columns), first
 
 
 _LABELS = re.compile(
@@ -300,6 +315,20 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
                 direction=column.direction or said.direction,
             )
     return column
+
+
+def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
+    """The name of a column of the frequencies of a spectrum; empty where there is none."""
+    return next(
+        (
+            column.name
+            for index, column in enumerate(columns)
+            if index not in table.given
+            and names_a_frequency(column.name)
+            and sampling_of(table.columns[:, index]).stated
+        ),
+        "",
+    )
 
 
 def _counts(time: NDArray[np.float64], column: Column) -> bool:
@@ -393,7 +422,13 @@ def _speed(
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
                 return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
-    return facts.shaft_speed_in(named, table.name)
+    steady = [
+        Named(column.name, float(table.columns[:, index].mean()))
+        for index, column in enumerate(columns)
+        if column.role == OTHER
+        and np.ptp(values := table.columns[:, index]) <= 0.02 * values.mean()
+    ]
+    return facts.shaft_speed_in([*named, *steady], table.name)
 
 
 def _text(one: Named) -> str:

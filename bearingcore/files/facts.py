@@ -80,10 +80,10 @@ _SEVERAL = re.compile(
     r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
 )
 _WITH_UNIT = re.compile(
-    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*(k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min)?\W*",
-    re.IGNORECASE,
+    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*", re.IGNORECASE
 )
-"""A number with the unit of a rate or a speed, with no mark before it or no name."""
+_OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
+"""A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
 
 _RATES = {
     "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
@@ -105,6 +105,7 @@ _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
     "motorspeed", "drehzahl",
 }  # fmt: skip
+_KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
@@ -121,7 +122,7 @@ FASTEST_IN_HZ = 150.0
 
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
-    kept = [line.strip() for line in islice(lines, MOST_REMARKS)]
+    kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
     under = [one for pair in pairwise(kept) for one in _under(*pair)]
     return [*(one for line in kept for one in _in_line(line)), *under]
 
@@ -149,11 +150,11 @@ def _in_line(line: str) -> Iterator[Named]:
         found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
     for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
         match = _WITH_UNIT.fullmatch(part.strip())
-        if match is not None and match[3]:
+        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
             turns = unit_named(match[3]) == "rpm"
             found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and _key(match[1]) in _RATES | _SPEEDS | {"rpm"}:
-            found.append((match[1], match[2], None))
+        elif match is not None and match[1] and _key(match[1]) in _KNOWN:
+            found.append((match[1], match[2], match[3]))
     for name, text, unit in found:
         value = _number(text)
         if value is not None:
@@ -163,8 +164,12 @@ def _in_line(line: str) -> Iterator[Named]:
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
     keys = {_rate_key(one.name) for one in named_in([line])}
-    known = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS
-    return bool(keys & known) or any("rpm" in key for key in keys) or ":" in line or "=" in line
+    return (
+        bool(keys & (_KNOWN | _LOADS))
+        or any("rpm" in key for key in keys)
+        or ":" in line
+        or "=" in line
+    )
 
 
 def _number(text: str) -> float | None:
@@ -190,7 +195,9 @@ def _rate_key(name: str) -> str:
     return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
 
 
-_OTHER_RATE = re.compile(r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf")
+_OTHER_RATE = re.compile(
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf|f_?max|lines|baud|bit"
+)
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -218,7 +225,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         return dataclasses.replace(first, stated=False)
     for one in named:
         value = one.value * (1e3 if one.unit == "kHz" else 1.0)
-        likely = _key(one.name) == "rate" or one.unit in ("Hz", "kHz")
+        likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
         if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
             return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
     match = re.search(

@@ -279,10 +279,16 @@ def questions(table: Table) -> dict[str, str]:
         asked["columns"] = _which_column(table)
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
-        trouble = contents.sampling.trouble if contents.sampling is not None else ""
+        trouble = _trouble(table)
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
     return asked
+
+
+def _trouble(table: Table) -> str:
+    """What is wrong with the times of the file."""
+    sampling = table.contents.sampling
+    return "" if sampling is None else sampling.trouble
 
 
 NO_SIGNAL = "Which column is the signal? Say it above the column."
@@ -412,7 +418,7 @@ def read_form(
         try:
             numbers[name] = _read(name, texts)
         except ValueError as error:
-            refused[name] = str(error)
+            refused[name] = f"{_trouble(table) if name == 'sample_rate' else ''} {error}".strip()
     roles, _ = roles_and_units(texts["columns"])
     chosen = {role: index for index, role in enumerate(roles) if role in DIRECTIONS}
     if not chosen:

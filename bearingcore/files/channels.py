@@ -35,7 +35,17 @@ _PHRASES = (
 )
 _NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
 _NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no", "tach", "pulse", "pulses"}
-_NOT_SIGNALS |= {"keyphasor", "keyphaser", "trigger", "encoder", "microphone", "mic"}
+_NOT_SIGNALS |= {"keyphasor", "keyphaser", "trigger", "encoder", "microphone", "mic", "temperatur"}
+_NOT_SIGNALS |= {
+    "drehzahl",
+    "strom",
+    "drehmoment",
+    "druck",
+    "pressure",
+    "power",
+    "humidity",
+    "flow",
+}
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
     "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
@@ -89,7 +99,7 @@ class Choice:
 
 def column_of(name: str) -> Column:
     """Meaning of a column by its heading."""
-    words = words_of(name)
+    words = words_of(name) | words_of(re.sub(r"(?<=[a-z])(?=[XYZ]\b)", " ", name))
     unit = unit_in(name)
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
@@ -109,7 +119,10 @@ def column_of(name: str) -> Column:
     if other or (unit is not None and unit not in UNITS):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
-    return Column(name, SIGNAL, unit, direction, place_in(name))
+    place = place_in(name)
+    if place and re.search(r"[\s_.]V$", name):
+        unit, direction = None, "y"  # the vertical one at a place, no voltage
+    return Column(name, SIGNAL, unit, direction, place)
 
 
 def names_a_frequency(name: str) -> bool:

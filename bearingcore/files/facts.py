@@ -13,7 +13,15 @@ from dataclasses import dataclass
 from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
-from bearingcore.files.units import FORCES, SPEEDS, TIMES, unit_in, unit_named
+from bearingcore.files.units import (
+    FORCES,
+    SPEEDS,
+    STANDARD_GRAVITY,
+    TIMES,
+    VOLTAGES,
+    unit_in,
+    unit_named,
+)
 
 T = TypeVar("T")
 
@@ -139,13 +147,14 @@ def _under(names: str, values: str) -> Iterator[Named]:
 def _in_line(line: str) -> Iterator[Named]:
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
-    if match is not None:
-        found = [match.groups()]
-    elif len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None:
-        # of each channel the same, or the settings of an instrument beside its numbers
-        others = {cell for cell in cells[1:] if cell}
-        alone = len(others) == 1 or not cells[2]
-        found = [(cells[0], cells[1], None)] if alone else []
+    several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
+    # of each channel the same, or the settings of an instrument beside its numbers
+    if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
+        found: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
+    elif match is not None:
+        found = [(match[1], match[2], match[3])]
+    elif several:
+        found = []
     else:
         found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
     for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
@@ -299,6 +308,24 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
         and math.isfinite(one.value)
         and one.value > 0.0
     }
+
+
+_SENSITIVITY = re.compile(
+    rf"(?i)(sensitivity|empfindlichkeit|sensibilit\w+)\b.{{0,30}}?({_NUMBER})\s*"
+    r"(mV|V)\s?(?:/|per)\s?(g|\(?m/?s\S{0,3}[2²])"
+)
+
+
+def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
+    """[V/(m/s²)] where all lines that say one say the same."""
+    found: dict[float, str] = {}
+    for match in filter(None, map(_SENSITIVITY.search, lines)):
+        per = STANDARD_GRAVITY if match[4].lower() == "g" else 1.0
+        if value := _number(match[2]):
+            found[value * VOLTAGES["V" if match[3] in "Vv" else "mV"] / per] = (
+                f"“{match[1]}” in the file"
+            )
+    return Finding(*found.popitem()) if len(found) == 1 else None
 
 
 _UNITS = {

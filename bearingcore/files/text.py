@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
-from bearingcore.files.facts import named_in, names_a_fact
+from bearingcore.files.facts import named_in, names_a_fact, units_said
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -41,8 +41,8 @@ SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
 READABLE = (
-    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, Parquet, or "
-    "a zip of one of these; export it as CSV where it is none of them"
+    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
+    "Parquet, or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
 
@@ -86,8 +86,6 @@ def read_text(
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    if re.match(rb"\s*\[[\s\[]*-?\.?\d", content):  # a list, as Python and JSON write it
-        content = content.replace(b"],", b"\n").translate(None, b"[]")
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
@@ -120,6 +118,8 @@ def read_text(
             f"at most {most_numbers}; split it by rows and join the parts",
         )
     headings = _headings(remarks, style, read)
+    if headings and any(column_of(name).role == TIME for name in headings):
+        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if len(kept) < width and kept:
         read = read[:, kept]
@@ -229,6 +229,8 @@ class _Style:
 
     def plain(self, text: str) -> str:
         """Text with points in its numbers, without quotation marks, times as seconds."""
+        if self.delimiter == "," and _QUOTED_DECIMALS.search(text):
+            text = re.sub(r'("[-+]?\d*),(\d+(?:[eE][-+]?\d+)?")', r"\1.\2", text)
         if '"' in text:
             text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text).replace('"', "")
         if " sec" in text:
@@ -249,7 +251,8 @@ class _Style:
 
 
 _QUOTED = re.compile(r'"-?\d{1,3}(?:,\d{3})+(?:\.\d*)?"')
-"""A number with commas between thousands."""
+_QUOTED_DECIMALS = re.compile(r'"[-+]?\d*,(?:\d{1,2}|\d{4,})(?:[eE][-+]?\d+)?"')
+"""A number with commas between thousands, and one with a comma that can only be a decimal one."""
 
 _STYLES = (
     _Style(";", True),
@@ -367,6 +370,10 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
         return ()
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
+    if any(
+        word and not re.search(r"[^\W\d]", cell) for word, cell in zip(words, rows[0], strict=False)
+    ):
+        return ()  # "000125 −0" between two commas of decimals
     return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
 
 
@@ -390,7 +397,7 @@ def _decoded(line: bytes) -> str:
     try:
         return line.decode().rstrip("\r\n")
     except UnicodeDecodeError:
-        return line.decode("latin-1").rstrip("\r\n")
+        return line.decode("cp1252", "replace").rstrip("\r\n")
 
 
 def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
@@ -470,17 +477,15 @@ def _headings(
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    if len(lines) > 1 and all(_is_unit(cell) for cell in names):
+    if len(lines) > 1 and _are_units(names):
         above = _names(lines[-2], style, columns)
         if above is not None:
             names = [
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
                 for name, unit in zip(above, names, strict=True)
             ]
-    elif width > 1 and {"s", "ms", "µs"} & {unit_named(cell) for cell in names}:
-        units = [unit_named(cell.strip("[]() ")) for cell in names]
-        if all(units):  # the only line above the numbers
-            names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
+    elif width > 1 and all(units := [_unit_alone(cell) for cell in names]):
+        names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
     given = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
         return None  # numbers beside the settings of an instrument
@@ -496,12 +501,16 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Whether a line says something else than the names of columns."""
     if width > 1:
         single = [cell for cell in _cells(line, style.delimiter) if cell]
-        said = any(re.search(r"[:=]", cell) for cell in single[:1])
+        said = ":" in line or "=" in line
         if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
             return False  # "Ch 1: acc [g], Ch 2: acc [g]"
+        if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+            return True
         return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
     if unit_in(line) in UNITS and re.search(r"[\[(]", line):
         return False
+    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]", line):
+        return True  # a name and what it is
     said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
     return said or bool(named_in([line]))
 
@@ -522,8 +531,18 @@ _WORDS_OF_A_ROW = {
 _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
-def _is_unit(cell: str) -> bool:
-    return bool(_UNIT_LIKE.fullmatch(cell)) or unit_named(cell.strip("[]() ")) is not None
+def _are_units(cells: Sequence[str]) -> bool:
+    """Whether a line is of units: known ones, and others that look like one."""
+    like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
+    known = [_unit_alone(cell) is not None for cell in cells]
+    return any(known) and all(a or b for a, b in zip(like, known, strict=True))
+
+
+def _unit_alone(cell: str) -> str | None:
+    """The unit that a cell is; a letter without brackets is one as it is written alone."""
+    bare = cell.strip("[]() ")
+    unit = unit_named(bare)
+    return unit if len(bare) > 1 or bare in ("g", "s", unit) or bare != cell else None
 
 
 _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
@@ -563,9 +582,10 @@ def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] 
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
-    """Whether cells are a name and its number, such as "block 3", and no two names of columns."""
-    numbers = [bool(cell) and _number(cell) is not None for cell in cells]
-    return numbers == [False, True] and bool(cells[0]) and column_of(cells[0]).role != TIME
+    """Whether cells are a name and its number, such as "block 3", and no names of columns."""
+    values = set(cells[1:])
+    same = len(values) == 1 and "" not in values and _number(*values) is not None
+    return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
 
 
 def _counts_rows(column: NDArray[np.float64]) -> bool:

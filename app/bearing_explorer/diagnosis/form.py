@@ -109,12 +109,14 @@ class FormResult:
 def guess(table: Table) -> dict[str, str]:
     """The first values of the form: what the file says, and good guesses."""
     contents = table.contents
-    rate = contents.sample_rate
+    rate, sensor = contents.sample_rate, contents.sensitivity
     return {
         "columns": APART.join(roles_of(table)),
         "unit": _unit(table),
         "full_scale": "1",
-        "sensitivity": NOT_KNOWN,
+        "sensitivity": NOT_KNOWN
+        if sensor is None
+        else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}",
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
@@ -256,7 +258,8 @@ def reasons(table: Table) -> dict[str, str]:
         found["unit"] = "By the heading of each column, or as given over it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
-    found["sensitivity"] = "See the label of the sensor."
+    sensor = contents.sensitivity
+    found["sensitivity"] = "See the label of the sensor." if sensor is None else _because(sensor)
     found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     if contents.frequencies:
         found["bearing"] = "Its frequencies are in the file."

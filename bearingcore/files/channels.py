@@ -27,6 +27,9 @@ _PLACES = {
     "base": "base",
     "gearbox": "gearbox",
 }
+PLACES = tuple(dict.fromkeys(_PLACES.values()))
+"""Places of sensors that names of columns may say."""
+
 _PHRASES = (
     ("nondriveend", "non-drive end"),
     ("oppositedriveend", "non-drive end"),

@@ -100,7 +100,7 @@ def read(
 
 
 def _unzipped_alone(name: str, content: bytes) -> bytes:
-    """What gzip packed."""
+    """Unpack what gzip packed."""
     try:
         made = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
     except zlib.error:

@@ -99,9 +99,9 @@ TABS = {
     "Machine: Rotor and support": (2, 0, None, None),
     "Machine: Life": (1, 0, None, None),
     "Diagnosis": (2, 0, lambda _: "No signal yet", None),
-    "Accuracy": (2, 10, None, None),
+    "Accuracy": (2, 1, None, None),
     "More: Explore": (1, 4, None, "Depth"),
-    "More: Over speed": (3, 2, None, "Length of the defect"),
+    "More: Over speed": (2, 2, None, "Length of the defect"),
     "More: Paper": (1, 0, None, None),
 }
 LONG = ("More: Explore", "More: Over speed", "Diagnosis", "Accuracy", "More: Paper")
@@ -386,19 +386,14 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 
 
 @pytest.mark.proof
-def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
+def test_a_fast_shaft_is_unstable_and_a_long_run_is_cancelled(desk: Visitor) -> None:
     desk.begin("More: Over speed")
     desk.reads(re.compile("Stable orbit"))
     desk.type("Shaft speed", "30")
     desk.reads(re.compile("Unstable"))
     desk.press("Undo")
-    desk.choose("Fineness", "13 × 13")
-    desk.press("Compute the map")
-    desk.reads(re.compile("13 × 13 points after"))
-    desk.steady()
-    assert len(desk.figures()) >= 2
-    desk.choose("Fineness", "97 × 97")
-    desk.press("Compute the map")
+    desk.choose("Speeds", "193")
+    desk.press("Run up")
     cancel = desk.main.get_by_role("button", name="Cancel").last
     expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
@@ -620,9 +615,17 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     visitor.open(FAN_RIG + "accuracy")
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
-    visitor.look_over()
-    visitor.wait(lambda: "blank" not in visitor.figures() and len(visitor.figures()) > 8)
-    visitor.choose("What to measure", "Cage angles")
+    for charts, words in (
+        ("Balls with mass", "Massless balls, and steps of heavy ones"),
+        ("Stability", "The factor by which a ball pass"),
+        ("Statics", "Solvers, against energy minima"),
+    ):
+        visitor.choose("Charts of", charts)
+        expect(visitor.main.get_by_text(re.compile(words))).to_be_visible()
+        visitor.look_over()
+        visitor.wait(lambda: "blank" not in visitor.figures())
+    visitor.choose("Charts of", "Motion")
+    visitor.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
     before = visitor.figures()
     visitor.press("Measure on this machine")
     visitor.reads(re.compile(r"\d+ points after"))

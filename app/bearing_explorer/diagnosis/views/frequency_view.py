@@ -100,7 +100,6 @@ class FrequencyView(LookView, MeasuredView):
 
     prefix: ClassVar[str]
     needs = frozenset({"spectra"})
-    without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)

@@ -74,7 +74,6 @@ class MeasuredSpectrogram(LookView, MeasuredView):
         "steady run-up or run-down give the shaft speed at the end, and check in the spectrogram "
         "that the dashed line lies on a line of the shaft."
     )
-    without_size = True
     look_fields = FIELDS
     first_look: ClassVar[dict[str, Any]] = {"map": "spectrogram", "of": "signal", "last": ""}
 

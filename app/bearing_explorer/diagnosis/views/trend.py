@@ -108,7 +108,6 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         "they are more than noise, all in the band of the last file; one there need not be the "
         "bearing's. An extent is there where a damaged race is named."
     )
-    without_size = True
     finds_speed = True
     start = "Compute the trend"
     bounds = "Takes up to some seconds a file."
@@ -146,7 +145,7 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
     def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
-            raise ValueError(self.why_nothing or NOTHING)
+            raise ValueError(NOTHING)
         series, machine = measurement.series, measured.machine
         text = given.get("baseline", "").strip() or "1"
         number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
@@ -276,7 +275,7 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
     def sentence(self, model: Model) -> str:
         measured, found = self.measured, self.found
         if measured is None or self.measurement is None:
-            return self.why_nothing
+            return ""
         if found is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."

@@ -26,7 +26,7 @@ from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.messages import UploadBegins, UploadPiece
-from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, entry, row, select
@@ -45,7 +45,6 @@ FORMATS = (
     f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
     "become a trend; parts of one signal can be joined."
 )
-_MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 
 
@@ -105,27 +104,15 @@ class MeasurementForm(pn.Column):
             name: "none" if math.isinf(level) else f"{level:.0f} dB"
             for name, level in sorted(NOISES.items(), key=lambda item: item[0] != "20")
         }
-        pits = {
-            name: "the scene's" if length is None else f"pit of {name} mm, balls with mass"
-            for name, length in PITS.items()
-        }
-        machines = {name: _MACHINE_WORDS[name] for name in MACHINES}
-        lists = [
-            select(label, list(options.items()), css_classes=["beside", kind])
-            for label, kind, options in (
-                ("Noise below the signal", "noise", noises),
-                ("Machine", "machine", machines),
-                ("Defect", "pit", pits),
-            )
-        ]
+        noise = select("Noise below the signal", list(noises.items()), css_classes=["beside"])
 
         def simulate() -> None:
             if self._measurement is not None:
-                self._measurement.simulate(*(chosen.value for chosen in lists))
+                self._measurement.simulate(noise.value)
 
         note = "Uses the current scene; the true size is shown for comparison."
         return pn.Column(
-            row(button("Simulate a signal", simulate, css_classes=["simulate"]), *lists),
+            row(button("Simulate a signal", simulate, css_classes=["simulate"]), noise),
             _text(note, css_classes=["note"]),
             **_WIDE,
         )

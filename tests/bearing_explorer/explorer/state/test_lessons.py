@@ -564,8 +564,8 @@ def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
         lesson.begin(editor)
         editor.choose(message["choose"])
         editor.set(message["typed"])
-        assert message["simulate"] == {"noise": "20", "machine": "same", "pit": "scene"}
-        made = simulated(editor.scene, 20.0, False, 1)
+        assert message["simulate"] == {"noise": "20"}
+        made = simulated(editor.scene, 20.0, 1)
         found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed, slip=SLIP)
     assert {truth: one.fault for truth, one in found.items()} == {
         "outer race": "outer race", "inner race": "inner race", "none": "none seen",

@@ -1,16 +1,14 @@
-"""What the Diagnosis tab draws besides the part: measured beside simulated, and candidates."""
+"""What the Diagnosis tab draws of a signal: measured beside simulated."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 import re
-import time
 
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import answered
-from bearing_explorer.diagnosis.measurement_state import Sized
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured, Origin, Simulated
 from bearing_explorer.diagnosis.views.frequency_lines import (
@@ -24,13 +22,9 @@ from bearing_explorer.diagnosis.views.frequency_view import MOST_LINES, curves
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.sizing import BEFORE, DefectSize, compute, has_answer, status
-from bearing_explorer.diagnosis.widgets.candidates import rows, table_html
-from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Recording, Spectrum, presets
-from bearingcore.diagnosis.size.answer import AT_MOST, SizingStatus
 from tests.helpers.measuring import at, measuring, signal
 
 RIG = presets["fan-rig"]
@@ -41,22 +35,6 @@ def view_of(kind, measured: Measured | None = None):
     made = kind(PackedSource())
     made.measure(measuring(measured))
     return made
-
-
-def worked() -> Work:
-    work = Work()
-    work.started = time.monotonic()
-    return work
-
-
-@pytest.fixture(scope="module")
-def sized() -> Sized:
-    """The answer about a simulated signal at 20 dB."""
-    work = worked()
-    words = compute(work, signal(), signal().scene(RIG), support_known=True)
-    assert "was tried" in words
-    (found,) = work.taken()
-    return found
 
 
 # -- lines and their names -------------------------------------------------------------------------
@@ -214,118 +192,7 @@ def test_odd_recordings_are_drawn_too(rate):
         assert any(column.size for columns in data.values() for column in columns.values())
 
 
-# -- the size --------------------------------------------------------------------------------------
-
-
-def test_candidates_are_listed_with_the_truth_at_the_nearest(sized):
-    listed = rows(sized)
-    assert [row["extent_deg"] for row in listed] == sorted(row["extent_deg"] for row in listed)
-    assert sum(row["probability"] for row in listed) == pytest.approx(1.0)
-    assert [row["truth"] for row in listed].count("12.9°") == 1
-    best = max(listed, key=lambda row: row["probability"])
-    assert best["truth"] == "12.9°"
-    assert re.search(r'<i style="width: [\d.]+%"></i>.*\d %', table_html(listed, 0))
-    # below "No clear result" nothing looks like a verdict
-    unclear = dataclasses.replace(sized.sizing, status=SizingStatus.UNEXPLAINED)
-    unlisted = table_html(rows(dataclasses.replace(sized, sizing=unclear)), 0)
-    assert set(re.findall(r'class="percent">([^<]*)|style="width: ([\d.]+)', unlisted)) == {
-        ("", ""), ("", "0.0")
-    }  # fmt: skip
-    unknown = dataclasses.replace(sized.measured, true_extent=None)
-    assert {row["truth"] for row in rows(dataclasses.replace(sized, measured=unknown))} == {""}
-    # 12.9° on a race of 26.5 mm or so: sizes are given in mm too
-    assert re.fullmatch(r"[56]\.\d+ mm", best["length"])
-    assert best["length"] in status(sized)["words"]
-    # from entry to exit, at 7 Hz: the knocks in the signal stand closer
-    said = re.fullmatch(r"entry to exit Δt = ([\d.]+) ms", status(sized)["details"][0])
-    assert float(said[1]) == pytest.approx(12.45, abs=0.15)
-
-
-def test_balls_enter_at_zero_and_leave_as_geometry_says(sized):
-    view = view_of(DefectSize, signal())
-    view._draw = lambda: None
-    view._take(sized)
-    sources, ranges = view.all_data(MODEL)
-    begin, end = ranges["sizing_time"]
-    period = 1.0 / sized.sizing.passes.frequency
-    assert end - begin == pytest.approx(period)
-    assert begin == pytest.approx(-BEFORE * period)
-    entry, leave = sources["sizing_events"]["time"]
-    assert entry == pytest.approx(0.0, abs=1e-6 * period)
-    assert leave == pytest.approx(math.radians(12.9) / RIG.cage_speed, abs=0.3e-3)
-    measured, model = (sources[f"sizing_pass_{who}_y"] for who in ("measured", "candidate"))
-    assert measured["time"][0] >= begin
-    left = np.std(measured["size"] - model["size"]) / np.std(measured["size"])
-    assert left < 0.2
-
-
-def test_the_answer_belongs_to_its_signal_and_its_scene(sized):
-    view = view_of(DefectSize, signal())
-    view._draw = lambda: None
-    view._take(sized)
-    assert "true extent is 12.9°" in view.sentence(MODEL)
-    larger = Model(RIG.replace(extent=0.7))
-    assert "has changed" not in view.sentence(larger)  # the extent is not looked at
-    assert "has changed" in view.sentence(Model(RIG.replace(fy=-300.0)))
-    view.measurement.measured = Measured(signal().recording, at(RIG))
-    assert view.sentence(MODEL) == "The size has not been estimated yet."
-    assert not view.all_data(MODEL)[1]
-
-
-def test_where_the_signal_cannot_tell_the_page_says_so():
-    noise = np.random.default_rng(4).standard_normal((20_000, 2))
-    measured = Measured(Recording(noise, 20_480.0), at(RIG))
-    work = worked()
-    assert compute(work, measured, RIG) == "There is no size to look for."
-    (found,) = work.taken()
-    view = view_of(DefectSize, measured)
-    view._draw = lambda: None
-    view._take(found)
-    assert "no damage" in view.sentence(MODEL).lower()
-    assert view.measurement.sized is None
-
-
-def test_an_answer_at_the_edge_of_the_search_is_a_bound(sized):
-    sizing = dataclasses.replace(sized.sizing, status=SizingStatus.AT_MOST)
-    most = math.degrees(sizing.end(AT_MOST))
-    line = status(dataclasses.replace(sized, sizing=sizing))
-    assert (line["mood"], line["words"]) == (
-        "good", f"The defect extends over {most:.1f}° at most"
-    )  # fmt: skip
-    assert has_answer(sizing)
-    assert not has_answer(dataclasses.replace(sizing, status=SizingStatus.SEVERAL))
-
-
-def test_a_sizing_can_be_given_up_and_refusals_are_sentences():
-    work = worked()
-    work.stop()
-    assert (
-        compute(work, signal(), RIG.replace(fy=-101.0), support_known=True)
-        == "There is no answer yet."
-    )
-    assert not work.taken()
-    inner = RIG.replace(race="inner")
-    with pytest.raises(ValueError, match=r"Not possible: .*outer"):
-        compute(worked(), signal(), inner, support_known=True)
-    short = Measured(Recording(signal().recording.acceleration[:2000], 25_600.0), at(RIG))
-    with pytest.raises(ValueError, match=r"Not possible: .*ball passes"):
-        compute(worked(), short, RIG, support_known=True)
-
-
-# -- before a signal, and before its unit is known -------------------------------------------------
-
-
-@pytest.mark.parametrize(("unit", "asked"), [("", "unit"), ("V", "sensitivity")])
-def test_what_needs_sizes_waits_for_the_answer(unit, asked):
-    origin = Origin("a.csv", (1,), unit, 1.0)
-    view = view_of(DefectSize, dataclasses.replace(signal(), in_si=False, origin=origin))
-    view.say(MODEL, view.sentence(MODEL))
-    assert re.match(rf"(Choose|Enter) the {asked} .*above to see this", view._sentence.text)
-    assert not view.hidden.visible
-    assert all(not column.size for columns in view.all_data(MODEL)[0].values()
-               for column in columns.values())  # fmt: skip
-    assert view.table(MODEL) == {}
-    assert "above to see this" in view.python()
+# -- units ----------------------------------------------------------------------------------------
 
 
 def test_a_signal_is_drawn_in_the_unit_of_its_file():

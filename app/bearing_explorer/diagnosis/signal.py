@@ -44,7 +44,8 @@ class Origin:
 
     `unit` is None where the columns have units of their own, empty where it is not known.
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave, `parts` are the files that were joined to this one.
+    meaning of columns that a person gave, `parts` are the files that were joined to this one,
+    `place` is that of the sensors, as given or by the file.
     """
 
     file: str
@@ -54,6 +55,7 @@ class Origin:
     sensitivity: float | None = None
     given: Mapping[int, Column] = field(default_factory=dict)
     parts: tuple[str, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True, eq=False)

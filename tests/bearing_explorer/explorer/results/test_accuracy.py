@@ -71,7 +71,7 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     results = Results(presets[preset])
     view.say(results, view.sentence(results))
     base = shipped(preset)
-    for one, chart in view._charts:
+    for one, chart in (pair for pairs in view._charts.values() for pair in pairs):
         words = html.unescape(chart._words.object)
         assert chart.plot.visible or base.refused.get(one.experiment, NOT_YET) in words
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}

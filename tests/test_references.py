@@ -38,6 +38,7 @@ FILE_ENDS = {
 LIBRARIES = {
     "np": "numpy",
     "pn": "panel",
+    "hv": "holoviews",
     "figure": "bokeh.plotting.figure",
     "Document": "bokeh.document.Document",
 }

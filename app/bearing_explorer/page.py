@@ -13,6 +13,7 @@ from urllib.parse import urlencode
 import panel as pn
 
 from bearing_explorer.kit.assets import asset_text, scripts
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.half import Half, Section
 from bearing_explorer.kit.plots.theme import dark_properties, themes
@@ -68,8 +69,13 @@ class Halves:
     """
 
     def __init__(self, address: str = "", lessons: Any = ()) -> None:
-        self.explorer = scene and scene.Explorer(scene.SECTIONS, address=address, lessons=lessons)
-        self.diagnosis = signal and signal.DiagnosisOfSignal(signal.SECTIONS, self._scene_of_signal)
+        bearings = BearingTable()
+        self.explorer = scene and scene.Explorer(
+            scene.SECTIONS, address=address, lessons=lessons, bearings=bearings
+        )
+        self.diagnosis = signal and signal.DiagnosisOfSignal(
+            signal.SECTIONS, self._scene_of_signal, bearings
+        )
         halves: dict[Section, Half] = {}
         for section in SECTIONS:
             of_signal = signal and section in signal.SECTIONS

@@ -1,9 +1,20 @@
 // The bar above the controls. What changes the scene carries the number of the change, as the sliders
-// do.
+// do. Scenes are kept in this browser and are checked before they are used.
 
+const KEPT = "bearing-explorer.kept.1"
+const MOST_KEPT = 50
 const MOST_COMPARED = 4
 const LONGEST_NAME = 60
 const LARGEST_FILE = 2e6  // bytes
+
+function read_kept() {
+  try {
+    return JSON.parse(localStorage.getItem(KEPT) ?? "[]").slice(0, MOST_KEPT)
+      .map(({ name, text }) => ({ name: String(name).slice(0, LONGEST_NAME), text: String(text) }))
+  } catch {
+    return []  // not allowed to look, or not what was written here
+  }
+}
 
 export function render({ model }) {
   const asks = (message) => () => ask(model, message)
@@ -24,6 +35,7 @@ export function render({ model }) {
     back: asks({ back: true }),
     reset: asks({ reset: true }),
     copy,
+    keep: () => model.send_msg({ keep: name.value || name.placeholder }),
     report: () => asks_report(false),
     toml: () => model.send_msg({ want: "toml" }),
     close: () => { part("notice").hidden = true },
@@ -50,20 +62,44 @@ export function render({ model }) {
     })
   on_event("scene-file", root, take_scene)
 
-  // Scenes with names that are drawn too
+  // Scenes with names that are drawn too, and those that are kept
   part("compare-form").addEventListener("submit", (event) => {
     event.preventDefault()
     ask(model, { compare_here: name.value })
     name.value = ""
   })
+  const tool = (words, title, act, attributes = {}) => button(words, act, { title, ...attributes })
   const list_compared = (names) => part("compared").replaceChildren(...names.map((own, number) => {
     const box = element("input", { type: "text", maxlength: String(LONGEST_NAME), "aria-label": `Name of curve ${number + 1}` })
     box.value = own
     box.addEventListener("change", () => ask(model, { number, rename: box.value }))
     return element("li", {}, element("i", { class: `line line-${number}`, "aria-hidden": "true" }), box,
-      button("\u00d7", asks({ number, remove: true }),
-        { title: `Compare “${own}” no longer`, "aria-label": `Remove curve “${own}”` }))
+      tool("\u00d7", `Compare “${own}” no longer`, asks({ number, remove: true }),
+           { "aria-label": `Remove curve “${own}”` }))
   }))
+  const save_kept = (items) => {
+    try {
+      localStorage.setItem(KEPT, JSON.stringify(items))
+    } catch {
+      say("This browser has no room for scenes, or may not keep them. Save it as a file instead, under Share.")
+      return false
+    }
+    list_kept()
+    return true
+  }
+  const list_kept = () => {
+    const items = read_kept()
+    part("kept").replaceChildren(...items.map((item) => element("li", {},
+      tool(item.name, `Open “${item.name}”`, asks({ open: item }), { class: "open" }),
+      tool("Compare", `Draw “${item.name}” too`, asks({ compare: item }), { "aria-label": `Compare “${item.name}”` }),
+      tool("\u00d7", `Remove “${item.name}”`, () => {
+        save_kept(read_kept().filter((other) => other.name !== item.name))
+        name.focus()
+      }, { "aria-label": `Remove “${item.name}”` }))))
+    part("kept-words").textContent = items.length ? "Kept scenes: open or compare one."
+      : "No scene is kept in this browser yet."
+  }
+  window.addEventListener("storage", (event) => { if (event.key === KEPT) list_kept() })
 
   const place_of = (text) => {
     const said = new URLSearchParams(text)
@@ -110,10 +146,18 @@ export function render({ model }) {
     console.warn("the report could not be made", error)
     say("The report could not be made.")
   }
-  model.on("msg:custom", ({ file: saved, report: page }) => {
+  model.on("msg:custom", ({ file: saved, kept, report: page }) => {
     if (saved) {
       save_file(saved.name, saved.text, saved.type)
       say_saved(saved.name)
+    }
+    if (kept) {
+      const others = read_kept().filter((item) => item.name !== kept.name)
+      if (others.length >= MOST_KEPT) say(`${MOST_KEPT} scenes are kept; remove one first.`)
+      else if (save_kept([kept, ...others])) {
+        name.value = ""
+        part("kept-words").textContent = `“${kept.name}” is kept in this browser.`
+      }
     }
     if (page === null) failed("on the server")
     else if (page) make_report(page).then(say_saved, failed)
@@ -130,5 +174,6 @@ export function render({ model }) {
     event.preventDefault()
     part(wanted).click()  // one that is disabled does nothing
   })
+  list_kept()
   return root
 }

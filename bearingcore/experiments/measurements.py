@@ -20,32 +20,24 @@ from bearingcore.common.progress import CancelledError
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import usable_methods
-from bearingcore.experiments.models import models_experiment
 from bearingcore.experiments.motions import motion_experiment
+from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
 from bearingcore.experiments.points import RIGHT, Experiment, Watch
-from bearingcore.experiments.stability import (
-    OrbitAtSpeed,
-    StabilityChart,
-    orbits_over_speed,
-    stability_chart,
-)
-from bearingcore.experiments.statics import angles_experiment, statics_experiment
+from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
 
 PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
 
-STABILITY, ORBITS = "stability", "orbits"
+ORBITS = "orbits"
 EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "motion": lambda scene, watch, slow: motion_experiment(
         scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
     ),
-    "models": lambda scene, watch, _: models_experiment(scene, duration=0.2, watch=watch),
     "balls": lambda scene, watch, _: balls_experiment(scene, duration=0.25, watch=watch),
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
-    "angles": lambda scene, watch, _: angles_experiment(scene, watch=watch),
 }
 """Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
-MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
+MEASURED = (*EXPERIMENTS, ORBITS)
 """Everything that can be measured."""
 
 
@@ -116,8 +108,6 @@ class Measurements:
         what it was measured on.
     experiments
         by their names in EXPERIMENTS.
-    stability
-        verdicts over steps, if measured.
     orbits
         the periodic motion over the shaft speed, if measured.
     refused
@@ -127,16 +117,13 @@ class Measurements:
     preset: str
     machine: Machine
     experiments: dict[str, Experiment] = field(default_factory=dict)
-    stability: StabilityChart | None = None
     orbits: tuple[OrbitAtSpeed, ...] = ()
     refused: dict[str, str] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
         """Number of points in all."""
-        trials = self.stability.trials if self.stability is not None else ()
-        points = sum(len(one.points) for one in self.experiments.values())
-        return points + len(trials) + len(self.orbits)
+        return sum(len(one.points) for one in self.experiments.values()) + len(self.orbits)
 
     def table(self) -> ResultTable:
         """A row for each point of the experiments: errors under their names, NaN for the others."""
@@ -249,8 +236,6 @@ def measure(
 
 def _with(found: Measurements, name: str, scene: Scene, watch: Watch, slow: bool) -> Measurements:
     scene = scene.replace(balls=MASSLESS)
-    if name == STABILITY:
-        return replace(found, stability=stability_chart(scene, duration=0.1, watch=watch))
     if name == ORBITS:
         return replace(found, orbits=orbits_over_speed(scene, watch))
     one = EXPERIMENTS[name](scene, watch, slow)

@@ -53,7 +53,7 @@ PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz",
 CHOICES: dict[str, dict[str, Any]] = {
     "explore": PLANE | {"output": "k_xx_mean"},
     "speed-run": {"from": "7", "to": "9", "count": "25"},
-    "accuracy": {"experiment": "angles"},
+    "accuracy": {"experiment": "statics"},
     "diagnosis": {"speed": "rough"},
     "measured-spectrum": {"direction": "x", "scale": "linear"},
     "measured-envelope": {"low": "400", "high": "3000"},

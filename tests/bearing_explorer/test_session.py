@@ -160,7 +160,9 @@ def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch)
     assert "http://localhost:5006/?v=1&amp;preset=fan-rig" in answers[0]["report"]["html"]
 
 
-@pytest.mark.parametrize(("preset", "kinds"), [("fan-rig", {"balls"}), ("liew-lim", {"dofs"})])
+@pytest.mark.parametrize(
+    ("preset", "kinds"), [("fan-rig", {"step_rate", "balls"}), ("liew-lim", {"step_rate", "dofs"})]
+)
 def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -> None:
     """Each row of the table, in a session: its model becomes that of the scene."""
     section = (Section("accuracy", "Accuracy", (OtherModels,)),)
@@ -175,4 +177,6 @@ def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -
             view._use(name)  # type: ignore[attr-defined]
 
         explorer = session(take_it, sections=section, preset=preset)
-        assert {kind: getattr(explorer.scene, kind) for kind in changes} == changes
+        fields = {kind: value for kind, value in changes.items() if kind != "step_rate"}
+        assert {kind: getattr(explorer.scene, kind) for kind in fields} == fields
+        assert explorer.inputs.settings.step_rate == changes.get("step_rate")

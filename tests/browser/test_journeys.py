@@ -415,12 +415,18 @@ def test_a_run_up_is_drawn(desk: Visitor) -> None:
     desk.wait(lambda: desk.figures() != before)
 
 
-def test_a_bearing_is_entered_and_found_by_name(visitor: Visitor) -> None:
+def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "bearing")
     visitor.type("Number of balls", "10")
     visitor.reads(_outer_race(FAN.replace(n_balls=10)))
     visitor.find_bearing("209 harris")
     expect(visitor.box("Pitch diameter")).to_have_value("65")
+    head = "name;balls;ball_diameter_mm;pitch_diameter_mm\n"
+    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;9;x;39\n".encode())
+    visitor.reads(re.compile("line 2"))
+    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;8;7,94;39,04\n".encode())
+    visitor.find_bearing("ours")
+    expect(visitor.box("Number of balls")).to_have_value("8")
     visitor.find_bearing("6208-2RS/C3")
     visitor.reads(re.compile("Estimated from the designation"))
     visitor.type("Ball diameter", "15/32 in")
@@ -610,8 +616,8 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     visitor.reads(re.compile("Shipped"))
     visitor.reads(re.compile("Fastest within 0.1 dB"))
     for charts, words in (
-        ("Models", "Fewer directions, against all five"),
-        ("Stability", "Vertical: linear limit"),
+        ("Balls with mass", "Massless balls, and steps of heavy ones"),
+        ("Stability", "The factor by which a ball pass"),
         ("Statics", "Solvers, against energy minima"),
     ):
         visitor.choose("Charts of", charts)
@@ -619,7 +625,7 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
         visitor.look_over()
         visitor.wait(lambda: "blank" not in visitor.figures())
     visitor.choose("Charts of", "Motion")
-    visitor.choose("What to measure", "Cage angles")  # shows the charts that it is in
+    visitor.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
     before = visitor.figures()
     visitor.press("Measure on this machine")
     visitor.reads(re.compile(r"\d+ points after"))
@@ -632,9 +638,12 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     for words in rows.all_inner_texts()[1:]:
         assert re.search(r"\d (dB|%)|not known", words), words
     visitor.reads(re.compile("pays after|saves nothing"))
-    visitor.choose("Model", "balls with mass")
+    visitor.choose("Model", "half as many steps")
     visitor.press("Take it", visitor.main)
-    visitor.reads(re.compile("Computed for an earlier scene"))
+    visitor.reads(re.compile(r"Chosen steps of the motion: \d+ Hz"))
+    visitor.choose("Model", "the program's own steps")
+    visitor.press("Take it", visitor.main)
+    visitor.wait(lambda: not any("Chosen steps" in words for words in visitor.sentences()))
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------
@@ -731,7 +740,19 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
 
 
 _NAME = "<img src=x onerror=alert(1)>"
-"""Of a compared scene: a name is text, whatever it looks like."""
+"""Of a kept scene: a name is text, whatever it looks like."""
+
+
+def test_a_scene_is_kept_and_opened_again(visitor: Visitor) -> None:
+    visitor.open(FAN_RIG + "stiffness")
+    menu = visitor.menu("Compare")
+    menu.get_by_role("textbox").fill(_NAME)
+    menu.get_by_role("button", name="Keep", exact=True).click()
+    visitor.reads(_NAME, menu)
+    visitor.page.keyboard.press("Escape")
+    visitor.sees_change(lambda: visitor.type("Length of the defect", "60"))
+    visitor.menu("Compare").get_by_role("button", name=_NAME, exact=True).click()
+    expect(visitor.box("Length of the defect")).to_have_value("12.9")
 
 
 @pytest.mark.proof

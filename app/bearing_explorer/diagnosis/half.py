@@ -10,6 +10,7 @@ from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.diagnosis.views.parts import SignalParts
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.views.base import View
@@ -25,18 +26,22 @@ class DiagnosisOfSignal:
         its tabs.
     scene
         gives the scene with which a signal is compared, as it is now.
+    bearings
+        to choose from.
     """
 
-    def __init__(self, sections: Sequence[Section], scene: Callable[[], Scene]) -> None:
+    def __init__(
+        self, sections: Sequence[Section], scene: Callable[[], Scene], bearings: BearingTable
+    ) -> None:
         self.sections = tuple(sections)
-        self._scene = scene
+        self._scene, self._bearings = scene, bearings
         self._page: Page | None = None
 
     kind_of_inputs = Inputs
 
     def join(self, page: Page) -> None:
         self._page = page
-        self.measurement = Measurement(self._scene, page.assign, page.draw)
+        self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
         self._parts = SignalParts(page.jobs, page.draw, self.measurement, self._scene)
 
     def attach(self, view: View) -> None:

@@ -9,14 +9,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from bearing_explorer.kit.bearing_list import find_bearing
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.typed_number import number_of
-from bearingcore import Bearing, Scene
+from bearingcore import Bearing, CatalogueBearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span
 from bearingcore.files import FileContents, Finding
@@ -55,6 +55,9 @@ BEARING_SOURCES = {
     SIMULATED: "of the simulation",
 }  # fmt: skip
 """Where a bearing is from, in words."""
+
+find_published = BearingTable().find
+"""The published bearing of a name, or the one of a designation."""
 
 
 class Turning(NamedTuple):
@@ -198,7 +201,7 @@ def _bearing(contents: FileContents) -> dict[str, str]:
 
 def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
     """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
-    bearing = find_bearing(name).bearing
+    bearing = find_published(name).bearing
     own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
     return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
 
@@ -215,6 +218,7 @@ def read_machine(
     first: Mapping[str, str],
     contents: FileContents,
     scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
 ) -> Machine:
     """The machine that a form describes; `FormError` with sentences where it describes none.
 
@@ -228,6 +232,8 @@ def read_machine(
         of the file.
     scene
         bearing and speed of the scene, see `of_scene`: used only where the form says so.
+    find
+        gives the bearing of a name or a designation.
     """
     guessed, refused = set(), {}
     speed, source = None, texts["speed"]
@@ -256,9 +262,9 @@ def read_machine(
             name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
         elif name == BY_DESIGNATION:
             name = texts["designation"]
-            bearing = _of_designation(name)
+            bearing = _of_designation(name, find)
         elif name != NOT_KNOWN:
-            bearing = find_bearing(name).bearing
+            bearing = find(name).bearing
     except ValueError as error:
         if not {"speed", "shaft_speed"} & set(refused):  # which says it already
             field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
@@ -275,9 +281,9 @@ def read_machine(
     )  # fmt: skip
 
 
-def _of_designation(text: str) -> Bearing | None:
+def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:
     """The bearing of a designation that was typed; None before it is."""
-    return find_bearing(text).bearing if text else None
+    return find(text).bearing if text else None
 
 
 def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:

@@ -119,13 +119,13 @@ class Measurement(SignalForm):
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, kept = self._scene, self._given_machine
+        scene, find, kept = self._scene, self._bearings.find, self._given_machine
         content, request = upload.content, self._latest
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:
             try:
-                return read_file(name, content, scene, kept)
+                return read_file(name, content, scene, find, kept)
             except ValueError as error:
                 return str(error)
             except Exception:
@@ -176,7 +176,9 @@ class Measurement(SignalForm):
         given = self.state.values
         kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
         changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
+        return recordings_of(
+            self.series, shown, changed, kept, direction, self._scene, self._bearings.find
+        )
 
     def join_parts(self) -> None:
         """Make one signal of the files of the series, in their order."""
@@ -185,14 +187,14 @@ class Measurement(SignalForm):
             return
         self._latest += 1
         self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
-        scene, changed = self._scene, self._changed
+        scene, find, changed = self._scene, self._bearings.find, self._changed
 
         def join() -> Read:
             try:
                 joined = join_tables([fill(table, changed)[0] for table in tables])
             except FieldError as error:
                 raise ValueError(f"These files are not joined: {sentence_of(error)}") from None
-            found = read_of(joined, scene, {}, changed)
+            found = read_of(joined, scene, find, {}, changed)
             return replace(found, parts=tuple(table.name for table in tables))
 
         def take(found: Read) -> None:

@@ -18,6 +18,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
 from bearing_explorer.explorer.views.parts import SceneParts
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
@@ -32,6 +33,8 @@ class Explorer:
         its tabs.
     address
         the query of the page's address; it is not trusted.
+    bearings
+        to choose from.
     """
 
     def __init__(
@@ -40,13 +43,14 @@ class Explorer:
         preset: str = "fan-rig",
         address: str = "",
         lessons: Sequence[Lesson | Fault] = (),
+        bearings: BearingTable | None = None,
     ) -> None:
         self.sections = tuple(sections)
         self._page: Page | None = None
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
-        self.editor = SceneEditor(preset)
+        self.editor = SceneEditor(preset, bearings or BearingTable())
         self.bookmarks = Bookmarks(self.editor, address)
         self.requests = Requests(self.editor, self.bookmarks, lessons, self)
         self.share, self.lesson = self.requests.share, self.requests.lesson
@@ -69,6 +73,7 @@ class Explorer:
             self.editor,
             ask=self.requests.change_scene,
             add_controls=self.requests.panels.append,
+            take_steps=self._take_steps,
             open_link=self.requests.open_link,
             set_life_inputs=self._set_life_inputs,
             set_grey=self._set_grey,
@@ -127,6 +132,11 @@ class Explorer:
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
         return ForReport(results, kinds, found)
+
+    def _take_steps(self, step_rate: float | None) -> None:
+        """March motions with steps [Hz] set by hand, or None: with the program's own."""
+        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
+        self.draw()
 
     def _set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""

@@ -12,7 +12,7 @@ Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
 
 
 class SceneChange(msgspec.Struct, omit_defaults=True):
-    """A change of the scene: numbers, choices, a reset, a measured floor.
+    """A change of the scene: numbers, choices, a reset, a measured floor, a table of bearings.
 
     Attributes
     ----------
@@ -40,22 +40,25 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     released: bool = False
     turning: bool = False
     floor: TextFile | None = None
+    catalogue: TextFile | None = None
     search: str | None = None
 
 
 class LinksChange(SceneChange, omit_defaults=True):
-    """A message of the bar above the controls: steps, compared scenes, files.
+    """A message of the bar above the controls: steps, scenes that are kept or compared, files.
 
     Attributes
     ----------
     back
         to where one was before a figure of the paper or a lesson.
-    file
-        a scene that is to be opened.
+    open, file, compare
+        a scene that is to be opened, from the browser or from a file, or drawn too.
     compare_here
         the name under which the current scene is drawn too; empty for the usual one.
     number
         which of the compared scenes to `remove`, or to `rename`.
+    keep
+        the name under which the browser keeps the current scene.
     want
         kind of a file to download.
     report
@@ -67,11 +70,14 @@ class LinksChange(SceneChange, omit_defaults=True):
     undo: bool = False
     redo: bool = False
     back: bool = False
+    open: TextFile | None = None
     file: TextFile | None = None
+    compare: TextFile | None = None
     compare_here: str | None = None
     number: Annotated[int, msgspec.Meta(ge=0)] | None = None
     remove: bool = False
     rename: str | None = None
+    keep: str | None = None
     want: str | None = None
     report: str | None = None
     measured: bool = False

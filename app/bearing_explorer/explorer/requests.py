@@ -12,19 +12,24 @@ from typing import Any, NamedTuple, Protocol, TypeVar
 
 from bearing_explorer.explorer.report import report
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.address import read
-from bearing_explorer.explorer.state.bookmarks import Bookmarks, read_scene
+from bearing_explorer.explorer.state.address import Place
+from bearing_explorer.explorer.state.bookmarks import (
+    Bookmarks,
+    OpenRequest,
+    open_request_of,
+    read_request,
+)
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
-from bearing_explorer.kit.bearing_list import search_bearings
+from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.half import Page
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.views.base import View
-from bearingcore.common import LARGEST_TEXT
+from bearingcore.bearings import MOST_BYTES
 
 log = logging.getLogger(__name__)
 
@@ -115,9 +120,9 @@ class Requests:
     def change_scene(self, message: Any) -> None:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if (text := message.get("search")) is not None:
-            show = self.controls.send
+            listed, show = self.editor.listed, self.controls.send
             self._owner.page.in_background(
-                lambda: search_bearings(text), lambda found: show({"found": found})
+                lambda: listed.search(text), lambda found: show({"found": found})
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -143,6 +148,9 @@ class Requests:
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
             self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
+            self._open_file(
+                message.get("catalogue"), MOST_BYTES, read_table, self.editor.listed.take
+            )
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
@@ -197,7 +205,9 @@ class Requests:
     # The bar above the controls
 
     def change_links(self, message: Any) -> None:
-        """Take a message of the bar: steps, compared scenes, files, a report."""
+        """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
+        if "keep" in message:
+            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if "report" in message and not self._reporting:
@@ -210,16 +220,23 @@ class Requests:
         if tab:
             self._owner.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
-        self._open_file(message.get("file"), LARGEST_TEXT, read_scene, self.bookmarks.take)
+        if (wanted := open_request_of(message)) is not None:
+            self._owner.page.in_background(
+                lambda: read_request(wanted),
+                lambda found: self._taken(
+                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
+                ),
+            )
         self.change_scene(message)  # the mark, and a reset
 
     def open_link(self, name: str, text: str) -> None:
         """Open what a link of the page's own holds, and its tab."""
-        place = read(text)
-        assert place is not None, "such a link names a scene"
+        request = OpenRequest("open", name, text)
+        place = read_request(request)
         self.bookmarks.leave()
-        self._taken(self.bookmarks.take, name, place)
-        self._owner.page.show_tab({"show": place.tab})
+        self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
+        if isinstance(place, Place):
+            self._owner.page.show_tab({"show": place.tab})
 
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make a report; `base` is the address of the page without its query.

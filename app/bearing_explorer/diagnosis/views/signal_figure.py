@@ -9,6 +9,7 @@ from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, Machine, o
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearingcore import Recording, Scene
@@ -68,7 +69,7 @@ def _measurement(scene: Scene, recording: Recording, machine: Machine, in_si: bo
     async def assign(change: Any) -> None:
         change()
 
-    made = Measurement(lambda: scene, assign, lambda: None)
+    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
     bare = dataclasses.replace(recording, shaft_speed=None)
     made.measured = Measured(bare, machine, in_si=in_si)
     return made

@@ -14,7 +14,6 @@ from bearingcore import Scene, presets
 from bearingcore.experiments import (
     MEASURED,
     ORBITS,
-    STABILITY,
     Measurements,
     measure,
     measurements_from,
@@ -25,10 +24,7 @@ TRIALS = {
     EVERYTHING: "Everything",
     "motion": "Motion: steps and methods",
     "balls": "Motion: mass of balls",
-    "models": "Models",
     "statics": "Statics: solvers",
-    "angles": "Cage angles",
-    STABILITY: "Stability: steps",
     ORBITS: "Stability: orbit over speed",
 }
 """Choices of the form by name."""

@@ -60,7 +60,7 @@ from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELD
 from bearing_explorer.explorer.state.references import Reference, usual_name
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.kit.sentences import one_line, sentence_of
-from bearing_explorer.kit.serve.address import LONGEST_ADDRESS, TOO_LONG
+from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
 from bearingcore.common import real_number
@@ -70,18 +70,24 @@ from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 VERSION = "1"
 LONGEST_LINK = 7_000
 """Characters of a link: servers in front of ours take lines of 8 kB as they come."""
+LONGEST_TEXT = 2_500_000
+"""Characters that are read at the most, of what a browser has kept: a floor of any length fits."""
 _MOST_FIELDS = 400
+_MOST_ESCAPES = 100_000
 _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
 """Links that name no tab are of days when this one came first."""
-FORMER_TABS = {
+OTHER_NAMES_OF_TABS = {
     "sizing": "diagnosis",
     "ball-mass": "vibration",
     "orbits": "over-speed",
     "speed-run": "over-speed",
+    "frequencies": "modes",
+    "machine": "bearing",
+    "more": "explore",
 }
-"""Former names of tabs, in links that people have."""
+"""Former names of tabs, in links that people have, and what is written on them."""
 
 _DOFS_OF_WORD = {"auto": None, "free": TILT_FREE, "held": TILT_HELD}
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
@@ -112,10 +118,10 @@ class Place:
     compared: tuple[Reference, ...] = ()
 
 
-def write(place: Place) -> str:
-    """The text of a place; floors that make it longer than `LONGEST_LINK` are left out of it."""
+def write(place: Place, longest: int | None = None) -> str:
+    """The text of a place; floors that make it longer than `longest` are left out of it."""
     text = _written(place, False)
-    return text if len(text) <= LONGEST_LINK else _written(place, True)
+    return text if longest is None or len(text) <= longest else _written(place, True)
 
 
 def leaves_out(text: str) -> bool:
@@ -140,8 +146,10 @@ def read(text: str) -> Place | None:
 
 def _known_pairs(text: str) -> tuple[dict[str, str], str]:
     """Values of a text under names that are known, and a sentence on those that are not."""
-    if len(text) > LONGEST_ADDRESS:
+    if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
+    if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one
+        raise ValueError("It has far too many percent signs to be a scene.")
     try:
         pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
     except ValueError:
@@ -178,8 +186,8 @@ def opened(text: str, editor: SceneEditor) -> Place:
             )
     except ValueError as error:
         why = sentence_of(error)
-        if found := _TAB.search(text[:LONGEST_ADDRESS]):
-            tab = FORMER_TABS.get(found[1], found[1])
+        if found := _TAB.search(text[:LONGEST_TEXT]):
+            tab = OTHER_NAMES_OF_TABS.get(found[1], found[1])
         note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
@@ -190,7 +198,7 @@ _LESSON = re.compile(r"(?:^|&)lesson=([a-z0-9-]{1,60})(?=&|$)")
 def lesson_in(text: str) -> tuple[str, str]:
     """The lesson that an address names, or "", and the address without it."""
     text = text.removeprefix("?")
-    found = _LESSON.search(text) if len(text) <= LONGEST_ADDRESS else None
+    found = _LESSON.search(text) if len(text) <= LONGEST_TEXT else None
     if found is None:
         return "", text
     return found[1], (text[: found.start()] + text[found.end() :]).removeprefix("&")
@@ -382,7 +390,7 @@ def _read(given: dict[str, str]) -> Place:
     if said == TILT_HELD:
         own_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
-    tab = FORMER_TABS.get(tab, tab)[:40]
+    tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
 

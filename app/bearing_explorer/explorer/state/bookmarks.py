@@ -1,17 +1,20 @@
 """Scenes that a session remembers: steps to undo, compared scenes, the address.
 
 Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
-and refused with a sentence.
+and refused with a sentence. Scenes that a person keeps lie in the browser, as
+the text of `explorer.state.address` with a name; nothing of them stays on the server.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlencode
 
 from bearing_explorer.explorer.state.address import (
+    LONGEST_LINK,
+    LONGEST_TEXT,
     TAB_OF_OLD_LINKS,
     Place,
     holds_scene,
@@ -19,6 +22,7 @@ from bearing_explorer.explorer.state.address import (
     lesson_in,
     opened,
     place_of,
+    read,
     write,
 )
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
@@ -34,14 +38,34 @@ _COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in the
 _STEPS = ("set", "typed", "second", "choose", "reset", "floor")
 
 
-def read_scene(text: str) -> Place | str:
-    """The scene of a file, or a sentence. For any thread."""
-    if len(text) > LARGEST_TEXT:
-        return "It is longer than a scene can be."
+@dataclass(frozen=True)
+class OpenRequest:
+    """A request to open or compare a scene; `read_request` reads it, in any thread."""
+
+    what: str
+    name: str
+    text: str
+
+
+def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
+    """The request of a message to open ("open", "file") or compare a scene, or None."""
+    for what in ("open", "file", "compare"):
+        if given := message.get(what):
+            return OpenRequest(what, name_of(given["name"]), given["text"][: LONGEST_TEXT + 1])
+    return None
+
+
+def read_request(request: OpenRequest) -> Place | str:
+    """The place that is requested, or a sentence."""
     try:
-        return Place(Scene.from_toml(text), "")
+        if request.what == "file":
+            if len(request.text) > LARGEST_TEXT:
+                return f"{request.name} is longer than a scene can be."
+            return Place(Scene.from_toml(request.text), "")
+        place = read(request.text)
     except ValueError as error:
-        return sentence_of(error)
+        return f"{request.name}: {sentence_of(error)}"
+    return f"{request.name} holds no scene." if place is None else place
 
 
 def name_of(text: str) -> str:
@@ -150,21 +174,25 @@ class Bookmarks:
         self.step()
         return tab or FIRST_TAB
 
-    def take(self, name: str, found: Place | str) -> None:
-        """Open the place of a link or a file of that name, or say why there is none."""
-        name = name_of(name)
+    def take(self, request: OpenRequest, found: Place | str) -> bool:
+        """Open or compare the place that `read_request` found; whether anything changed."""
+        if isinstance(found, str):
+            self.say(found)
+            return False
+        if request.what == "compare":
+            self._compare(found.scene, request.name)
+            return True
         try:
-            if isinstance(found, str):
-                raise ValueError(found)
             self._editor.take_scene(
                 found.scene, found.preset, found.selected, found.cage_angle, found.name
             )
         except ValueError as error:
-            self.say(f"{name}: {error if isinstance(found, str) else sentence_of(error)}")
-            return
+            self.say(f"{request.name}: {sentence_of(error)}")
+            return False
         self.compared = found.compared or self.compared
-        self.say(found.note or f"{name} is open.")
+        self.say(found.note or f"{request.name} is open.")
         self.step()
+        return True
 
     def change_compared(self, message: Mapping[Any, Any]) -> None:
         """Add the scene of now, rename or remove compared scenes, where a message says so."""
@@ -188,6 +216,10 @@ class Bookmarks:
         self.compared += (Reference(scene, name),)
         self.say(f"Dashed {_COLORS[len(self.compared) - 1]}: “{name}”, for comparison.")
 
+    def kept(self, name: str) -> dict[str, str]:
+        """The scene of now for the browser to keep."""
+        return {"name": name_of(name), "text": write(place_of(self._editor))}
+
     def toml(self) -> dict[str, str]:
         """The scene of now as a file."""
         name = f"bearing-{self._editor.preset}.toml"
@@ -196,7 +228,7 @@ class Bookmarks:
     def state(self) -> dict[str, Any]:
         """State for the browser."""
         place = replace(place_of(self._editor, self._tab or FIRST_TAB), compared=self.compared)
-        address = write(place)
+        address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})
         return {

@@ -32,7 +32,7 @@ class Marching:
 
 @dataclass(frozen=True)
 class Settings:
-    """Resolution of results: fixed on the page.
+    """Resolution of results: fixed, unless a person changes it on the Accuracy tab.
 
     Against 28,800 cage angles to a ball spacing, loads over 361 are within 0.7 % of their swing at
     99 % of the angles for every preset, and stiffness within 5 %: what is left is next to the
@@ -75,3 +75,12 @@ class Settings:
     def coarse_marching(self) -> Marching:
         """Settings of a motion while a slider moves, where the usual takes too long."""
         return Marching(COARSE * self.duration, self.sample_rate, self.step_rate, coarse=True)
+
+    def changed_by_hand(self) -> list[str]:
+        """Changes made on the Accuracy tab, in words."""
+        words = []
+        if self.n_cage_angles != Settings.n_cage_angles:
+            words.append(f"cage angles set by hand: {self.n_cage_angles}")
+        if self.step_rate is not None:
+            words.append(f"steps set by hand: {self.step_rate:.0f} Hz")
+        return words

@@ -30,6 +30,9 @@ GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
+OWN_STEPS = "the program's own steps"
+
+
 class OtherModels(SceneJobView[Alternatives]):
     """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
 
@@ -53,16 +56,23 @@ class OtherModels(SceneJobView[Alternatives]):
         return [self.job, self._table, self._taking]
 
     def _use(self, name: str) -> None:
-        """Change the scene to that of the model with this name."""
+        """Change the scene, or the steps of its motion, to those of the model with this name."""
+        if self.parts is None:
+            return
+        if name == OWN_STEPS:
+            self.parts.take_steps(None)
         for one in () if self.found is None else takeable(self.found.rows):
-            if one.name == name and self.parts is not None:
+            if one.name == name and "step_rate" in one.changes:
+                self.parts.take_steps(one.changes["step_rate"])
+            elif one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
                 self.parts.ask({"choose": words})
 
-    def _offer(self) -> None:
+    def _offer(self, results: Results) -> None:
         """Fill the list of what can be taken."""
         rows = () if self.found is None else takeable(self.found.rows)
-        names = [one.name for one in rows]
+        back = [OWN_STEPS] if results.settings.step_rate is not None else []
+        names = [*(one.name for one in rows), *back]
         chosen = self._models.values["model"]
         self._models.values["model"] = chosen = chosen if chosen in names else "".join(names[:1])
         options = choices([[name, name] for name in names])
@@ -82,6 +92,11 @@ class OtherModels(SceneJobView[Alternatives]):
         return compute
 
     def sentence(self, results: Results) -> str:
+        steps = results.settings.step_rate
+        words = "" if steps is None else f"Chosen steps of the motion: {steps:.0f} Hz. "
+        return words + self._comparison(results)
+
+    def _comparison(self, results: Results) -> str:
         if self.found is None:
             return (
                 f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
@@ -103,16 +118,17 @@ class OtherModels(SceneJobView[Alternatives]):
         super().say(results, sentence)
         if self.found is not None:
             self._table.object = table_of_rows(self.found.rows)
-            self._offer()
+        if self._results is not None:
+            self._offer(self._results)
 
     def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
         return found.table().named()
 
 
 def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
-    """The models that a scene can have, each once: other steps are none of a scene."""
+    """The models that a scene can have, each once."""
     known = {one.name: one for one in rows if one.changes and math.isfinite(one.error)}
-    return [one for one in known.values() if "step_rate" not in one.changes]
+    return list(known.values())
 
 
 def price(found: Alternatives) -> str:

@@ -24,6 +24,8 @@ class SceneParts(SessionParts):
         takes a message of the browser about the scene, which may be invalid.
     add_controls
         has a panel of controls follow the scene.
+    take_steps
+        sets the step rate [Hz] of time integration; None: the program's own.
     open_link
         opens what a link holds: a scene, compared ones, a tab; by a name and the link's text.
     set_life_inputs
@@ -35,6 +37,7 @@ class SceneParts(SessionParts):
     editor: SceneEditor
     ask: Callable[[Any], None]
     add_controls: Callable[[Rows], None]
+    take_steps: Callable[[float | None], None]
     open_link: Callable[[str, str], None]
     set_life_inputs: Callable[[LifeInputs], None]
     set_grey: Callable[[str], None]

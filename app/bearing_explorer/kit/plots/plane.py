@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from bokeh.models import BoxSelectTool, ColumnDataSource, CustomJS, LinearColorMapper, Quad
@@ -30,6 +31,10 @@ from bearing_explorer.kit.plots.heat_map import (
 from bearing_explorer.kit.plots.layers import Glyph, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore.common import PREFIXES, prefix_power
+from bearingcore.fields import FIELD_OF
+
+if TYPE_CHECKING:
+    from xarray import DataArray
 
 _HATCHED = {
     "fill_color": "#B9BEC4",
@@ -87,6 +92,22 @@ class Field:
     values: NDArray[np.float64]
     reasons: NDArray[np.object_]
 
+    @classmethod
+    def of_sweep(cls, found: DataArray) -> Field:
+        """One output of a sweep over two fields, angles in degrees.
+
+        Raises
+        ------
+        ValueError
+            for another number of fields.
+        """
+        if found.ndim != 2:
+            raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
+        y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
+        (words, _, unit), values = _in_page_units(found)
+        reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
+        return cls(x, y, words, unit, values, reasons)
+
     @cached_property
     def scaled(self) -> tuple[NDArray[np.float64], str]:
         """The numbers with an SI prefix for the greatest of them, and their unit with it."""
@@ -94,6 +115,18 @@ class Field:
             return self.values, self.unit
         power = prefix_power(float(np.nanmax(np.abs(self.values), initial=0.0)))
         return self.values / 10.0**power, PREFIXES[power] + self.unit
+
+
+def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
+    """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
+    unit = str(given.attrs.get("units", ""))
+    name = str(given.name)
+    words = FIELD_OF[name].label if name in FIELD_OF else name.replace("_", " ")
+    words = words[0].upper() + words[1:]
+    values = np.asarray(given, dtype=float)
+    if unit == "rad":
+        return (words, "", "°"), np.degrees(values)
+    return (words, "", "" if unit == "1" else unit), values
 
 
 class PlaneFigures:

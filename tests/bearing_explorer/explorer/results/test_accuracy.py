@@ -9,6 +9,7 @@ import time
 import pytest
 from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
@@ -24,12 +25,13 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import presets
 from bearingcore.experiments import (
     Experiment,
+    Measurements,
     OrbitAtSpeed,
     Point,
     Reference,
-    measure,
     measurements_from,
 )
+from tests.helpers.timing import measure_once
 
 RIG = presets["fan-rig"]
 
@@ -77,16 +79,16 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
     for name, experiment in base.experiments.items():
         assert {(name, case) for case in experiment.references} <= known
-    assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
-        base.stability.trials if base.stability else ()
-    )
+    assert len(view.table(results)["method"]) == base.count - len(base.orbits)
 
 
-def test_steps_by_hand_are_those_of_the_motion() -> None:
+def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
     ours = Results(RIG, settings=Settings(duration=0.05))
     by_hand = Results(RIG, settings=Settings(duration=0.05, step_rate=131072.0))
     assert by_hand.motion.step_rate == 131072.0
     assert ours.motion.step_rate != 131072.0
+    assert "steps set by hand: 131072 Hz" in status_of(by_hand, 0.0)["details"]
+    assert not any("by hand" in detail for detail in status_of(ours, 0.0)["details"])
     with pytest.raises(ValueError, match="set by hand"):
         _ = Results(RIG, settings=Settings(step_rate=65536.0 * 128)).motion
 
@@ -103,24 +105,27 @@ def test_losses_of_stability_are_named() -> None:
     assert "not measured" in orbits_sentence(())
 
 
-def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
+def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    measure_once(monkeypatch)
     job = Work()
     job.started = time.monotonic()
-    shares: list[int] = []
-    job.show = lambda found: shares.append(found.result.count)  # type: ignore[method-assign]
-    assert "points after" in compute(job, RIG, "angles")
-    assert shares[:3] == [1, 2, 3]
-    found = measure(RIG, ["angles", "orbits"])
+    shown: list[Measurements] = []
+    job.show = lambda found: shown.append(found.result)  # type: ignore[method-assign]
+    assert "points after" in compute(job, RIG, "statics")
+    assert [one.count for one in shown[:3]] == [1, 2, 3]
+    found = shown[-1]
     again = measurements_from(found.as_json())
     assert again.count == found.count
-    ours, theirs = (one.experiments["angles"].points for one in (found, again))
+    ours, theirs = (one.experiments["statics"].points for one in (found, again))
     for one, other in zip(ours, theirs, strict=True):
         assert other.errors == pytest.approx(one.errors, rel=1e-3)
         assert other.in_use == one.in_use
     view = Accuracy(PackedSource())
     view.found = Found(RIG, found)
     assert "Pale: shipped" in view.sentence(Results(RIG))
-    assert set(view.table(Results(RIG))["experiment"]) == {"angles"}
+    assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 
 
 def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> None:
@@ -131,4 +136,4 @@ def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> Non
     with pytest.raises(ValueError, match="no such"):
         Accuracy(PackedSource()).prepare({"experiment": "../etc"}, SceneEditor("fan-rig"))
     job.stop()
-    assert compute(job, RIG, "angles") == "Nothing was measured yet."
+    assert compute(job, RIG, "statics") == "Nothing was measured yet."

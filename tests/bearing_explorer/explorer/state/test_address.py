@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from bearing_explorer.explorer.state.address import (
+    LONGEST_LINK,
     Place,
     leaves_out,
     opened,
@@ -322,9 +323,11 @@ def test_a_floor_too_long_for_a_link_is_left_out_and_said() -> None:
     )
     assert unpacked(packed(floor)) == floor
     place = Place(presets["fan-rig"].replace(floor=floor, extent=0.3), "fan-rig")
-    link = write(place)
+    whole, link = write(place), write(place, LONGEST_LINK)
+    assert read(whole) == place
     assert len(link) < 200
     assert leaves_out(link)
+    assert not leaves_out(whole)
     shown = opened(link, SceneEditor("fan-rig"))
     assert shown.scene == place.scene.replace(floor=None)
     assert "too long" in shown.note

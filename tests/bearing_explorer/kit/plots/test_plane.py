@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import holoviews as hv
 import numpy as np
+import pytest
+from bearing_explorer import figures
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.plots.plane import Field, PlaneFigures, color_limits
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bokeh.models import LayoutDOM
 
 X, Y = (
     Side("extent_deg", "Length of the defect", "Δφf", "°"),
@@ -41,6 +45,30 @@ def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None
         ("Length of the defect Δφf (°)", "(MN/m)"),
         ("kyy, mean (MN/m)", "Points"),
     ]
+
+
+def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
+    xarray = pytest.importorskip("xarray")
+    swept = xarray.DataArray(
+        np.arange(6.0).reshape(2, 3),
+        dims=("fy", "extent"),
+        coords={
+            "fy": ("fy", [-200.0, -100.0], {"units": "N"}),
+            "extent": ("extent", np.radians([10.0, 20.0, 30.0]), {"units": "rad"}),
+        },
+        attrs={"units": "m/s²"},
+        name="acceleration_rms_y",
+    )
+    field = Field.of_sweep(swept)
+    assert field.x[0].label == "Length of the defect (°)"
+    assert field.x[1] == pytest.approx([10.0, 20.0, 30.0])
+    drawn = figures.of_sweep(swept)
+    assert isinstance(hv.render(drawn, backend="bokeh"), LayoutDOM)
+    image = drawn.main
+    assert image[30.0, -100.0] == 5.0
+    assert [d.unit for d in image.dimensions()] == ["°", "N", "m/s²"]
+    with pytest.raises(ValueError, match="two"):
+        figures.of_sweep(swept.isel(fy=0))
 
 
 def test_colours_are_light_at_zero_where_numbers_have_both_signs() -> None:

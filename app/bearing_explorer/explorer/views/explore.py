@@ -68,14 +68,13 @@ class MapRequest:
 
 
 class ExplorePlane(SceneJobView[Plane]):
-    """A map of one output over two quantities, with lines across it and a histogram."""
+    """A map of one output over two quantities, with lines across it."""
 
     name = "explore"
     title = "Explore a plane"
     about = (
         "Any output over any two quantities. All else is as the sliders are set. Point at the "
-        "map to move the curves, click to go there; select values in the histogram to find them "
-        "on it. Hatched: no answer. Ring: this scene."
+        "map to move the curves, click to go there. Hatched: no answer. Ring: this scene."
     )
     start = "Compute the map"
     noun = "map"

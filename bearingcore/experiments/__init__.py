@@ -7,6 +7,7 @@ from bearingcore.experiments.balls import BALL_ERRORS as BALL_ERRORS
 from bearingcore.experiments.integrators import METHODS as METHODS
 from bearingcore.experiments.measurements import MEASURED as MEASURED
 from bearingcore.experiments.measurements import ORBITS as ORBITS
+from bearingcore.experiments.measurements import STABILITY as STABILITY
 from bearingcore.experiments.measurements import Measurements as Measurements
 from bearingcore.experiments.measurements import measure as measure
 from bearingcore.experiments.measurements import measurements_from as measurements_from
@@ -20,5 +21,8 @@ from bearingcore.experiments.simpler_models import SPECTRUM as SPECTRUM
 from bearingcore.experiments.simpler_models import Alternative as Alternative
 from bearingcore.experiments.simpler_models import Alternatives as Alternatives
 from bearingcore.experiments.simpler_models import alternatives as alternatives
+from bearingcore.experiments.stability import FIXED_STEP as FIXED_STEP
+from bearingcore.experiments.stability import VERDICTS as VERDICTS
+from bearingcore.experiments.stability import StabilityChart as StabilityChart
 from bearingcore.experiments.statics import HARD_CASES as HARD_CASES
 from bearingcore.experiments.statics import STATIC_ERRORS as STATIC_ERRORS

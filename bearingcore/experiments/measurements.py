@@ -23,12 +23,13 @@ from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
 from bearingcore.experiments.points import RIGHT, Experiment, Watch
+from bearingcore.experiments.stability import StabilityChart, stability_chart
 from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
 
 PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
 
-ORBITS = "orbits"
+STABILITY, ORBITS = "stability", "orbits"
 EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "motion": lambda scene, watch, slow: motion_experiment(
         scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
@@ -37,7 +38,7 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
 }
 """Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
-MEASURED = (*EXPERIMENTS, ORBITS)
+MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
 """Everything that can be measured."""
 
 
@@ -108,6 +109,8 @@ class Measurements:
         what it was measured on.
     experiments
         by their names in EXPERIMENTS.
+    stability
+        verdicts over steps, if measured.
     orbits
         the periodic motion over the shaft speed, if measured.
     refused
@@ -117,13 +120,16 @@ class Measurements:
     preset: str
     machine: Machine
     experiments: dict[str, Experiment] = field(default_factory=dict)
+    stability: StabilityChart | None = None
     orbits: tuple[OrbitAtSpeed, ...] = ()
     refused: dict[str, str] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
         """Number of points in all."""
-        return sum(len(one.points) for one in self.experiments.values()) + len(self.orbits)
+        trials = self.stability.trials if self.stability is not None else ()
+        points = sum(len(one.points) for one in self.experiments.values())
+        return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
         """A row for each point of the experiments: errors under their names, NaN for the others."""
@@ -236,6 +242,8 @@ def measure(
 
 def _with(found: Measurements, name: str, scene: Scene, watch: Watch, slow: bool) -> Measurements:
     scene = scene.replace(balls=MASSLESS)
+    if name == STABILITY:
+        return replace(found, stability=stability_chart(scene, duration=0.1, watch=watch))
     if name == ORBITS:
         return replace(found, orbits=orbits_over_speed(scene, watch))
     one = EXPERIMENTS[name](scene, watch, slow)

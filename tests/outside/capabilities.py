@@ -57,7 +57,7 @@ def charts() -> list[str]:
     """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
     found = {name for chart in shipped for name in chart["experiments"]}
-    found |= {"orbits" for chart in shipped if chart["orbits"]}
+    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
     return sorted(found)
 
 

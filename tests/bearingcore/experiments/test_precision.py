@@ -13,6 +13,7 @@ from bearingcore.experiments.measurements import measure
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.points import Experiment, Watch
 from bearingcore.experiments.references import motion_reference
+from bearingcore.experiments.stability import DIVERGED, linear_limits, stability_chart
 from bearingcore.experiments.statics import (
     hard_cases,
     static_problem,
@@ -43,6 +44,23 @@ def test_the_reference_meets_the_one_that_was_stored() -> None:
     expected = STORED["12.9deg/displacement"][: len(found)]
     swing = np.abs(expected - expected.mean(axis=0)).max()
     assert np.abs(found - expected).max() / swing < 1e-8
+
+
+def test_methods_break_where_linear_theory_says() -> None:
+    chart = stability_chart(FAN_RIG, duration=0.05)
+    assert chart.completed
+    assert chart.reference.trusted
+    assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
+    for name in ("RK4", "RK4 in velocities"):
+        limit = chart.linear_limit[name]
+        assert limit / 1.5 < chart.stability_limit(name) < 1.5 * limit
+        coarsest = min((t for t in chart.trials if t.method == name), key=lambda t: t.step_rate)
+        assert coarsest.verdict == DIVERGED
+    finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
+    assert all(trial.verdict == "right" for trial in finest)
+    table = chart.table()
+    assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
+    assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
 
 
 def check_that_all_is_given(experiment: Experiment) -> None:

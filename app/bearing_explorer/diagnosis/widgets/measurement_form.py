@@ -15,6 +15,7 @@ from bearing_explorer.diagnosis.form import (
     DIRECTIONS,
     ROLES,
     USUAL_SENSITIVITY,
+    places_of,
     roles_and_units,
     with_role,
 )
@@ -30,7 +31,7 @@ from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, entry, row, select
 from bearingcore.common import number
-from bearingcore.files import UNITS
+from bearingcore.files import PLACES, UNITS
 
 LABELS = {
     "columns": "Columns",
@@ -200,19 +201,22 @@ class MeasurementForm(pn.Column):
         if self._measurement is not None:
             self._measurement.cancel()
 
-    def _role(self, index: int, role: str, unit: str) -> None:
-        """Take another role or unit of a column."""
+    def _role(self, index: int, role: str, unit: str, place: str) -> None:
+        """Take another role, unit or place of a column."""
         if self._fields is not None:
-            roles, units = roles_with_units(self._shown)
-            if index < len(roles):
-                self._fields.values.update(with_role(roles, units, index, role, unit))
+            now = columns_as_said(self._shown)
+            if index < len(now[0]):
+                self._fields.values.update(with_role(*now, index, role, unit, place))
                 self._answer(False)
 
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
         fields.values |= {"columns": "", "unit": ""}
         self._table = ColumnTable(
-            self._role, roles=[list(role) for role in ROLES], signals=[*DIRECTIONS]
+            self._role,
+            roles=[list(role) for role in ROLES],
+            signals=[*DIRECTIONS],
+            places=[["", "place not said"], *([place, place] for place in PLACES)],
         )
         for name in LABELS:
             if name not in ("columns", "unit"):
@@ -236,7 +240,7 @@ class MeasurementForm(pn.Column):
             for name in ("columns", "unit")
         }
         self._table.units = units(state)
-        self._table.show(asdict(state.columns), *roles_with_units(state), marks)
+        self._table.show(asdict(state.columns), *columns_as_said(state), marks)
         fields.put({name: values[name] for name in fields.widgets})
         for name, widget in fields.widgets.items():
             on = {"refused": name in state.refused, "open": name in state.open}
@@ -265,10 +269,12 @@ def units(state: MeasurementState) -> list[list[str]]:
     return [["", words], *known]
 
 
-def roles_with_units(state: MeasurementState) -> tuple[list[str], list[str]]:
-    """The role of each column, and the unit that it has or would have as a signal."""
+def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str], list[str]]:
+    """The role of each column, and the unit and place that it has or would have as a signal."""
     assert state.columns is not None
-    roles, given = roles_and_units(state.values["columns"])
+    text = state.values["columns"]
+    roles, given = roles_and_units(text)
     one = state.values["unit"]
     several = state.columns.headed if one == AS_HEADED else [one] * len(roles)
-    return roles, [own or other for own, other in zip(given, several, strict=False)]
+    own = [own or other for own, other in zip(given, several, strict=False)]
+    return roles, own, places_of(text, state.columns.places)

@@ -14,6 +14,7 @@ from bearingcore import Scene, presets
 from bearingcore.experiments import (
     MEASURED,
     ORBITS,
+    STABILITY,
     Measurements,
     measure,
     measurements_from,
@@ -25,6 +26,7 @@ TRIALS = {
     "motion": "Motion: steps and methods",
     "balls": "Motion: mass of balls",
     "statics": "Statics: solvers",
+    STABILITY: "Stability: steps",
     ORBITS: "Stability: orbit over speed",
 }
 """Choices of the form by name."""

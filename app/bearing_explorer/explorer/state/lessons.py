@@ -63,7 +63,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from msgspec import Meta
 from msgspec.structs import fields
 
-from bearing_explorer.explorer.state.address import FORMER_TABS
+from bearing_explorer.explorer.state.address import OTHER_NAMES_OF_TABS
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
 from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
@@ -339,7 +339,7 @@ class _Checks:
         self.tabs = dict(tabs)
         self.head = head = self._decoded()
         head.title = " ".join(head.title.split())
-        head.tab = FORMER_TABS.get(head.tab, head.tab)
+        head.tab = OTHER_NAMES_OF_TABS.get(head.tab, head.tab)
         self._on_list("tab", [head.tab], list(self.tabs), "a tab")
         self._on_list("preset", [head.preset], list(presets), "a preset")
         self._on_list("drag", head.drag, DRAGGED, "a control of the page")
@@ -538,7 +538,7 @@ def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
 
 def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     """The message of a button that opens a tab."""
-    name = FORMER_TABS.get(unquote(rest), unquote(rest))
+    name = OTHER_NAMES_OF_TABS.get(unquote(rest), unquote(rest))
     if name not in checks.tabs:
         raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(checks.tabs))}")
     return {"show": name}

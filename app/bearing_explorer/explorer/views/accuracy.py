@@ -1,4 +1,4 @@
-"""Speed against accuracy: a chart for each reference, and where orbits are unstable."""
+"""Speed against accuracy: a chart for each reference, and where steps and orbits are unstable."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
-from bokeh.models import HoverTool, Range1d, Span
+from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
 from bokeh.plotting import figure
 
 from bearing_explorer.explorer.results.accuracy import (
@@ -41,12 +41,15 @@ from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, st
 from bearingcore import presets
 from bearingcore.experiments import (
     BALL_ERRORS,
+    FIXED_STEP,
     HARD_CASES,
     MOTION_ERRORS,
     STATIC_ERRORS,
+    VERDICTS,
     Experiment,
     Measurements,
     OrbitAtSpeed,
+    StabilityChart,
 )
 from bearingcore.scene import WITH_MASS, preset_labels
 
@@ -73,8 +76,8 @@ CHARTS = {
     ),
 }
 """The charts by what they are of: each has one reference."""
-ORBITS_OVER_SPEED = "Stability"
-SECTIONS = (*CHARTS, ORBITS_OVER_SPEED)
+STEPS_AND_ORBITS = "Stability"
+SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
 """What can be chosen, of which the page shows one."""
 ERRORS = {
     "motion": MOTION_ERRORS,
@@ -84,10 +87,20 @@ ERRORS = {
 """Errors that can be drawn, by experiment."""
 
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
+VERDICT_LOOKS = dict(
+    zip(
+        VERDICTS,
+        (("#0072B2", "square"), ("#56B4E9", "inverted_triangle"), ("#E69F00", "diamond"),
+         ("#D55E00", "x")),
+        strict=True,
+    )
+)  # fmt: skip
 LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#AA3377",
                "fold": "#E69F00"}  # fmt: skip
 """Colour of an orbit by its loss of stability; none is stable."""
 
+_SIGNS = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
+_VERDICT_LEGEND = style.legend([(c, _SIGNS[m], name) for name, (c, m) in VERDICT_LOOKS.items()])
 _LOSS_LEGEND = style.legend([(c, "●", loss or "stable") for loss, c in LOSS_COLORS.items()])
 
 
@@ -98,7 +111,7 @@ def _grid(least: int) -> str:
 
 
 class Accuracy(SceneJobView[Found]):
-    """Error against cost, and where the orbit is unstable."""
+    """Error against cost, where steps are too long, and where the orbit is unstable."""
 
     name = "accuracy"
     title = "Speed against accuracy"
@@ -137,7 +150,7 @@ class Accuracy(SceneJobView[Found]):
             heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
             for heading, made in self._charts.items()
         }
-        self._sections[ORBITS_OVER_SPEED] = self._stability.panel
+        self._sections[STEPS_AND_ORBITS] = self._stability.panel
         self._place = stack(*self._sections.values(), margin=(14, 0, 0, 0))
         return [
             self.job,
@@ -182,7 +195,7 @@ class Accuracy(SceneJobView[Found]):
             name for name, charts in CHARTS.items() for c in charts if c.experiment == measured
         )
         if measured != EVERYTHING:
-            self._chosen.put({"charts": next(drawn, ORBITS_OVER_SPEED)})
+            self._chosen.put({"charts": next(drawn, STEPS_AND_ORBITS)})
             self._redraw()
 
     # The picture
@@ -275,17 +288,37 @@ def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Exper
 
 
 class Stability:
-    """Floquet multipliers over the shaft speed."""
+    """Steps that are too long, and Floquet multipliers over the shaft speed."""
 
     def __init__(self) -> None:
         self._drawn: object = None
+        self._steps, self._step_words = self._step_figure(), prose()
         self._speeds, self._circle = self._speed_figure(), self._circle_figure()
         self._orbit_words = prose()
         self.panel = stack(
+            stack(self._steps, self._step_words),
             stack(self._speeds, self._orbit_words),
             self._circle,
             stylesheets=[_grid(280)],
         )
+
+    def _step_figure(self) -> figure:
+        """Methods down, steps across."""
+        plot = _figure("Steps a period", "", x_axis_type="log")
+        plot.x_range.update(start=0.8, end=80.0)
+        plot.y_range.update(start=-0.6, end=len(FIXED_STEP) - 0.4)
+        style.fixed_ticks(plot.xaxis[0], [1, 2, 5, 10, 20, 50])
+        style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
+        names = list(FIXED_STEP)
+        plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
+        colors = by_number("which", [color for color, _ in VERDICT_LOOKS.values()])
+        self._trials = column_source("x", "y", "which", "marker")
+        plot.scatter(
+            "x", "y", source=self._trials, marker="marker", size=13, color=colors, line_width=2.0
+        )
+        limits = plot.segment([], [], [], [], line_color=style.INK, line_width=2.5)
+        self._limits = limits.data_source
+        return plot
 
     def _speed_figure(self) -> figure:
         plot = _figure("Shaft speed (Hz)", "Largest multiplier |μ|")
@@ -312,13 +345,32 @@ class Stability:
     def draw(self, own: Measurements | None, base: Measurements | None, speed: float) -> None:
         """Show what was measured on this machine, or else what is shipped; speed [rad/s]."""
         known = [found for found in (own, base) if found is not None]
+        chart = next((found.stability for found in known if found.stability is not None), None)
         orbits = next((found.orbits for found in known if found.orbits), ())
-        if self._drawn == (orbits, speed):
+        if self._drawn == (chart, orbits, speed):
             return
-        self._drawn = orbits, speed
+        self._drawn = chart, orbits, speed
+        self._steps.visible = chart is not None
         self._speeds.visible = self._circle.visible = any(one.multipliers for one in orbits)
+        if chart is not None:
+            self._draw_steps(chart)
+        self._step_words.object = _VERDICT_LEGEND + paragraph(steps_sentence(chart))
         self._draw_orbits(orbits, speed)
         self._orbit_words.object = _LOSS_LEGEND + paragraph(orbits_sentence(orbits))
+
+    def _draw_steps(self, chart: StabilityChart) -> None:
+        verdicts = list(VERDICT_LOOKS)
+        self._trials.data = {
+            "x": [t.step_rate / chart.highest_frequency for t in chart.trials],
+            "y": [FIXED_STEP.index(t.method) for t in chart.trials],
+            "which": [verdicts.index(t.verdict) for t in chart.trials],
+            "marker": [VERDICT_LOOKS[t.verdict][1] for t in chart.trials],
+        }
+        limits = {k: chart.linear_limit[name] for k, name in enumerate(FIXED_STEP)}
+        rows = [k for k, limit in limits.items() if 0.0 < limit < math.inf]
+        steps = [limits[k] / chart.highest_frequency for k in rows]
+        below, above = [k - 0.4 for k in rows], [k + 0.4 for k in rows]
+        self._limits.data = {"x0": steps, "y0": below, "x1": steps, "y1": above}
 
     def _draw_orbits(self, orbits: tuple[OrbitAtSpeed, ...], speed: float) -> None:
         found = [one for one in orbits if one.multipliers]
@@ -345,6 +397,24 @@ def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
     sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
     ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
     return style.make_figure(*sides, *ranges, height=height, sizing_mode="stretch_width", **more)
+
+
+def steps_sentence(chart: StabilityChart | None) -> str:
+    """Step rates at which each method diverges, found and expected."""
+    if chart is None:
+        return "Stability of the steps is not measured yet."
+    words = []
+    for name in dict.fromkeys(t.method for t in chart.trials):
+        found, limit = chart.stability_limit(name), chart.linear_limit[name]
+        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
+        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
+        expected = style.number(limit, 2) if limit else "none"
+        words.append(f"{name} {met} (linear theory: {expected})")
+    frequency = style.with_prefix(chart.highest_frequency, "Hz")
+    return (
+        f"Vertical: linear limit. Steps per period of the highest frequency, {frequency}, below "
+        f"which the motion diverges: {', '.join(words)}."
+    )
 
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:

@@ -79,7 +79,9 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
     for name, experiment in base.experiments.items():
         assert {(name, case) for case in experiment.references} <= known
-    assert len(view.table(results)["method"]) == base.count - len(base.orbits)
+    assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
+        base.stability.trials if base.stability else ()
+    )
 
 
 def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:

@@ -1,0 +1,259 @@
+"""Where steps are too long for Runge-Kutta.
+
+The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
+static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
+through the method's own amplification.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common.progress import in_turn
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.dynamics.modes import (
+    contact_damping,
+    highest_natural_frequency,
+    loaded_directions,
+    two_body_matrix,
+)
+from bearingcore.dynamics.problem import motion_problem
+from bearingcore.dynamics.status import MotionStatus
+from bearingcore.dynamics.step_rate import default_step_rate
+from bearingcore.experiments.integrators import METHODS
+from bearingcore.experiments.motions import at_rate
+from bearingcore.experiments.points import NOT_WATCHED, RIGHT, Reference, Watch
+from bearingcore.experiments.references import MotionReference, motion_reference
+from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.signals.spectrum_difference import BAND
+from bearingcore.statics.positions import over_all_positions
+
+Array = NDArray[np.float64]
+
+LOST, WRONG, DIVERGED = "amplitude lost", "wrong", "diverged"
+VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
+"""`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should
+be by more than a tenth. `wrong`: neither, out of tune or too large. `diverged`: it has grown beyond
+any bound."""
+
+_SHARE_OF_REFERENCE = 0.7
+
+RIGHT_DB, LOST_PART, GROWN = 1.0, 0.9, 100.0
+
+FIXED_STEP = tuple(name for name, method in METHODS.items() if method.fixed_step)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One method at one step.
+
+    Attributes
+    ----------
+    method, step_rate [Hz]
+        name of the method, and steps a second.
+    verdict
+        one of VERDICTS.
+    spectrum_error
+        [dB], as in `references`; infinite for a motion that diverged.
+    amplitude
+        root mean square of the housing's acceleration over that of the reference.
+    """
+
+    method: str
+    step_rate: float
+    verdict: str
+    spectrum_error: float
+    amplitude: float
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class StabilityChart:
+    """Verdicts over methods and steps, with what linear theory predicts.
+
+    Attributes
+    ----------
+    linear_limit
+        least step rate [Hz] at which each method should be stable, 0 where any will do.
+    highest_frequency
+        [Hz] of the stiffest static state.
+    trials
+        what was found.
+    reference
+        what amplitudes and spectra were compared with.
+    completed
+        False where it was cancelled.
+    """
+
+    linear_limit: dict[str, float]
+    highest_frequency: float
+    trials: tuple[Trial, ...]
+    reference: Reference
+    completed: bool = True
+
+    def stability_limit(self, method: str) -> float:
+        """Least step rate tried [Hz] from which on the method never diverged; inf for none."""
+        limit = math.inf
+        for trial in sorted(self.trials, key=lambda t: -t.step_rate):
+            if trial.method == method:
+                if trial.verdict == DIVERGED:
+                    break
+                limit = trial.step_rate
+        return limit
+
+    def table(self) -> ResultTable:
+        """A row a trial: method, steps a second, verdict and errors, with the linear limit."""
+        trials = self.trials
+        return table_of(
+            ("method", "", [t.method for t in trials]),
+            ("step_rate", "Hz", [t.step_rate for t in trials]),
+            ("verdict", "", [t.verdict for t in trials]),
+            ("spectrum_error", "dB", [t.spectrum_error for t in trials]),
+            ("amplitude_ratio", "1", [t.amplitude for t in trials]),
+            ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
+        )
+
+
+def linear_limits(scene: Scene) -> dict[str, float]:
+    """Least stable step rate [Hz] of each fixed-step method at the scene's stiffest static state.
+
+    0 for methods that are stable at any step. Damping counts: it can help or harm.
+    """
+    dofs = scene.active_dofs
+    index = [DOF_NAMES.index(name) for name in dofs]
+    state = over_all_positions(scene, 31)
+    mass = scene.support.inertias(dofs)
+    damping = contact_damping(scene) * loaded_directions(state)
+    systems = []
+    # the softer ones of thousands of positions need no eigenvalues
+    size = (state.stiffness[:, index, index] / mass[: len(dofs)]).sum(axis=1)
+    stiffest = np.argsort(-np.where(state.converged, size, -math.inf))[:31]
+    for k in stiffest[state.converged[stiffest]]:
+        K = two_body_matrix(state.stiffness[k][np.ix_(index, index)], scene.support.stiffness(dofs))
+        C = two_body_matrix(damping[k][np.ix_(index, index)], scene.support.damping(dofs))
+        systems.append((K / mass[:, None], C / mass[:, None]))
+    if not systems:
+        return dict.fromkeys(FIXED_STEP, math.nan)
+    # the stiffest is the one whose fastest eigenvalue is greatest
+    fastest = [np.abs(np.linalg.eigvals(_first_order(K, C))).max() for K, C in systems]
+    K, C = systems[int(np.argmax(fastest))]
+    return dict.fromkeys(FIXED_STEP, _least_stable_rate(K, C, float(max(fastest))))
+
+
+def _first_order(K: Array, C: Array) -> Array:
+    m = len(K)
+    A = np.zeros((2 * m, 2 * m))
+    A[:m, m:] = np.eye(m)
+    A[m:, :m], A[m:, m:] = -K, -C
+    return A
+
+
+def amplification(K: Array, C: Array, h: float) -> Array:
+    """One Runge-Kutta step h [s] of order 4 as a matrix on the state (x, h v) of ẍ + C ẋ + K x = 0.
+
+    K [1/s²] and C [1/s] (m, m), divided by the masses. On a linear motion the variables that the
+    steps are taken in make no difference.
+    """
+    m = len(K)
+    one, zero = np.eye(m), np.zeros((m, m))
+    z = np.block([[zero, one], [-h * h * K, -h * C]])
+    whole = np.eye(2 * m)
+    step: Array = whole + z @ (whole + z @ (whole / 2 + z @ (whole / 6 + z / 24)))
+    return step
+
+
+def _least_stable_rate(K: Array, C: Array, fastest: float) -> float:
+    """Bisection on the spectral radius; `fastest` is the greatest |λ| [1/s]."""
+
+    def grows(h: float) -> bool:
+        radius = float(np.abs(np.linalg.eigvals(amplification(K, C, h))).max())
+        return radius > 1.0 + 1e-9
+
+    steps = np.geomspace(0.02, 200.0, 200) / fastest
+    first = next((i for i, h in enumerate(steps) if grows(h)), None)
+    if first is None:
+        return 0.0
+    if first == 0:
+        return math.inf
+    low, high = float(steps[first - 1]), float(steps[first])
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if grows(middle) else (middle, high)
+    return 1.0 / low
+
+
+def stability_chart(
+    scene: Scene,
+    *,
+    duration: float = 0.25,
+    watch: Watch = NOT_WATCHED,
+) -> StabilityChart:
+    """March `scene` by every fixed-step method at steps from far too long to good.
+
+    Parameters
+    ----------
+    scene
+        what moves.
+    duration
+        [s] of motion.
+    watch
+        progress and cancelling.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still or a scene without a static state.
+    """
+    problem = motion_problem(scene)
+    highest = highest_natural_frequency(scene)
+    usual = default_step_rate(scene, 65536.0, highest)
+    sample_rate = max(65536.0, usual)
+    report = watch.within(0.0, _SHARE_OF_REFERENCE)
+    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
+    limits = linear_limits(scene)
+    # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
+    rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
+    fitting = sorted({_fitting_rate(float(rate), sample_rate) for rate in rates})
+    tasks = [(name, rate) for name in FIXED_STEP for rate in fitting]
+    trials = [
+        _trial(reference, name, rate)
+        for name, rate in in_turn(
+            tasks,
+            lambda task: f"{task[0]}, {task[1]:.0f} steps/s",
+            watch.progress,
+            watch.cancelled,
+            begin=_SHARE_OF_REFERENCE,
+        )
+    ]
+    return StabilityChart(
+        limits, highest, tuple(trials), reference.reference, len(trials) == len(tasks)
+    )
+
+
+def _fitting_rate(rate: float, sample_rate: float) -> float:
+    """The nearest step rate [Hz] that fits the samples, so that errors can be taken."""
+    ratio = sample_rate / rate
+    return sample_rate / round(ratio) if ratio >= 1.0 else sample_rate * round(1.0 / ratio)
+
+
+def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
+    sample_rate = reference.sample_rate
+    with np.errstate(all="ignore"):
+        march = METHODS[name].march(reference.problem, step_rate, reference.duration, sample_rate)
+        signal = march.history[:, 5]
+        good = reference.history[:, 5]
+        amplitude = math.sqrt(float(np.mean(signal**2)) / float(np.mean(good**2)))
+        if march.status == MotionStatus.DIVERGED or not amplitude < GROWN:
+            return Trial(name, step_rate, DIVERGED, math.inf, math.inf)
+        history = at_rate(march.history, step_rate, sample_rate, len(reference.history))
+        errors = reference.errors(history)
+        amplitude = math.sqrt(float(np.mean(history[:, 5] ** 2)) / float(np.mean(good**2)))
+    decibel = errors["spectrum"]
+    verdict = LOST if amplitude < LOST_PART else WRONG
+    if decibel <= RIGHT_DB:
+        verdict = RIGHT
+    return Trial(name, step_rate, verdict, decibel, amplitude)

@@ -9,7 +9,6 @@ import os
 import re
 import subprocess
 import sys
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
 from tests.browser.explorer_page import rest
-from tests.browser.helpers import ROOT, Server, Watch, drag
+from tests.browser.helpers import Server, Watch, drag
 from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
 

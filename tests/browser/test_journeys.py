@@ -628,7 +628,11 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: 
     visitor.is_at("Load")
     lesson.get_by_role("textbox").fill("7")
     lesson.get_by_role("button", name="Predict").click()
-    visitor.reads("Not quite: 7 N. The answer is 39 N.", lesson)
+    visitor.reads("Not quite: 7 N is too low. Only the balls with colour share", lesson)
+    expect(veil).to_have_count(2)  # a hint is no answer
+    lesson.get_by_role("textbox").fill("20")
+    lesson.get_by_role("button", name="Predict").click()
+    visitor.reads("Not quite: 20 N. The answer is 39 N.", lesson)
     expect(veil).to_have_count(0)
     assert visitor.page.evaluate(TAGGED) == [True]
     lesson.get_by_role("button", name="Try it yourself").click()

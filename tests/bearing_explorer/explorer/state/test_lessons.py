@@ -470,7 +470,7 @@ def lesson_of(path: Path) -> Lesson:
 def words_of(lesson: Lesson) -> str:
     parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
     asked = lesson.predict
-    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose])
+    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose, asked.hint])
     return Words(f"{lesson.title} {prediction} {parts}").text
 
 

@@ -12,8 +12,8 @@ The rules of version 1, which later versions go on reading:
 - `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
   out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
 - A number is in the unit of its name, or in SI with ``SI`` behind it where that is shorter or no
-  number in that unit stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
-  read back to the last bit.
+  number in that unit stands for the very same scene. ``none`` is an optional number left open.
+  Whatever is written is read back to the last bit.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.

@@ -213,11 +213,15 @@ class Table(FileColumns):
             return stated.value, [trouble]
         rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
-        if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
+        typed = f"The sample rate was typed as {number(rate, 6)} Hz"
+        if stated is None:
             notes.append(
-                f"The sample rate was typed as {number(rate, 6)} Hz; {stated.reason} says "
-                f"{number(stated.value, 6)} Hz."
+                f"{typed}. Nothing in the file shows whether it was: every frequency, and so the "
+                "part, rests on it."
             )
+        elif abs(rate / stated.value - 1.0) > RATE_DOUBT:
+            says = "says" if stated.stated else "suggests"
+            notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
     def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:

@@ -749,6 +749,16 @@ def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
     assert got.sample_rate == pytest.approx(RATE)
 
 
+def test_a_typed_rate_that_nothing_shows_is_said() -> None:
+    alone = rows(SIGNAL[:, 0])
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
+    assert "Nothing in the file shows whether it was" in got.notes[0]
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
+    assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
+    timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [

@@ -28,8 +28,9 @@ from bearingcore.files.channels import (
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
-from bearingcore.files.units import ACCELERATIONS, SPEEDS, STANDARD_GRAVITY, TIMES, UNITS
+from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
+from bearingcore.units import STANDARD_GRAVITY
 
 USUAL_LEVEL = 5.0
 """[m/s²] root mean square of bearings in machines, in the middle of what is usual."""

@@ -33,7 +33,6 @@ from bearingcore.files import (
     SIGNAL,
     SPEED,
     SPEEDS,
-    STANDARD_GRAVITY,
     TIME,
     TIMES,
     UNITS,
@@ -46,6 +45,7 @@ from bearingcore.files import (
     unit_in,
 )
 from bearingcore.signals import FEWEST_SAMPLES
+from bearingcore.units import STANDARD_GRAVITY
 
 SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""

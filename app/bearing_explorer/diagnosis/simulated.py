@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.diagnosis.machine import SIMULATED, of_scene
-from bearing_explorer.diagnosis.model import motion
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.sentences import sentence_of
-from bearingcore import Defect, Recording, Scene
+from bearingcore import Defect, Motion, Recording, Scene, simulate
 from bearingcore.scene import WITH_MASS
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
@@ -32,7 +33,20 @@ PASSES = 200.0
 are one shaft frequency apart."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
+MOST_STEPS, MOST_STEPS_WITH_MASS = 400_000, 1_600_000
+"""Steps of a simulated motion: where it takes more, it is shorter."""
 SETTLING = 0.3  # [s] before a simulated measurement begins
+
+
+@cached
+def motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
+    """A simulated motion [s], [Hz]; ValueError where there is none, or it does not end."""
+    compiling.need(compiling.MOTION, scene)
+    most = MOST_STEPS_WITH_MASS if scene.balls == WITH_MASS else MOST_STEPS
+    rate = simulate(scene, 2.0 / sample_rate, sample_rate).step_rate
+    if math.isfinite(rate) and rate > 0.0:
+        duration = min(duration, max(most / rate, 0.1))
+    return simulate(scene, duration, sample_rate, most_steps=MOST_STEPS_WITH_MASS)
 
 
 def true_part(scene: Scene) -> str:

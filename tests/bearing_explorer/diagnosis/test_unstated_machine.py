@@ -22,13 +22,12 @@ from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measured_view import WITHOUT_BEARING
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.views.trend import SceneNow, TrendOfFiles
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.serve.packed_source import PackedSource

@@ -56,10 +56,6 @@ SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRI
 BUDGET = 120.0
 """[s] that a map may take."""
 
-LOWEST_BAND, NARROWEST_BAND = 100.0, 1.1
-"""[Hz] at which a band begins at the lowest, and how many times its beginning its end is at least:
-a few lines of a spectrum."""
-
 _QUICK = (STATICS, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
@@ -73,8 +69,7 @@ NOT_COMPUTED = "not computed"
 class MapOutput:
     """Something that can be mapped.
 
-    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, `mode` the mode that it is of. `band` is
-    that [Hz] of powers where it can be chosen, None where it cannot.
+    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, `mode` the mode that it is of.
     """
 
     name: str
@@ -84,32 +79,13 @@ class MapOutput:
     needs: str
     in_sweep: str
     mode: str = ""
-    band: tuple[float, float] | None = None
-
-    @property
-    def settings(self) -> Settings:
-        """Settings of the sweep that computes it."""
-        if self.band is None:
-            return _SETTINGS
-        return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
 
     @property
     def fineness(self) -> dict[str, float]:
         """Settings that say how finely each point is computed, by their names with units."""
         if self.needs in _QUICK:
-            return {"cage_angles_a_period": self.settings.cage_angles}
-        return {"motion_s": self.settings.duration, "sample_rate_hz": self.settings.sample_rate}
-
-    def in_band(self, low: float, high: float) -> MapOutput:
-        """The same between two frequencies [Hz]; ValueError with a sentence for others."""
-        most = 0.5 * _SETTINGS.sample_rate
-        if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
-            raise ValueError(
-                f"A band lies between {LOWEST_BAND / 1e3:g} and {number(most / 1e3, 4)} kHz, and "
-                f"its upper end is at least {NARROWEST_BAND:g} times its lower end."
-            )
-        label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
-        return dataclasses.replace(self, label=label, band=(low, high))
+            return {"cage_angles_a_period": _SETTINGS.cage_angles}
+        return {"motion_s": _SETTINGS.duration, "sample_rate_hz": _SETTINGS.sample_rate}
 
     @property
     def column(self) -> str:
@@ -127,10 +103,10 @@ def _all_outputs() -> dict[str, MapOutput]:
         for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
             label = output.label.format(mode_symbol(mode)) if mode else output.label
             key = f"{name}:{mode}" if mode else name
-            band = (_SETTINGS.band_low, _SETTINGS.band_high) if output.needs == MASS else None
-            made.append(
-                MapOutput(key, output.group, label, unit, output.needs, name, mode, band=band)
-            )
+            if output.needs == MASS:
+                low, high = 1e-3 * _SETTINGS.band_low, 1e-3 * _SETTINGS.band_high
+                label = f"{label}, {number(low, 4)} to {number(high, 4)} kHz"
+            made.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
     groups = list(dict.fromkeys(output.group for output in made))
     made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
     return {output.name: output for output in made}
@@ -174,7 +150,7 @@ class Question:
         """The finest scenes; ValueError where none can be."""
         sides, name = dict([self.x.in_si, self.y.in_si]), self.output.in_sweep
         try:
-            return Grid.of(self.scene, sides, [name], self.output.settings)
+            return Grid.of(self.scene, sides, [name], _SETTINGS)
         except StillDirectionError as error:
             dof = OUTPUTS[name].dof
             way = "tilt about" if dof.startswith("r") else "move along"

@@ -40,16 +40,12 @@ from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
 from bearingcore.fields import Range
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
-_WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
-_BAND = ("band_from", "band_to")
-_FIRST_BAND = [f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()]
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
 _FADED = 0.35
 SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
@@ -72,14 +68,13 @@ class MapRequest:
 
 
 class ExplorePlane(SceneJobView[Plane]):
-    """A map of one output over two quantities, with lines across it and a histogram."""
+    """A map of one output over two quantities, with lines across it."""
 
     name = "explore"
     title = "Explore a plane"
     about = (
         "Any output over any two quantities. All else is as the sliders are set. Point at the "
-        "map to move the curves, click to go there; select values in the histogram to find them "
-        "on it. Hatched: no answer. Ring: this scene."
+        "map to move the curves, click to go there. Hatched: no answer. Ring: this scene."
     )
     start = "Compute the map"
     noun = "map"
@@ -109,14 +104,11 @@ class ExplorePlane(SceneJobView[Plane]):
             {"name": "output", "label": "What to draw", "options": outputs},
             *plane_fields(),
             {"name": "grid", "label": "Fineness", "options": _GRIDS},
-            {"name": "band_from", "label": "Band from (kHz)", "only": {"output": _WITH_BAND}},
-            {"name": "band_to", "label": "to (kHz)", "only": {"output": _WITH_BAND}},
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         fills = plane_fills(editor.limits)
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
-        values |= dict(zip(_BAND, _FIRST_BAND, strict=True))
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
         if self._request is None:
@@ -131,13 +123,6 @@ class ExplorePlane(SceneJobView[Plane]):
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
         output = MAP_OUTPUTS[given["output"]]
-        if output.band is not None:
-            ends = zip(_BAND, ("beginning", "end"), strict=True)
-            low, high = (
-                number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
-                for name, end in ends
-            )
-            output = output.in_band(1e3 * low, 1e3 * high)
         return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:

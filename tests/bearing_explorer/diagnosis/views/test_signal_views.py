@@ -1,4 +1,4 @@
-"""What the Diagnosis tab draws of a signal: measured beside simulated."""
+"""What the Diagnosis tab draws of a signal over time and frequency."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import answered
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.signal import Measured, Origin, Simulated
+from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.diagnosis.views.frequency_lines import (
     FAMILIES,
     NAME_WIDTH,
@@ -92,42 +92,6 @@ def test_the_amplitude_of_a_tone_is_read_off():
 
 
 # -- spectrum and envelope -------------------------------------------------------------------------
-
-
-def test_the_model_is_an_overlay_of_the_measured_size():
-    """Off at first; a signal of the model's own then lies on it, whatever its unit."""
-    louder = dataclasses.replace(
-        signal().recording, acceleration=1000.0 * signal().recording.acceleration
-    )
-    for measured in (signal(), Measured(louder, at(RIG), in_si=False)):
-        view = view_of(MeasuredSpectrum, measured)
-        sources, _ = view.all_data(MODEL)
-        assert not sources["measured_spectrum_simulated_y"]["frequency"].size
-        assert not sources["measured_spectrum_bands_y"]["number"].size
-        assert "imulated" not in view.sentence(MODEL)
-        view.look_changed("overlay", ["model"])
-        sources, ranges = view.all_data(MODEL)
-        drawn, model = (sources[f"measured_spectrum_{w}"] for w in ("measured", "simulated_y"))
-        assert not sources["measured_spectrum_simulated_x"]["frequency"].size
-        level = np.interp(drawn["frequency"], model["frequency"], model["dB"])
-        heard = (drawn["frequency"] > 300.0) & (drawn["dB"] > drawn["dB"].max() - 20.0)
-        assert heard.sum() > 20
-        assert np.median(np.abs(level - drawn["dB"])[heard]) < 1.0
-        assert drawn["linear"] == pytest.approx(10.0 ** (drawn["dB"] / 20.0), rel=1e-6)
-        low, high = ranges["measured_spectrum_level"]
-        assert low < drawn["dB"][heard].min()
-        assert high > drawn["dB"].max() + 3.0
-        assert sources["measured_spectrum_bands_y"]["number"].tolist() == [1.0, 2.0]
-        assert "simulated amplitudes are multiplied by" in view.sentence(MODEL)
-
-
-def test_the_scene_is_simulated_at_the_speed_of_the_measurement():
-    measured = Measured(signal().recording, at(RIG, 2.0 * math.pi * 10.0))
-    assert Simulated(MODEL, measured).model.scene == RIG.replace(shaft_speed=2.0 * math.pi * 10.0)
-    view = view_of(MeasuredSpectrum, measured)
-    view.look_changed("overlay", ["model"])
-    said = view.sentence(MODEL)
-    assert "simulated at the measured 10 Hz, not at the 7 Hz of the sliders" in said
 
 
 def test_envelopes_are_taken_in_the_band_of_the_diagnosis():

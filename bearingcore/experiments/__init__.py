@@ -3,7 +3,6 @@
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """
 
-from bearingcore.experiments.balls import BALL_ERRORS as BALL_ERRORS
 from bearingcore.experiments.integrators import METHODS as METHODS
 from bearingcore.experiments.measurements import MEASURED as MEASURED
 from bearingcore.experiments.measurements import ORBITS as ORBITS

@@ -10,7 +10,6 @@ from bearingcore.experiments.measurements import STABILITY as STABILITY
 from bearingcore.experiments.measurements import Measurements as Measurements
 from bearingcore.experiments.measurements import measure as measure
 from bearingcore.experiments.measurements import measurements_from as measurements_from
-from bearingcore.experiments.motions import motion_experiment as motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed as OrbitAtSpeed
 from bearingcore.experiments.points import Experiment as Experiment
 from bearingcore.experiments.points import Point as Point

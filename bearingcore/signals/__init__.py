@@ -1,6 +1,5 @@
 """Signals as such, measured or simulated: reading, spectra, envelopes, averages."""
 
-from bearingcore.signals.averaging import BallPasses as BallPasses
 from bearingcore.signals.filter_bank import BAND_COUNTS as BAND_COUNTS
 from bearingcore.signals.filter_bank import Band as Band
 from bearingcore.signals.filter_bank import squared_envelopes as squared_envelopes

@@ -18,16 +18,12 @@ from bearing_explorer.diagnosis.machine import Machine
 from bearingcore.common import cached_property
 from bearingcore.diagnosis import NARROWEST
 from bearingcore.files import Column
-from bearingcore.signals import Band, squared_envelopes
 
 if TYPE_CHECKING:
     from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 
-ENVELOPE_ORDERS = 40.0
-"""Turns of the shaft a second up to which an envelope over time is kept."""
-
 ENVELOPE_TOP = 1000.0
-"""[Hz] up to which an envelope over time is kept, and its spectrum drawn, of an unknown machine."""
+"""[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""
 
 ENVELOPE_LINES = 1600
 """Frequencies of an envelope spectrum that are drawn, at most."""
@@ -161,16 +157,6 @@ class Measured:
     def indicators(self) -> Indicators:
         """Condition indicators of the recording."""
         return core.indicators(self.recording, self.shaft_speed)
-
-    def envelope_signal(
-        self, direction: str, band: tuple[float, float]
-    ) -> tuple[NDArray[np.float64], float]:
-        """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
-        speed = self.shaft_speed
-        top = ENVELOPE_ORDERS * speed / (2.0 * math.pi) if speed else ENVELOPE_TOP
-        rate = self.recording.sample_rate
-        (found,) = squared_envelopes(self.column(direction), rate, [Band(*band)], top)
-        return found.values, found.rate
 
     @cached_property
     def _middle(self) -> NDArray[np.float64]:

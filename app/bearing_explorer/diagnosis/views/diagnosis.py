@@ -81,7 +81,7 @@ NONE_IN_LIST = "No listed bearing explains the signal."
 
 
 def on_records() -> str:
-    """What the answers on measured records of real machines were worth, as the tests wrote them."""
+    """Worth of the answers on measured records of real machines, as the tests wrote it."""
     records = json.loads(asset_text("scoreboard.json"))["records"]
     answered = [row for row in records if row["verdict"] in ("right", "wrong")]
     sure = [row for row in answered if row["probability"] >= 0.9]

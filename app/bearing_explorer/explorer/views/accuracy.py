@@ -72,7 +72,7 @@ CHARTS = {
 """The charts by what they are of: each has one reference."""
 STEPS_AND_ORBITS = "Stability"
 SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
-"""What can be chosen, of which the page shows one."""
+"""Subjects to choose from, of which the page shows one."""
 ERRORS = {
     "motion": MOTION_ERRORS,
     "statics": STATIC_ERRORS,

@@ -246,15 +246,6 @@ def steps_needed(search: Search) -> int:
     return (library + refined) * steps_of(search.scene, frequency, search.count)
 
 
-@dataclass(frozen=True)
-class _Compared:
-    """Simulated defects (m,), and how well each explains the signal."""
-
-    extents: NDArray[np.float64]
-    edges: tuple[str, ...]
-    score: NDArray[np.float64]
-
-
 def guesses(search: Search, cells: Callable[[float], int]) -> list[Guess]:
     """Refined guesses, the best first; and one at least in each cell of extents.
 
@@ -263,11 +254,11 @@ def guesses(search: Search, cells: Callable[[float], int]) -> list[Guess]:
     nothing depends on which is done first, as everything is taken in its own order.
     """
     with ThreadPoolExecutor(processors(), "size") as threads:
-        return _refined(search, _library_compared(search, threads), cells, threads)
+        return _refined(search, _library_scores(search, threads), cells, threads)
 
 
-def _library_compared(search: Search, threads: Executor) -> _Compared:
-    """All extents, with either edge."""
+def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
+    """How well each of EXTENTS explains the signal, with one edge and then with the other."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
@@ -279,22 +270,18 @@ def _library_compared(search: Search, threads: Executor) -> _Compared:
         score = target.match(*_library(sought, *task)).score
         return score - OTHER_EDGE * (task[0] != search.edges[0])
 
-    return _Compared(
-        np.tile(EXTENTS, len(search.edges)),
-        tuple(edge for edge in search.edges for _ in EXTENTS),
-        np.concatenate(list(threads.map(explained, tasks))),
-    )
+    return np.concatenate(list(threads.map(explained, tasks)))
 
 
 def _refined(
     search: Search,
-    compared: _Compared,
+    scores: NDArray[np.float64],
     cells: Callable[[float], int],
     threads: Executor,
 ) -> list[Guess]:
     """The best guesses made better, and those of each cell."""
-    sources = list(zip(compared.extents.tolist(), compared.edges, strict=True))
-    order = np.argsort(-compared.score, kind="stable")
+    sources = [(extent, edge) for edge in search.edges for extent in EXTENTS.tolist()]
+    order = np.argsort(-scores, kind="stable")
 
     def starts() -> Iterator[int]:
         taken: list[float] = []

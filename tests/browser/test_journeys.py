@@ -569,7 +569,6 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk.reads(re.compile("Shipped"))
     desk.reads(re.compile("Fastest within 0.1 dB"))
     for charts, words in (
-        ("Balls with mass", "Massless balls, and steps of heavy ones"),
         ("Stability", "The factor by which a ball pass"),
         ("Statics", "Solvers, against energy minima"),
     ):

@@ -368,9 +368,9 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 @pytest.mark.proof
 def test_a_fast_shaft_is_unstable_and_a_long_run_is_cancelled(desk: Visitor) -> None:
     desk.begin("More: Over speed")
-    desk.reads(re.compile("Stable orbit"))
+    desk.reads(re.compile("Periodic with each ball pass"))
     desk.type("Shaft speed", "30")
-    desk.reads(re.compile("Unstable"))
+    desk.reads(re.compile("is unstable"))
     desk.press("Undo")
     desk.choose("Speeds", "193")
     desk.press("Run up")

@@ -7,6 +7,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+INCH = 25.4e-3
+"""[m]"""
+
+STANDARD_GRAVITY = 9.80665
+"""[m/s²]"""
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -33,7 +39,7 @@ UNITS: Mapping[str, Unit] = {
     "m": Unit("m", 1.0, "m"),
     "mm": Unit("m", 1e-3, "mm"),
     "µm": Unit("m", 1e-6, "um"),
-    "in": Unit("m", 25.4e-3, "in"),
+    "in": Unit("m", INCH, "in"),
     "rad": Unit("rad", 1.0, "rad"),
     "deg": Unit("rad", math.pi / 180.0, "deg"),
     "°": Unit("rad", math.pi / 180.0, "deg"),

@@ -32,11 +32,10 @@ from bearingcore.bearings import ratings
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.common import checks
 from bearingcore.common.numbers import percent
+from bearingcore.units import INCH
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
-
-INCH = 25.4e-3
 
 BALL_SIZES: tuple[float, ...] = tuple(
     sorted(

@@ -1,6 +1,7 @@
 """From a measured signal to the machine: which part is damaged, and how large the defect is."""
 
 from bearingcore.diagnosis.part.combs import HARMONICS as HARMONICS
+from bearingcore.diagnosis.part.diagnose import SLIP as SLIP
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL as CANNOT_TELL
 from bearingcore.diagnosis.part.evidence import LIKELY as LIKELY
 from bearingcore.diagnosis.part.evidence import NONE_SEEN as NONE_SEEN
@@ -13,8 +14,5 @@ from bearingcore.diagnosis.part.parts import OUTER as OUTER
 from bearingcore.diagnosis.part.parts import PARTS as PARTS
 from bearingcore.diagnosis.part.say import perhaps_a_ball as perhaps_a_ball
 from bearingcore.diagnosis.part.status import DiagnosisStatus as DiagnosisStatus
-from bearingcore.diagnosis.size.sizing_error import extent_error as extent_error
-from bearingcore.diagnosis.size.variants import SPREAD as SPREAD
-from bearingcore.diagnosis.size.variants import variant as variant
 from bearingcore.diagnosis.trend import LINES as LINES
 from bearingcore.diagnosis.trend import time_in as time_in

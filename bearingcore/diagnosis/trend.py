@@ -16,7 +16,7 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
 from bearingcore.diagnosis.part.parts import part_lines
@@ -28,9 +28,6 @@ from bearingcore.signals.whitening import local_median
 
 LINES = ("bpfo", "bpfi", "bsf_2", "ftf")
 """Lines of outer race, inner race, ball (twice its spin) and cage."""
-
-SLIP = 0.02
-"""By how much balls may pass faster or slower than the shaft speed says."""
 
 LINES_A_TURN = 16.0
 """Resolution of the envelope spectrum in parts of the shaft speed, if the signal is so long."""
@@ -251,7 +248,7 @@ def trend_point(
     fault, probability, extent = CANNOT_TELL, math.nan, without_extent()
     lines = noise = np.full(len(LINES), math.nan)
     if bearing is not None:
-        answer = diagnose(recording, bearing, shaft_speed, slip=SLIP)
+        answer = diagnose(recording, bearing, shaft_speed)
         fault, probability = answer.fault, answer.probability
         extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
         speed = answer.shaft_speed if speed is None else speed

@@ -1,4 +1,4 @@
-"""Where steps are too long for Runge-Kutta, and where the periodic motion itself is unstable.
+"""Where steps are too long for Runge-Kutta.
 
 The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
 static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
@@ -21,7 +21,6 @@ from bearingcore.dynamics.modes import (
     loaded_directions,
     two_body_matrix,
 )
-from bearingcore.dynamics.orbit import LOSSES, orbit
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.status import MotionStatus
 from bearingcore.dynamics.step_rate import default_step_rate
@@ -29,7 +28,7 @@ from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import at_rate
 from bearingcore.experiments.points import NOT_WATCHED, RIGHT, Reference, Watch
 from bearingcore.experiments.references import MotionReference, motion_reference
-from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
+from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.signals.spectrum_difference import BAND
 from bearingcore.statics.positions import over_all_positions
 
@@ -258,56 +257,3 @@ def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
     if decibel <= RIGHT_DB:
         verdict = RIGHT
     return Trial(name, step_rate, verdict, decibel, amplitude)
-
-
-@dataclass(frozen=True)
-class OrbitAtSpeed:
-    """The periodic motion at one shaft speed.
-
-    Attributes
-    ----------
-    shaft_speed
-        [rad/s]
-    status
-        outcome of the search, as `dynamics.orbit` has it; "refused: " and why where it is none.
-    loss
-        name of its loss of stability, one of LOSSES; empty for a stable orbit or none.
-    multipliers
-        Floquet multipliers (real, imaginary), the largest first.
-    """
-
-    shaft_speed: float
-    status: str
-    loss: str = ""
-    multipliers: tuple[tuple[float, float], ...] = ()
-
-    @property
-    def size(self) -> float:
-        """|μ| of the largest multiplier; NaN without an orbit."""
-        return math.hypot(*self.multipliers[0]) if self.multipliers else math.nan
-
-
-SPEEDS = tuple(2.0 ** (k / 8.0) for k in range(-8, 25))
-"""Shaft speeds over that of the scene at which orbits are looked for."""
-
-MOST_ORBIT_STEPS = 200_000
-
-
-def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAtSpeed, ...]:
-    """Stability of the periodic motion over the shaft speed, from half to eight times the scene's.
-
-    Balls are taken without mass. Ends early when cancelled.
-    """
-    scene = scene.replace(balls=MASSLESS)
-    found = []
-    for factor in in_turn(SPEEDS, str, watch.progress, watch.cancelled):
-        speed = factor * scene.shaft_speed
-        try:
-            one = orbit(scene.replace(shaft_speed=speed), most_steps=MOST_ORBIT_STEPS)
-        except ValueError as refused:
-            found.append(OrbitAtSpeed(speed, f"refused: {refused}"))
-            continue
-        pairs = tuple((float(mu.real), float(mu.imag)) for mu in one.multipliers)
-        loss = LOSSES[one.through] if one.through else ""
-        found.append(OrbitAtSpeed(speed, str(one.status), loss, pairs))
-    return tuple(found)

@@ -1,6 +1,7 @@
 """Signals out of files: columns of numbers, their meaning by the file, open questions."""
 
 from bearingcore.files.channels import OTHER as OTHER
+from bearingcore.files.channels import PLACES as PLACES
 from bearingcore.files.channels import SIGNAL as SIGNAL
 from bearingcore.files.channels import SPEED as SPEED
 from bearingcore.files.channels import TIME as TIME
@@ -12,7 +13,6 @@ from bearingcore.files.table import files_inside as files_inside
 from bearingcore.files.table import path_in as path_in
 from bearingcore.files.units import ACCELERATIONS as ACCELERATIONS
 from bearingcore.files.units import SPEEDS as SPEEDS
-from bearingcore.files.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 from bearingcore.files.units import TIMES as TIMES
 from bearingcore.files.units import UNITS as UNITS
 from bearingcore.files.units import VOLTAGES as VOLTAGES

@@ -9,9 +9,10 @@ from collections.abc import Mapping
 from bearingcore.common import checks
 from bearingcore.files.child import read_file
 from bearingcore.scene.floor import MOST_ROWS, MeasuredFloor, measured_floor
+from bearingcore.units import INCH
 
 _ANGLES = {"rad": 1.0, "radians": 1.0}
-_LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": 0.0254}
+_LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": INCH}
 """Units [rad, m] that a heading may give; others are degrees and micrometres."""
 
 

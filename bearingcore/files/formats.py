@@ -7,8 +7,10 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 from __future__ import annotations
 
 import io
+import json
 import re
 import warnings
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -55,6 +57,9 @@ def read(
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
+    if content[:2] == b"\x1f\x8b":
+        content = _unzipped_alone(name, content)
+        return read(re.sub(r"(?i)\.gz$", "", name), content, most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
@@ -69,6 +74,8 @@ def read(
         kind, walk = "NumPy file", libraries.npz
     elif re.match(rb"# Created by Octave", content):
         kind, walk = "text of Octave", _walk_octave
+    elif re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
+        kind, walk = "JSON file", lambda _, found: _walk_json(values, "", found, 0)
     elif content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     elif (
@@ -92,13 +99,53 @@ def read(
     return found.table(name, kind, most_numbers, most_columns)
 
 
+def _unzipped_alone(name: str, content: bytes) -> bytes:
+    """Unpack what gzip packed."""
+    try:
+        made = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
+    except zlib.error:
+        raise checks.refuse("file", name, "a whole file of gzip") from None
+    if len(made) > libraries.MOST_UNPACKED:
+        most = f"at most {libraries.MOST_UNPACKED >> 20} MB"
+        raise checks.refuse("file", name, f"one that holds {most} unpacked")
+    return made
+
+
+def _json(content: bytes) -> Any:
+    """The value of a JSON text, or of one record a line; None where it is neither."""
+    try:
+        text = content.decode("utf-8-sig")
+        try:
+            return json.loads(text)
+        except ValueError:
+            return [json.loads(line) for line in text.splitlines() if line.strip()]
+    except (ValueError, RecursionError):
+        return None
+
+
+def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
+    """Lists of numbers, and lists of records by the records' names."""
+    _check_depth(depth)
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        records = [one for one in value if isinstance(one, dict)]
+        value = {name: [one.get(name) for one in records] for name in records[0]}
+    if isinstance(value, dict):
+        for name, inside in value.items():
+            _walk_json(inside, f"{path}.{name}" if path else str(name), found, depth + 1)
+        return
+    try:
+        found.add(path or "array", np.array(value, dtype=float))
+    except (TypeError, ValueError):
+        found.add(path or "array", np.asarray(value, dtype=object))
+
+
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
     """Whole numbers come out as parts of full scale, −1 to 1."""
     from scipy.io import wavfile
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # chunks with remarks that it does not know
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")  # of chunks with remarks that it does not know, too
             rate, data = wavfile.read(io.BytesIO(content))
     except MemoryError:
         raise
@@ -116,6 +163,8 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         columns /= float(np.iinfo(data.dtype).max) + 1.0
     names = [f"channel {i + 1}" for i in range(columns.shape[1])]
     about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
+    if any("EOF" in str(one.message) for one in warned):
+        about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
 
 
@@ -127,7 +176,14 @@ class Variables:
     texts: dict[str, str] = field(default_factory=dict)
 
     def add(self, path: str, value: NDArray[Any]) -> None:
-        """Keep a real matrix or a word; anything else is passed over."""
+        """Keep real numbers as a matrix, or a word; anything else is passed over."""
+        for part in value.dtype.names or ():
+            self.add(f"{path}.{part}" if path else part, value[part].ravel())
+        if value.dtype.kind in "Mm":
+            value = libraries.in_seconds(value)
+        if value.ndim > 2:  # the longest direction is that of the samples
+            longest = int(np.argmax(value.shape))
+            value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
         if value.dtype.kind in "iuf" and value.ndim <= 2:
             self.numbers[path] = np.atleast_2d(value)
         elif value.dtype.kind in "OSU":
@@ -154,7 +210,7 @@ class Variables:
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable, part in parts.items():
             if len(part) < least and len(self.texts) < MOST_SCALARS:
-                self.texts[variable] = f"{len(part)} × {part.shape[1]} numbers, not used"
+                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
         parts = {variable: part for variable, part in parts.items() if len(part) >= least}
         width = sum(part.shape[1] for part in parts.values())
         _check_size(name, (rows, width), most_numbers, most_columns)

@@ -111,7 +111,7 @@ class Table(FileColumns):
         full_scale
             meaning of the number 1 in the file [unit]: the full scale of a WAV file.
         sensitivity
-            of the sensor [V/(m/s²)], for voltages.
+            of the sensor [V/(m/s²)], for voltages; None takes that of the file.
         shaft_speed
             [rad/s]; None takes that of the file, if it has one.
 
@@ -134,6 +134,8 @@ class Table(FileColumns):
         first, last, gaps = self._rows(picked)
         notes = [*self.notes, *notes, gaps]
         signal = self.columns[first:last, picked] * scale
+        if sensitivity is None and contents.sensitivity is not None:
+            sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
             notes += self._to_acceleration(signal, units, rate, sensitivity)
         speed = contents.shaft_speed

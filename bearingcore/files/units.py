@@ -17,9 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.numbers import number
-
-STANDARD_GRAVITY = 9.80665
-"""[m/s²]"""
+from bearingcore.units import INCH, STANDARD_GRAVITY
 
 ACCELERATIONS: Mapping[str, float] = MappingProxyType(
     {
@@ -28,14 +26,14 @@ ACCELERATIONS: Mapping[str, float] = MappingProxyType(
         "mg": 1e-3 * STANDARD_GRAVITY,
         "mm/s²": 1e-3,
         "cm/s²": 1e-2,
-        "in/s²": 0.0254,
+        "in/s²": INCH,
         "ft/s²": 0.3048,
     }
 )
 """[m/s²]"""
 
 VELOCITIES: Mapping[str, float] = MappingProxyType(
-    {"m/s": 1.0, "mm/s": 1e-3, "µm/s": 1e-6, "in/s": 0.0254}
+    {"m/s": 1.0, "mm/s": 1e-3, "µm/s": 1e-6, "in/s": INCH}
 )
 """[m/s]"""
 
@@ -87,7 +85,7 @@ _WRITTEN = {
     "kN": "kilonewton",
     "lb": "lbs lbf",
     "kg": "kgf",
-    "rpm": "1/min u/min r/min min-1 min^-1",
+    "rpm": "1/min u/min r/min tr/min rev/min min-1 min^-1 cpm",
     "Hz": "1/s hertz",
     "kHz": "ksps ks/s",
     "rad/s": "rad_per_s",
@@ -113,6 +111,7 @@ _LOOSE = {
     "volt",
     "volts",
     "rpm",
+    "g's",
     "hz",
     "n",
     "kn",

@@ -19,15 +19,13 @@ from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.scene.defect import path_tables
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.units import STANDARD_GRAVITY
 
 Array = NDArray[np.float64]
 
 SMALL_TILT = 0.2
 """[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
 out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
-
-STANDARD_GRAVITY = 9.80665
-"""[m/s²], along −y."""
 
 HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
 """The way of a ball's centre where there is no defect."""

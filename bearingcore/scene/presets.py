@@ -18,6 +18,7 @@ from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.scene import TILT_FREE, Scene
 from bearingcore.scene.support import Support
+from bearingcore.units import INCH
 
 # Table 1 of the paper gives masses and the radial support; the rest, which its motion in x and y
 # never uses, is assumed: the same spring and damper along z, and rings that tilt with the inertia
@@ -39,9 +40,6 @@ FAN_RIG_SUPPORT = Support(
     inner_inertia=2.0 * _GYRATION,
     outer_inertia=2.0 * _GYRATION,
 )
-
-INCH = 25.4e-3
-"""[m]"""
 
 WIDTH_7208 = 18e-3
 """[m] of a 7208 by ISO 15: two of them side by side have their rows as far apart."""

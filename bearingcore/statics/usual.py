@@ -8,12 +8,12 @@ import math
 from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
-from bearingcore.scene.packing import STANDARD_GRAVITY
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
 from bearingcore.scene.scene import Scene
 from bearingcore.scene.support import Support
 from bearingcore.statics.life import dynamic_load_rating
 from bearingcore.statics.thrust import facing, induced_thrust
+from bearingcore.units import STANDARD_GRAVITY
 
 SPEED_FACTOR = 150_000.0
 """n d_m [mm/min], a third of what ball bearings in grease reach, half of what tapered ones do."""

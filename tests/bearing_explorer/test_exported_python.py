@@ -52,11 +52,9 @@ PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz",
          "y_to": "12", "grid": "8"}  # fmt: skip
 CHOICES: dict[str, dict[str, Any]] = {
     "explore": PLANE | {"output": "k_xx_mean"},
-    "stability-map": PLANE | {"grid": "13"},
     "speed-run": {"from": "7", "to": "9", "count": "25"},
-    "accuracy": {"experiment": "angles"},
+    "accuracy": {"experiment": "statics"},
     "diagnosis": {"speed": "rough"},
-    "sizing": {"support": "known"},  # among others it takes five times the time
     "measured-spectrum": {"direction": "x", "scale": "linear"},
     "measured-envelope": {"low": "400", "high": "3000"},
 }

@@ -9,7 +9,6 @@ import os
 import re
 import subprocess
 import sys
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,7 +19,7 @@ from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
 from tests.browser.explorer_page import rest
-from tests.browser.helpers import ROOT, Server, Watch, drag
+from tests.browser.helpers import Server, Watch, drag
 from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
 
@@ -98,9 +97,9 @@ TABS = {
     "Machine: Rotor and support": (2, 0, None, None),
     "Machine: Life": (1, 0, None, None),
     "Diagnosis": (2, 0, lambda _: "No signal yet", None),
-    "Accuracy": (2, 10, None, None),
-    "More: Explore": (1, 4, None, "Depth"),
-    "More: Over speed": (3, 2, None, "Length of the defect"),
+    "Accuracy": (2, 1, None, None),
+    "More: Explore": (1, 3, None, "Depth"),
+    "More: Over speed": (2, 2, None, "Length of the defect"),
     "More: Paper": (1, 0, None, None),
 }
 LONG = ("More: Explore", "More: Over speed", "Diagnosis", "Accuracy", "More: Paper")
@@ -313,7 +312,7 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(desk: Visitor) ->
 @pytest.mark.proof
 def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     desk.begin("More: Explore")
-    desk.wait(lambda: len(desk.figures()) >= 4)
+    desk.wait(lambda: len(desk.figures()) >= 3)
     desk.sees_change(lambda: desk.choose("Vertical axis", "Radial clearance (µm)"))
     shown = desk.page.locator(".bk-Tooltip").filter(visible=True, has_text="clearance")
 
@@ -327,12 +326,6 @@ def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     desk.page.mouse.up()
     desk.wait(lambda: desk.number("Length of the defect") != 12.9)
     desk.steady()
-    before = desk.figures()
-    desk.point(-1, 0.5, 0.4)  # the histogram
-    desk.page.mouse.down()
-    desk.point(-1, 0.85, 0.4)
-    desk.page.mouse.up()
-    desk.wait(lambda: desk.figures()[0] != before[0])  # what is not selected is pale
     _, table = desk.download(lambda: desk.export("CSV"))
     assert len(table.decode().strip().splitlines()) >= 63
 
@@ -373,19 +366,14 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 
 
 @pytest.mark.proof
-def test_orbits_are_mapped_and_a_long_map_is_cancelled(desk: Visitor) -> None:
+def test_a_fast_shaft_is_unstable_and_a_long_run_is_cancelled(desk: Visitor) -> None:
     desk.begin("More: Over speed")
     desk.reads(re.compile("Stable orbit"))
     desk.type("Shaft speed", "30")
     desk.reads(re.compile("Unstable"))
     desk.press("Undo")
-    desk.choose("Fineness", "13 × 13")
-    desk.press("Compute the map")
-    desk.reads(re.compile("13 × 13 points after"))
-    desk.steady()
-    assert len(desk.figures()) >= 2
-    desk.choose("Fineness", "97 × 97")
-    desk.press("Compute the map")
+    desk.choose("Speeds", "193")
+    desk.press("Run up")
     cancel = desk.main.get_by_role("button", name="Cancel").last
     expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
@@ -456,7 +444,7 @@ def _recording(extent_deg: float, rate: float = 24_000.0, *, channels: int = 1) 
 
 
 @pytest.mark.proof
-def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visitor) -> None:
+def test_a_measurement_is_brought_and_its_part_named(desk: Visitor) -> None:
     desk.begin("Diagnosis")
     desk.bring(desk.main, "fan.wav", _recording(38.6))
     desk.reads(re.compile(r"fan.wav · 3 s · 24 kHz · speed\? · unit\? · bearing\?"))
@@ -474,16 +462,11 @@ def test_a_measurement_is_brought_its_part_named_and_its_size_found(desk: Visito
     desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
     desk.main.get_by_label("Unit of the signal").select_option("m/s²")
     desk.reads(re.compile("outer race is (probably )?damaged"))
-    desk.choose("Support is", "measured, as in the scene")
-    desk.press("Find the size")
-    desk.reads(re.compile(r"38\.[4-8]°"))
     desk.steady()
     assert len(desk.figures()) >= 3
     desk.look_over()
     desk.steady()
     assert "blank" not in desk.figures()
-    desk.press(re.compile(r"38\.\d° into the scene"))
-    desk.wait(lambda: abs(desk.number("Length of the defect") - 38.6) < 0.3)
 
 
 @pytest.mark.proof
@@ -585,9 +568,17 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk.begin("Accuracy")
     desk.reads(re.compile("Shipped"))
     desk.reads(re.compile("Fastest within 0.1 dB"))
-    desk.look_over()
-    desk.wait(lambda: "blank" not in desk.figures() and len(desk.figures()) > 8)
-    desk.choose("What to measure", "Cage angles")
+    for charts, words in (
+        ("Balls with mass", "Massless balls, and steps of heavy ones"),
+        ("Stability", "The factor by which a ball pass"),
+        ("Statics", "Solvers, against energy minima"),
+    ):
+        desk.choose("Charts of", charts)
+        expect(desk.main.get_by_text(re.compile(words))).to_be_visible()
+        desk.look_over()
+        desk.wait(lambda: "blank" not in desk.figures())
+    desk.choose("Charts of", "Motion")
+    desk.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
     before = desk.figures()
     desk.press("Measure on this machine")
     desk.reads(re.compile(r"\d+ points after"))
@@ -862,20 +853,6 @@ def test_a_scene_is_saved_changed_opened_and_swept(desk: Visitor, tmp_path: Path
     desk.reads(re.compile("allowed: TOML"), desk.scene)
     desk.bring(desk.scene, "mine.toml", text)
     expect(desk.box("Length of the defect")).to_have_value("38.6")
-
-    file, out = tmp_path / "sweep.toml", tmp_path / "out.zarr"
-    wanted = '\n[sweep]\noutputs = ["k_yy_mean"]\n[sweep.over]\nfy = [-50.0, -100.0]\n'
-    file.write_text(text.decode() + wanted, encoding="utf-8")
-    scripts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    module, function = scripts["scripts"]["bearing-sweep"].split(":")
-    start = f"import sys; from {module} import {function} as main; sys.exit(main())"
-    command = [sys.executable, "-c", start, str(file), "--out", str(out), "--workers", "1"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    import zarr
-
-    swept = zarr.open_group(out, mode="r")["k_yy_mean"][:]
-    assert swept[1] > swept[0] > 0.0
 
 
 def test_a_floor_is_brought_in_a_file(desk: Visitor) -> None:

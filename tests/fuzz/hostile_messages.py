@@ -46,7 +46,7 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("ShareBar", {"keep": "a", "want": "toml", "title": "a"}),
     ("ShareBar", {"report": "http://localhost/"}),
     ("LessonPanel", {"mark": 1, "lesson": "a", "words_only": True, "show": "load"}),
-    ("LessonPanel", {"mark": 1, "simulate": {"noise": "20", "machine": "same", "pit": "scene"}}),
+    ("LessonPanel", {"mark": 1, "simulate": {"noise": "20"}}),
     ("FileUpload", {"type": "begin", "name": "a.wav", "size": 64}),
     ("FileUpload", {"type": "piece", "of": 1, "content": "00"}),
 )

@@ -17,7 +17,7 @@ from bearingcore import Scene, presets
 @cache
 def signal() -> Measured:
     """A simulated signal of the fan rig, 20 dB above its noise."""
-    return simulated(presets["fan-rig"], 20.0, False, 1)
+    return simulated(presets["fan-rig"], 20.0, 1)
 
 
 def at(scene: Scene, shaft_speed: float | None = None) -> Machine:

@@ -182,6 +182,9 @@ class Problem:
     def multipliers(self, passes: int = 8) -> Array:
         """Of the periodic orbit of one ball pass, greatest first: Newton's method on its closing,
         the monodromy by differences.
+
+        They reach a nanometre, and 30 µm/s: a tenth of a micrometre already takes a touching ball
+        off its race, and the multiplier with it by 4 %.
         """
         times = np.array([0.0, 2.0 * math.pi / self.rows.count / self.cage])
         y = self.start()
@@ -192,12 +195,11 @@ class Problem:
         for _ in range(passes):
             y = after(y)
         size = np.abs(y).max()
+        reach = 1e-3 * np.repeat([1.0, 3e4], y.size // 2)
         for _ in range(20):
             end = after(y)
-            steps = 1e-5 * size * np.eye(y.size)
-            monodromy = np.stack(
-                [(after(y + h) - after(y - h)) / (2e-5 * size) for h in steps], axis=1
-            )
+            ends = [(after(y + h) - after(y - h)) for h in np.diag(reach)]
+            monodromy = np.stack(ends, axis=1) / (2.0 * reach)
             if np.abs(end - y).max() < 1e-7 * size:
                 break
             y = y + np.linalg.solve(np.eye(y.size) - monodromy, end - y)

@@ -188,67 +188,33 @@ def test_points_of_the_statics_chart() -> None:
 
 
 @witness(
-    "chart: angles",
-    by="stiffness by `plane.py` at so many angles and at 20,001, trapezoidal rule",
-    compared="error of the mean at three points of the fan rig's chart", within=2e-3,
-)  # fmt: skip
-def test_points_of_the_angles_chart() -> None:
-    def curves(count: int) -> np.ndarray:
-        """Σ Q/A sideways of the line of contact, too: groove centres are 50 µm apart."""
-        cage = np.linspace(0.0, 2.0 * math.pi / 14, count)
-        loads, k, _ = PLANE.solve(100.0, cage, 1.5 * math.pi, HURT)
-        phi = cage[:, None] + 2.0 * math.pi / 14 * np.arange(14)
-        turn = loads / (50e-6 + (loads / 5453e6) ** (2.0 / 3.0))
-        sides = [(turn * part).sum(axis=1) for part in (1.0, np.sin(phi) ** 2, np.cos(phi) ** 2)]
-        return np.stack([k[:, 0, 0], k[:, 1, 1], *sides], axis=1)
-
-    def mean(values: np.ndarray) -> np.ndarray:
-        return np.trapezoid(values, axis=0) / (len(values) - 1)
-
-    dense = curves(20_001)
-    shown = {p["value"]: p["errors"]["mean"] for p in chart("angles")["points"]
-             if p["method"] == "equally spaced"}  # fmt: skip
-    for count in (17, 33, 65):
-        off = np.abs(mean(curves(count)) - mean(dense)) / dense.max(axis=0)
-        assert shown[count] == pytest.approx(off.max(), rel=2e-3), count
-
-
-@witness(
-    "chart: models", "edge: exact", "edge: chord", "edge: published",
+    "edge: exact", "edge: chord", "edge: published",
     by="SciPy's DOP853 on the equations of `march.py` with three edge models, 0.2 s from rest",
-    compared="levels of two edge models against exact ones, 14 presets [dB]", within="0.01 dB",
+    compared="levels of the housing's vibration with each edge model, 14 presets [dB]",
+    within="0.05 dB",
 )  # fmt: skip
 @every_preset
-def test_points_of_the_models_charts(preset: str) -> None:
-    def level(edge: str) -> float:
-        return 10.0 * math.log10(np.mean(exact(preset, 0.2, edge)[:, :2] ** 2))
-
-    for point in chart("models", preset)["points"]:
-        edge = point["method"].removesuffix(" edges")
-        if edge in ("published", "chord"):
-            apart = abs(level(edge) - level("exact"))
-            assert point["errors"]["level"] == pytest.approx(apart, abs=0.01), edge
-
-
-#: 0.79 here and 0.69 by the march of the first, 0.952 and 0.939 of the second
-ORBITS_IN_DOUBT = ("seven-ball", "liew-lim")
+def test_levels_of_edge_models(preset: str) -> None:
+    for edge in ("exact", "chord", "published"):
+        true, scene = exact(preset, 0.2, edge)[:, :2], presets[preset].replace(edge=edge)
+        found = simulate(scene, 0.2, RATE, step_rate=4.0 * RATE).instant_acceleration("outer")
+        powers = [np.mean(one[: len(true), :2] ** 2) for one in (found, true[: len(found)])]
+        assert abs(10.0 * math.log10(powers[0] / powers[1])) < 0.05, edge
 
 
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
     by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
-    compared="largest multiplier at the highest stable speeds of 12 presets' charts",
-    within=5e-3,
+    compared="largest multiplier at the highest stable speeds of 14 presets' charts",
+    within=1e-3,
 )  # fmt: skip
 @every_preset
 def test_points_of_the_orbits_charts(preset: str) -> None:
-    if preset in ORBITS_IN_DOUBT:
-        pytest.xfail("the two largest multipliers differ, and which is right is not known yet")
     known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
     last = 3 if len(presets[preset].active_dofs) == 2 else 1  # a pass is short at high speed
     for point in known[-last:]:
         found = problem(preset, shaft=point["shaft_speed"]).multipliers()
         here = orbit(presets[preset].replace(shaft_speed=point["shaft_speed"]))
-        assert here.largest_multiplier == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3)
+        assert here.largest_multiplier == pytest.approx(abs(found[0]), abs=1e-3)
         shown = np.abs([complex(*one) for one in point["multipliers"]]).max()
-        assert shown == pytest.approx(abs(found[0]), rel=5e-3, abs=1e-3), point["shaft_speed"]
+        assert shown == pytest.approx(abs(found[0]), abs=1e-3), point["shaft_speed"]

@@ -26,9 +26,6 @@ Found = TypeVar("Found")
 
 log = logging.getLogger(__name__)
 
-SLIP = 0.02
-"""By how much balls may pass faster or slower than the shaft speed says."""
-
 WHICH_BEARING = "Which bearing is it? Without it no damaged part can be named."
 
 FAILED = "The signal could not be analysed."
@@ -107,7 +104,7 @@ class ExtentQuestion(Question):
 def answered(question: Question) -> Diagnosis | str:
     """The diagnosis, or a sentence where there can be none. For any thread."""
     recording = question.measured.recording
-    return _or_why_not(lambda: diagnose(recording, question.bearing, question.speed, slip=SLIP))
+    return _or_why_not(lambda: diagnose(recording, question.bearing, question.speed))
 
 
 def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
@@ -165,10 +162,12 @@ def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
     """Listed bearings that explain the signal, or a sentence. For any thread."""
     return _or_why_not(
         lambda: explaining_bearings(
-            question.measured.recording, question.bearings, question.speed, slip=SLIP,
+            question.measured.recording,
+            question.bearings,
+            question.speed,
             goes_on=question.progress.goes_on,
         )
-    )  # fmt: skip
+    )
 
 
 def _or_why_not(compute: Callable[[], Found]) -> Found | str:

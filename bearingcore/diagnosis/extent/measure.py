@@ -14,7 +14,7 @@ from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
 from bearingcore.diagnosis.extent.release import Offsets, plausible_offsets
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.errors import Status
@@ -22,11 +22,8 @@ from bearingcore.scene.defect import EDGES, RACES
 from bearingcore.signals.averaging import least_passes
 from bearingcore.signals.recording import Recording
 
-SLIP = 0.02
-"""By how much balls may pass faster or slower than the shaft speed says."""
-
 SLIP_OF_LINES = 0.004
-"""The same about lines that a diagnosis has found."""
+"""By how much balls may pass faster or slower than the lines that a diagnosis has found."""
 
 SAMPLES_A_DEGREE = 1.0
 """Of the recording for a degree of the race, below which knocks cannot be located."""

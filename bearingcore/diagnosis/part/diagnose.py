@@ -29,6 +29,9 @@ from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.diagnosis.part.unknown_speed import in_range
 from bearingcore.signals.recording import Recording
 
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 """[rad/s] between which an unknown shaft is looked for."""
 
@@ -48,7 +51,7 @@ def diagnose(
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     *,
-    slip: float = 0.02,
+    slip: float = SLIP,
     most_samples: int = MOST_SAMPLES,
     speed_source: str = "given",
     bearing_source: str = "given",

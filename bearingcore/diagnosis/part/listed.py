@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.diagnosis.part.diagnose import diagnose
+from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.signals.recording import Recording
@@ -38,7 +38,7 @@ def explaining_bearings(
     bearings: Mapping[str, Bearing],
     shaft_speed: float | tuple[float, float] | None,
     *,
-    slip: float = 0.02,
+    slip: float = SLIP,
     speed_source: str = "given",
     goes_on: Callable[[int, int], bool] = lambda done, of: True,
 ) -> tuple[ListedBearing, ...]:

@@ -13,6 +13,7 @@ from bearingcore.common.numbers import probability, with_deviation
 from bearingcore.diagnosis.extent.measure import ExtentStatus, MeasuredExtent
 from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
 from bearingcore.diagnosis.size.fitting import EXTENT_STEP, GREATEST_EXTENT, LEAST_EXTENT
+from bearingcore.errors import FieldError
 
 WIDEST = 0.1
 """Of a ball spacing: where extents that are nearly as good differ by more than this (their
@@ -150,12 +151,17 @@ def _like_a_pit(sized: Sizing) -> float:
     return reach if whole >= 1 and abs(best.extent - whole * spacing) < reach else 0.0
 
 
-def confirmed(sized: Sizing, knocks: MeasuredExtent) -> Judgement:
+def confirmed(sized: Sizing, knocks: MeasuredExtent | FieldError) -> Judgement:
     """The judgement of an answer or a bound, once knocks in the envelope are held against it.
 
-    `knocks` is the extent from entry to exit, of the same recording.
+    `knocks` is the extent from entry to exit, of the same recording, or why there is none.
     """
     size = _size(sized)
+    if isinstance(knocks, FieldError):
+        return Judgement(
+            SizingStatus.UNCONFIRMED,
+            f"{_CANNOT}best match {size}, but no entry and exit can bear it out: {knocks}.",
+        )
     if sized.status == AT_MOST and knocks.status in _KNOCKS_TWICE:
         return Judgement(
             SizingStatus.TWO_KNOCKS,

@@ -27,8 +27,8 @@ import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
-from bearingcore.diagnosis.extent.measure import measure_extent
-from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, diagnose
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
+from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.diagnosis.size.answer import Candidate, Sizing, SizingStatus
@@ -44,6 +44,7 @@ from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.matching import Target
 from bearingcore.diagnosis.size.pass_quality import pass_quality
 from bearingcore.diagnosis.size.synthesis import comparison_band
+from bearingcore.errors import FieldError
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, Scene
 from bearingcore.signals.averaging import average_passes
@@ -79,7 +80,7 @@ def size_defect(
     *,
     fault: str | None = None,
     support_known: bool = False,
-    slip: float = 0.02,
+    slip: float = SLIP,
     most_steps: int = MOST_STEPS,
     most_samples: int = MOST_SAMPLES,
     progress: Callable[[float], None] | None = None,
@@ -186,14 +187,21 @@ def _with_judgement(sized: Sizing, scene: Scene) -> Sizing:
     sized = dataclasses.replace(sized, status=status, sentence=sentence)
     if not (sized.bound or sized.conclusive):
         return sized
-    best = sized.best
-    knocks = measure_extent(
-        sized.recording, scene.bearing, scene.shaft_speed, race="outer", edge=best.edge,
-        load=math.hypot(best.scene.load.fx, best.scene.load.fy) or None,
-        clearance=scene.bearing.radial_clearance,
-    )  # fmt: skip
-    status, sentence = confirmed(sized, knocks)
+    status, sentence = confirmed(sized, _knocks(sized, scene))
     return dataclasses.replace(sized, status=status, sentence=sentence)
+
+
+def _knocks(sized: Sizing, scene: Scene) -> MeasuredExtent | FieldError:
+    """The extent by the envelope, or why there is none under the scene's load or of its kind."""
+    best = sized.best
+    try:
+        return measure_extent(
+            sized.recording, scene.bearing, scene.shaft_speed, race="outer", edge=best.edge,
+            load=math.hypot(best.scene.load.fx, best.scene.load.fy) or None,
+            clearance=scene.bearing.radial_clearance,
+        )  # fmt: skip
+    except FieldError as refused:
+        return refused
 
 
 def _answer(

@@ -22,7 +22,6 @@ from bearingcore.bearings.designation import (
 )
 from bearingcore.bearings.designation_tables import boundaries, clearance, series_of
 from bearingcore.bearings.inside import (
-    INCH,
     MEASURED,
     OTHER_MAKER,
     balls_from_ratings,
@@ -37,6 +36,7 @@ from bearingcore.bearings.suffix import (
     TAPERED_ROLLERS,
 )
 from bearingcore.errors import FieldError
+from bearingcore.units import INCH
 from tests.benchmarks.insides import judged
 
 REFERENCE = Path(__file__).parents[2] / "reference"

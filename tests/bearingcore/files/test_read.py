@@ -129,7 +129,7 @@ def test_matlab(options):
     assert table.names == ("vertical", "horizontal")
     assert table.scalars == {"fs": RATE, "rpm": 420.0}
     if "format" not in options:
-        assert table.texts == {"words": "remark", "short": "9 × 2 numbers, not used"}
+        assert table.texts == {"words": "remark", "short": "not used: 9 × 2 numbers"}
     got = table.recording(["vertical", "horizontal"], ["y", "x"], "m/s²")
     assert got.sample_rate == RATE
     assert got.shaft_speed == pytest.approx(2.0 * np.pi * 7.0)

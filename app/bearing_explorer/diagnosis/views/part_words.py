@@ -6,13 +6,13 @@ import dataclasses
 import math
 from typing import Any
 
-from bearing_explorer.diagnosis.diagnoses import SLIP, Question
+from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
 from bearingcore.common import percent_off, probability
-from bearingcore.diagnosis import LIKELY, NONE_SEEN, ListedBearing, perhaps_a_ball
+from bearingcore.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
 
 SIDEBANDS = 2.0
 """[dB] above their surroundings from which sidebands are spoken of."""

@@ -25,9 +25,7 @@ TRIALS = {
     EVERYTHING: "Everything",
     "motion": "Motion: steps and methods",
     "balls": "Motion: mass of balls",
-    "models": "Models",
     "statics": "Statics: solvers",
-    "angles": "Cage angles",
     STABILITY: "Stability: steps",
     ORBITS: "Stability: orbit over speed",
 }

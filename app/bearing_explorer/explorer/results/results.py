@@ -392,14 +392,11 @@ class Results:
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
-    def spectra(self) -> dict[str, Spectrum]:
-        """Spectrum of the housing's acceleration along each direction, by its name."""
-        return motions.spectra(self.scene, self.marching)
-
-    @cached_property
-    @of_kind(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
-        """The same of the settled motion; empty where it did not stay finite."""
+        """Spectrum of the housing's acceleration along each direction, once the motion has settled.
+
+        Empty where it did not stay finite.
+        """
         return motions.late_spectra(self.scene, self.marching)
 
     @cached_property

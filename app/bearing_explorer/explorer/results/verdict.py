@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 ORBITS = frozenset({"orbit", "orbit_spectra"})
 """Attributes of the results that are of the steady orbit."""
-MOTIONS = frozenset({"motion", "excerpt", "spectra", "late_spectra"})
+MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
 """Attributes that are of a simulated motion."""
 
 BALLS = frozenset({"ball_mass"})

@@ -78,13 +78,16 @@ _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
 """Links that name no tab are of days when this one came first."""
-FORMER_TABS = {
+OTHER_NAMES_OF_TABS = {
     "sizing": "diagnosis",
     "ball-mass": "vibration",
     "orbits": "over-speed",
     "speed-run": "over-speed",
+    "frequencies": "modes",
+    "machine": "bearing",
+    "more": "explore",
 }
-"""Former names of tabs, in links that people have."""
+"""Former names of tabs, in links that people have, and what is written on them."""
 
 _DOFS_OF_WORD = {"auto": None, "free": TILT_FREE, "held": TILT_HELD}
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
@@ -184,7 +187,7 @@ def opened(text: str, editor: SceneEditor) -> Place:
     except ValueError as error:
         why = sentence_of(error)
         if found := _TAB.search(text[:LONGEST_TEXT]):
-            tab = FORMER_TABS.get(found[1], found[1])
+            tab = OTHER_NAMES_OF_TABS.get(found[1], found[1])
         note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
@@ -387,7 +390,7 @@ def _read(given: dict[str, str]) -> Place:
     if said == TILT_HELD:
         own_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
-    tab = FORMER_TABS.get(tab, tab)[:40]
+    tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
 

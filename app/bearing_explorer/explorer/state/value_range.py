@@ -96,9 +96,3 @@ def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool
         return scene.replace(**first) == other.replace(**first)
     except ValueError:
         return False
-
-
-def table_of_places(x: Sweep, y: Sweep) -> dict[str, NDArray[np.float64]]:
-    """Both values at each point of a map, row by row, by the keys of the fields."""
-    up, across = np.meshgrid(y.values, x.values, indexing="ij")
-    return {x.field.key: across.ravel(), y.field.key: up.ravel()}

@@ -11,7 +11,6 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import of_orbit
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import Glyph, curve, draw, filled
 from bearing_explorer.kit.plots.levels import (
@@ -27,8 +26,7 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.form import stack
-from bearing_explorer.kit.widgets.status import StatusLine
-from bearingcore.common import count, scientific, table_of
+from bearingcore.common import table_of
 from bearingcore.dynamics import OrbitStatus
 from bearingcore.scene import MASSLESS
 
@@ -93,16 +91,13 @@ class SteadyOrbit(View):
         self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
-        self.status = StatusLine()
-        self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
         # a row that wraps: Panel's own asks for the width of all its parts together
-        plots = stack(
+        return stack(
             self._multipliers(packed),
             self._path(packed),
             self._spectrum(packed),
             stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
         )
-        return [self.status, plots]
 
     def _multipliers(self, packed: PackedSource) -> figure:
         plot = _square(
@@ -183,11 +178,6 @@ class SteadyOrbit(View):
             "orbit_level": self._levels.fit(*seen_levels(3.0, found, late, *levels.values())),
         }
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        none = {"mood": "busy", "words": "Not computed", "details": []}  # the sentence says why
-        self.status.put(line=none if results is None else orbit_status(results))
-
     def sentence(self, results: Results) -> str:
         words = self._orbit_words(results)
         if results.scene.balls == MASSLESS:
@@ -258,24 +248,6 @@ class SteadyOrbit(View):
                         table[frequency[0]] = frequency[1]  # each is known so far
                     table[f"{name}_{density[0]}"] = density[1]
         return table
-
-
-def orbit_status(results: Results) -> dict[str, Any]:
-    """The orbit's status in words and colour, with the effort of the search."""
-    orbit, (mood, words) = results.orbit, of_orbit(results)
-    if orbit is None or not orbit.multipliers.size:
-        return {"mood": mood, "words": words, "details": []}
-    passes = count(orbit.ball_passes, "ball pass", "ball passes")
-    return {
-        "mood": mood,
-        "words": words,
-        "details": [
-            f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
-            f"period {style.with_prefix(orbit.period, 's')}: {passes}",
-            count(orbit.iterations, "Newton step"),
-            f"closure error {scientific(orbit.residual)}",
-        ],
-    }
 
 
 def orbit_path(results: Results) -> dict[str, NDArray[np.float64]]:

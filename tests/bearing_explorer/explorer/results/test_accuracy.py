@@ -25,12 +25,13 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import presets
 from bearingcore.experiments import (
     Experiment,
+    Measurements,
     OrbitAtSpeed,
     Point,
     Reference,
-    measure,
     measurements_from,
 )
+from tests.helpers.timing import measure_once
 
 RIG = presets["fan-rig"]
 
@@ -72,7 +73,7 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     results = Results(presets[preset])
     view.say(results, view.sentence(results))
     base = shipped(preset)
-    for one, chart in view._charts:
+    for one, chart in (pair for pairs in view._charts.values() for pair in pairs):
         words = html.unescape(chart._words.object)
         assert chart.plot.visible or base.refused.get(one.experiment, NOT_YET) in words
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
@@ -106,24 +107,27 @@ def test_losses_of_stability_are_named() -> None:
     assert "not measured" in orbits_sentence(())
 
 
-def test_an_experiment_is_shown_point_by_point_and_read_from_its_file() -> None:
+def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    measure_once(monkeypatch)
     job = Work()
     job.started = time.monotonic()
-    shares: list[int] = []
-    job.show = lambda found: shares.append(found.result.count)  # type: ignore[method-assign]
-    assert "points after" in compute(job, RIG, "angles")
-    assert shares[:3] == [1, 2, 3]
-    found = measure(RIG, ["angles", "orbits"])
+    shown: list[Measurements] = []
+    job.show = lambda found: shown.append(found.result)  # type: ignore[method-assign]
+    assert "points after" in compute(job, RIG, "statics")
+    assert [one.count for one in shown[:3]] == [1, 2, 3]
+    found = shown[-1]
     again = measurements_from(found.as_json())
     assert again.count == found.count
-    ours, theirs = (one.experiments["angles"].points for one in (found, again))
+    ours, theirs = (one.experiments["statics"].points for one in (found, again))
     for one, other in zip(ours, theirs, strict=True):
         assert other.errors == pytest.approx(one.errors, rel=1e-3)
         assert other.in_use == one.in_use
     view = Accuracy(PackedSource())
     view.found = Found(RIG, found)
     assert "Pale: shipped" in view.sentence(Results(RIG))
-    assert set(view.table(Results(RIG))["experiment"]) == {"angles"}
+    assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 
 
 def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> None:
@@ -134,4 +138,4 @@ def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> Non
     with pytest.raises(ValueError, match="no such"):
         Accuracy(PackedSource()).prepare({"experiment": "../etc"}, SceneEditor("fan-rig"))
     job.stop()
-    assert compute(job, RIG, "angles") == "Nothing was measured yet."
+    assert compute(job, RIG, "statics") == "Nothing was measured yet."

@@ -11,7 +11,7 @@ from bearingcore import Load, Recording, Scene, Support, measure_extent, presets
 from bearingcore.diagnosis.extent.measure import ExtentStatus, MeasuredExtent
 from bearingcore.diagnosis.size.answer import AT_MOST, Sizing, SizingStatus
 from bearingcore.diagnosis.size.judge import confirmed, judged
-from bearingcore.diagnosis.size.sizing import size_defect
+from bearingcore.diagnosis.size.sizing import _knocks, size_defect
 from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
 from tests.benchmarks.measured_records import records
 from tests.helpers import recordings
@@ -61,6 +61,15 @@ def test_entry_and_exit_have_to_bear_a_size_out(made, knocks):
         assert confirmed(claim, knocks).status == status
     silent = dataclasses.replace(knocks, status=ExtentStatus.ONE_KNOCK)
     assert confirmed(dataclasses.replace(made, status=AT_MOST), silent).status == AT_MOST
+
+
+def test_a_load_that_no_ball_loses_in_a_spall_is_a_reason_and_no_error(made):
+    crushing = made.best.scene.replace(load=Load(fy=-1e8))
+    best = dataclasses.replace(made.best, scene=crushing)
+    claim = dataclasses.replace(made, candidates=(best,), status=SizingStatus.SIZED)
+    said = confirmed(claim, _knocks(claim, crushing))
+    assert said.status == SizingStatus.UNCONFIRMED
+    assert "load is 1e+08" in said.sentence
 
 
 def test_a_spall_of_a_spacing_and_a_rest_is_counted_where_the_support_is_measured():

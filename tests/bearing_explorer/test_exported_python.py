@@ -3,8 +3,6 @@
 All of them run in one fresh interpreter, each in a namespace of its own.
 """
 
-from __future__ import annotations
-
 import ast
 import dataclasses
 import io

@@ -1,7 +1,5 @@
 """What a person does with the page, from end to end, by what is seen."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -32,8 +32,6 @@ Conventions the paper leaves open:
   shaft: by cage angle × 2 / (1 − D_b cos α0 / D_p).
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The steady orbit on the page: drawn as found, told in words, never made up."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The steady orbit on the page: drawn as found, told in words, never made up."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results

@@ -237,6 +237,9 @@ def _columns(
         ]
     for index, axis in enumerate(known.directions, len(columns) - len(known.directions)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
+    for index, column in enumerate(columns if len(columns) > 1 else ()):
+        if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
+            columns[index] = Column(column.name, OTHER)
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
@@ -267,9 +270,7 @@ def _with_times(
         rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
         if index in table.given or not (timed or rises):
             continue
-        if _counts(values, column):
-            columns[index] = Column(column.name, OTHER)
-        elif timed:
+        if timed:
             found[index] = times_of(values, column.unit)
         elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
             # what rises evenly all along is no vibration

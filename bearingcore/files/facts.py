@@ -103,7 +103,7 @@ _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
     "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
-    "tinterval",
+    "tinterval", "δt", "timeresolution",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -162,7 +162,7 @@ def _in_line(line: str) -> Iterator[Named]:
         if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
             turns = unit_named(match[3]) == "rpm"
             found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and _key(match[1]) in _KNOWN:
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _KNOWN:
             found.append((match[1], match[2], match[3]))
     for name, text, unit in found:
         value = _number(text)

@@ -174,6 +174,7 @@ class Variables:
 
     numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
+    objects: list[str] = field(default_factory=list)
 
     def add(self, path: str, value: NDArray[Any]) -> None:
         """Keep real numbers as a matrix, or a word; anything else is passed over."""
@@ -203,6 +204,11 @@ class Variables:
             elif matrix.size and len(scalars) < MOST_SCALARS:
                 with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
                     scalars[variable] = float(matrix[0, 0])
+        if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
+            wanted = (
+                f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
+            )
+            raise checks.refuse("file", name, f"{wanted}its columns, as in acc = T.acc, or as CSV")
         if not parts:
             raise checks.refuse("file", name, f"a {kind} with a vector or matrix of real numbers")
         rows = max(len(part) for part in parts.values())
@@ -258,6 +264,8 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
     _check_depth(depth)
+    if isinstance(value, MatlabOpaque):
+        found.objects.append(path)
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
         return
     if value.dtype.names:
@@ -308,6 +316,9 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
             if own and not (depth == 0 and name.startswith("#")):
                 _hdf5(item[name], f"{path}.{name}" if path else name, found, depth + 1)
     elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
+        return
+    elif "MATLAB_object_decode" in item.attrs:
+        found.objects.append(path)
         return
     elif h5py.check_ref_dtype(item.dtype) is not None:
         references = item[()].ravel()

@@ -78,7 +78,7 @@ def times_of(time: NDArray[np.float64], unit: str | None = None, *, sure: bool =
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
     low, high = _SINCE_1970
-    dated = next((name for name in _PARTS if low <= first * TIMES[name] <= high), None)
+    dated = next((name for name in _PARTS[:-1] if low <= first * TIMES[name] <= high), None)
     found = sampling_of(time, TIMES[unit or dated or "s"])
     if unit is None and dated is not None:
         found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")

@@ -161,11 +161,11 @@ class Table(FileColumns):
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
             if kind_of(unit) == "voltage":
+                if sensitivity is None:
+                    wanted = "that of the sensor [V/(m/s²)]: 100 mV/g is 0.1 / 9.80665"
+                    raise checks.missing("sensitivity", wanted)
                 signal[:, index] /= checks.real_number(
-                    "sensitivity",
-                    np.nan if sensitivity is None else sensitivity,
-                    above=0.0,
-                    unit="V/(m/s²)",
+                    "sensitivity", sensitivity, above=0.0, unit="V/(m/s²)"
                 )
             elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
                 if np.isfinite(signal[:, index]).all():
@@ -192,9 +192,7 @@ class Table(FileColumns):
             of_file = self.contents.unit
             unit = column.unit or (of_file.value if of_file.stated else None)
             if unit is None:
-                raise checks.refuse(
-                    "unit", None, f"one of {', '.join(UNITS)}: the file does not say it"
-                )
+                raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
         return checks.choice("unit", unit, tuple(UNITS))
 
     def _rate(self, given: float | None) -> tuple[float, list[str]]:
@@ -209,17 +207,21 @@ class Table(FileColumns):
                     else ""
                 )
                 why = f" {trouble}" if trouble else ""
-                raise checks.refuse(
-                    "sample_rate", None, f"a number [Hz]: the file does not say it{guess}.{why}"
+                raise checks.missing(
+                    "sample_rate", f"a number [Hz]: the file does not say it{guess}.{why}"
                 )
             return stated.value, [trouble]
         rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
-        if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
+        typed = f"The sample rate was typed as {number(rate, 6)} Hz"
+        if stated is None:
             notes.append(
-                f"The sample rate was typed as {number(rate, 6)} Hz; {stated.reason} says "
-                f"{number(stated.value, 6)} Hz."
+                f"{typed}. Nothing in the file shows whether it was: every frequency, and so the "
+                "part, rests on it."
             )
+        elif abs(rate / stated.value - 1.0) > RATE_DOUBT:
+            says = "says" if stated.stated else "suggests"
+            notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
     def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:

@@ -86,6 +86,8 @@ def read_text(
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
@@ -484,6 +486,10 @@ def _headings(
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
                 for name, unit in zip(above, names, strict=True)
             ]
+    elif len(lines) > 1 and len(set(names)) < len(names):  # pandas' names of two levels
+        above = _names(lines[-2], style, columns)
+        if above is not None and len(set(above)) > 1:
+            names = [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]
     elif width > 1 and all(units := [_unit_alone(cell) for cell in names]):
         names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
     given = [name for name in names if name]
@@ -509,7 +515,7 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
         return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
     if unit_in(line) in UNITS and re.search(r"[\[(]", line):
         return False
-    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]", line):
+    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line):
         return True  # a name and what it is
     said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
     return said or bool(named_in([line]))

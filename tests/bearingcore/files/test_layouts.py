@@ -152,7 +152,7 @@ def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -
     rate = made.contents.sample_rate
     assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
     assert f"if it is in {unit};" in rate.reason
-    with pytest.raises(ValueError, match="sample_rate is None"):
+    with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         made.recording([1], ["y"], "g")
     by_hand = read_recording(
         "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
@@ -749,14 +749,24 @@ def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
     assert got.sample_rate == pytest.approx(RATE)
 
 
+def test_a_typed_rate_that_nothing_shows_is_said() -> None:
+    alone = rows(SIGNAL[:, 0])
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
+    assert "Nothing in the file shows whether it was" in got.notes[0]
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
+    assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
+    timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [
         ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
-        ({"columns": {"signal": 1}}, "unit is None"),
+        ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
         ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
         ({"columns": {"signal": "d"}}, "one of a, b, c"),
-        ({"columns": {"speed": 1}}, "speed_unit is None"),
+        ({"columns": {"speed": 1}}, "speed_unit is missing"),
         ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
         ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],

@@ -1,7 +1,5 @@
 """Maps over any two quantities: what they say, how they are refined, what is too much."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Lessons: what they claim is what the core computes; what is wrong with a file is said."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

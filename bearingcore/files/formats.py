@@ -234,7 +234,8 @@ class Variables:
 def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
     rows, width = shape
     if width > most_columns:
-        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+        most = f"at most {most_columns}: save those of one bearing alone"
+        raise checks.refuse(f"number of columns in {name}", width, most)
     if rows * width > most_numbers:
         raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
 

@@ -1,7 +1,5 @@
 """For all tests: what parallel processes share is made before they start."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

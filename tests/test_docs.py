@@ -1,7 +1,5 @@
 """The documents beside the code: they speak of what there is."""
 
-from __future__ import annotations
-
 import inspect
 import re
 from pathlib import Path

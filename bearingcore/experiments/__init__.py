@@ -3,7 +3,6 @@
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """
 
-from bearingcore.experiments.balls import BALL_ERRORS as BALL_ERRORS
 from bearingcore.experiments.integrators import METHODS as METHODS
 from bearingcore.experiments.measurements import MEASURED as MEASURED
 from bearingcore.experiments.measurements import ORBITS as ORBITS
@@ -11,7 +10,6 @@ from bearingcore.experiments.measurements import STABILITY as STABILITY
 from bearingcore.experiments.measurements import Measurements as Measurements
 from bearingcore.experiments.measurements import measure as measure
 from bearingcore.experiments.measurements import measurements_from as measurements_from
-from bearingcore.experiments.motions import motion_experiment as motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed as OrbitAtSpeed
 from bearingcore.experiments.points import Experiment as Experiment
 from bearingcore.experiments.points import Point as Point

@@ -18,7 +18,6 @@ import msgspec
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.progress import CancelledError
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
@@ -34,7 +33,6 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "motion": lambda scene, watch, slow: motion_experiment(
         scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
     ),
-    "balls": lambda scene, watch, _: balls_experiment(scene, duration=0.25, watch=watch),
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
 }
 """Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
@@ -197,7 +195,7 @@ def measure(
 ) -> Measurements:
     """Measure a scene by experiments, one after the other.
 
-    Balls are taken without mass except where that is what is measured.
+    Balls are taken without mass.
 
     Parameters
     ----------

@@ -3,8 +3,6 @@
 All of them run in one fresh interpreter, each in a namespace of its own.
 """
 
-from __future__ import annotations
-
 import ast
 import dataclasses
 import io
@@ -85,7 +83,7 @@ def recorded() -> tuple[bytes, Measured]:
 def shown(case: tuple[str, str]) -> tuple[View, Results]:
     """A view with all that it shows, as it is when its lines are asked for."""
     name = case[1]
-    scene, cage_angle, compared = SCENES.get(case[0], SCENES["dragged"])
+    scene, cage_angle, compared = SCENES[case[0]]
     choices = CHOICES.get(name, {})
     results = Results(scene, cage_angle, compared=compared)
     view = VIEWS[name](PackedSource())

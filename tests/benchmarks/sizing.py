@@ -16,8 +16,6 @@ passages one whose interval holds the truth. Wrong is a size that is off by more
 more than 4 deviations, or a bound that the truth is beyond.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 import os

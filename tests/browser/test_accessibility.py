@@ -1,7 +1,5 @@
 """Keyboard, screen readers, contrast in light and dark, and small screens."""
 
-from __future__ import annotations
-
 import re
 import time
 from importlib.resources import files

@@ -4,8 +4,6 @@
 ``python -m tests.benchmarks.starting --kills 20`` ends first starts at every tenth.
 """
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """The first minute: what stands on the first screen, what moves, and no nonsense in words."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from playwright.sync_api import Page, expect

@@ -1,7 +1,5 @@
 """Words in figures lie neither on one another nor outside of their figure."""
 
-from __future__ import annotations
-
 import pytest
 from playwright.sync_api import Page, ViewportSize
 

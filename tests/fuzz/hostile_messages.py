@@ -5,8 +5,6 @@ hostile ones take them from here. A message is a list of frames of a websocket; 
 bytes as bytes, and a `Raw` frame as it stands, with any opcode and flags.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import random

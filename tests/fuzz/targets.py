@@ -1,7 +1,5 @@
 """The parsers of inputs from outside; each returns a result or raises a ValueError."""
 
-from __future__ import annotations
-
 import io
 import random
 import time

@@ -1,7 +1,5 @@
 """The equations of motion of balls with mass, compiled, for integrators of other families."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bearingcore.kernels.balls.motion import lay_out, new_ball_steps, rates

@@ -1,7 +1,5 @@
 """A session's measurement for tests: without a browser, with a signal that is there already."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 

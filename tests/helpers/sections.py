@@ -1,7 +1,5 @@
 """Two tabs with a view each, which notes what it is asked to draw."""
 
-from __future__ import annotations
-
 import numpy as np
 from bearing_explorer.kit.half import Section
 from bearing_explorer.kit.views.base import View

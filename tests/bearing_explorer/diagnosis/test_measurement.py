@@ -1,7 +1,5 @@
 """A measurement of one's own: brought in pieces, judged, asked about; and simulated ones."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 import math

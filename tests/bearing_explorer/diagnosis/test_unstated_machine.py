@@ -1,7 +1,5 @@
 """What nothing says of a machine is not known: no number of the scene enters a diagnosis unsaid."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 import math

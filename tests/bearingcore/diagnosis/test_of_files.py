@@ -1,7 +1,5 @@
 """A file, or a folder of files, is diagnosed in one call; what is missing is asked by name."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -18,6 +18,7 @@ A lesson is a text file in Markdown with a head in TOML::
     ask = "Which ball carries most?"
     choose = ["the first", "the lowest", "all the same"]
     right = 2                          # counted from 1
+    hint = "Where is it pressed?"      # after a first wrong one; may be left out
     veil = ["load-distribution"]       # figures that have the answer; if left out, all of `watch`
     +++
     ## Question
@@ -132,8 +133,9 @@ class Prediction(msgspec.Struct, frozen=True):
     """A question before the answer is shown, as the head of a lesson has it.
 
     Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
-    number of `unit`, right from `right` − `within` to `right` + `within`. Figures on `veil` have
-    the answer and are veiled until then; None: all that the lesson marks.
+    number of `unit`, right from `right` − `within` to `right` + `within`. A first wrong
+    prediction is answered by the `hint`, if there is one, and may be made again. Figures on `veil`
+    have the answer and are veiled until then; None: all that the lesson marks.
     """
 
     ask: Text
@@ -141,6 +143,7 @@ class Prediction(msgspec.Struct, frozen=True):
     choose: Annotated[tuple[Text, ...], Meta(min_length=2, max_length=6)] = ()
     unit: Annotated[str, Meta(max_length=20)] = ""
     within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
+    hint: Annotated[str, Meta(max_length=200)] = ""
     veil: tuple[str, ...] | None = None
 
 

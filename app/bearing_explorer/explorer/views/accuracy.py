@@ -40,7 +40,6 @@ from bearing_explorer.kit.views.base import SessionParts, figures_in
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
-    BALL_ERRORS,
     FIXED_STEP,
     HARD_CASES,
     MOTION_ERRORS,
@@ -65,11 +64,6 @@ class Chart(NamedTuple):
 
 CHARTS = {
     "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
-    "Balls with mass": (
-        Chart(
-            "balls", "", "Massless balls, and steps of heavy ones, against heavy balls", wide=True
-        ),
-    ),
     "Statics": (
         Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
         *(Chart("statics", case, f"The same, {case}") for case in HARD_CASES),
@@ -81,7 +75,6 @@ SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
 """Subjects to choose from, of which the page shows one."""
 ERRORS = {
     "motion": MOTION_ERRORS,
-    "balls": BALL_ERRORS,
     "statics": STATIC_ERRORS,
 }
 """Errors that can be drawn, by experiment."""
@@ -222,7 +215,7 @@ class Accuracy(SceneJobView[Found]):
             if found.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
-            words += " Balls are massless in all charts but that of their mass."
+            words += " Balls are massless in all charts."
         return words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -110,7 +110,7 @@ class ExplorePlane(SceneJobView[Plane]):
         fills = plane_fills(editor.limits)
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
         # loads that point down, as weights do: without a load there is nothing to map
-        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
+        values["y_from"] = f"{-0.05 * editor.limits['fy_n'].least:g}"
         if self._request is None:
             self._request = self.request_of(values, editor)
         return values, fills
@@ -188,7 +188,7 @@ class ExplorePlane(SceneJobView[Plane]):
             self._refine(self._jobs, question, plane)
 
     def columns(self, found: Plane) -> dict[str, np.ndarray]:
-        up, across = np.meshgrid(found.y.values, found.x.values, indexing="ij")
+        up, across = np.meshgrid(found.y.own_values, found.x.own_values, indexing="ij")
         return {
             found.x.field.key: across.ravel(),
             found.y.field.key: up.ravel(),
@@ -236,7 +236,7 @@ class ExplorePlane(SceneJobView[Plane]):
 def plane_fields() -> list[FieldSpec]:
     """The fields of the form for both sides of a map."""
     quantities = [
-        [q.key, f"{q.signed_label} ({q.shown_unit})" if q.shown_unit else q.signed_label, q.group]
+        [q.key, f"{q.read_label} ({q.shown_unit})" if q.shown_unit else q.read_label, q.group]
         for q in SWEEPABLE.values()
     ]
     fields: list[FieldSpec] = []
@@ -310,7 +310,7 @@ def _place(plane: Plane, at: tuple[Any, ...]) -> str:
     prefixed = unit not in ("", "°")
     shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
     where = [
-        f"{sweep.field.label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
+        f"{sweep.field.read_label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]
     return f"{shown} at {' and '.join(where)}"

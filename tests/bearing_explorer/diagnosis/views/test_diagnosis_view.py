@@ -1,7 +1,5 @@
 """The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import re

@@ -1,7 +1,5 @@
 """The extent of a spall on the Diagnosis tab: measured once the part is named."""
 
-from __future__ import annotations
-
 import asyncio
 import dataclasses
 import math

@@ -1,7 +1,5 @@
 """What the Diagnosis tab draws of a signal over time and frequency."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import re

@@ -1,7 +1,5 @@
 """Several files as a trend: good ones read, bad ones named, numbers as a table and in Python."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Colours, light and dark: text is readable, lines are seen, colour-blind eyes tell them apart."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Speed against accuracy on the page: what is drawn is what was measured, one reference a chart."""
 
-from __future__ import annotations
-
 import html
 import math
 import time

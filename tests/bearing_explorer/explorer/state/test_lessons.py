@@ -1,7 +1,5 @@
 """Lessons: what they claim is what the core computes; what is wrong with a file is said."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -470,7 +468,7 @@ def lesson_of(path: Path) -> Lesson:
 def words_of(lesson: Lesson) -> str:
     parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
     asked = lesson.predict
-    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose])
+    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose, asked.hint])
     return Words(f"{lesson.title} {prediction} {parts}").text
 
 

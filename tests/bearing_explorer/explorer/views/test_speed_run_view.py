@@ -1,7 +1,5 @@
 """The speed run on the page: what is drawn in is where it belongs."""
 
-from __future__ import annotations
-
 import time
 from functools import partial
 

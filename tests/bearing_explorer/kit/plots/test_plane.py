@@ -1,7 +1,5 @@
 """A map over two quantities: what it draws is what was computed, with names, units and colours."""
 
-from __future__ import annotations
-
 import math
 
 import holoviews as hv

@@ -1,7 +1,5 @@
 """What a connection may send before it is answered, and that others are answered meanwhile."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import time

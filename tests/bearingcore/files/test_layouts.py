@@ -422,8 +422,9 @@ def tdms() -> bytes:
     nptdms = pytest.importorskip("nptdms")
     buffer = io.BytesIO()
     said = {"wf_increment": 1.0 / RATE, "unit_string": "g"}
+    slow = nptdms.ChannelObject("Slow", "t", np.arange(20.0), {"wf_increment": 0.1})
     with nptdms.TdmsWriter(buffer) as writer:
-        writer.write_segment([nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
+        writer.write_segment([slow, nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
     return buffer.getvalue()
 
 
@@ -476,6 +477,8 @@ def test_arrays_of_numpy_are_read() -> None:
     check_one_signal(read(numpy_file(np.save, SIGNAL[:, 0]), "a.npy"), None)
     check_one_signal(read(numpy_file(np.save, np.column_stack([TIME, SIGNAL[:, 0]]).T), "a.npy"))
     several = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, unit="g")
+    beside = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, about=cells({}))
+    check_one_signal(read(beside, "a.npz"))
     for name in ("a.npz", "upload"):
         check_one_signal(read(several, name))
     with pytest.raises(ValueError, match="damaged or unknown part"):
@@ -494,6 +497,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
     assert table.files_inside("a.csv", text) == ["a.csv"]
     check_one_signal(read(two, "rig.zip/a.csv"))
+    check_one_signal(read(zipped(a_csv=text, README=b"of the rig"), "rig.zip"))
     check_one_signal(read(two, "rig.zip/b.npy"), None)
     with pytest.raises(ValueError, match="unpack it"):
         read(zipped(a_zip=two), "rig.zip")
@@ -676,7 +680,9 @@ def test_a_column_with_one_number_is_a_fact() -> None:
     check_one_signal(made)
     assert made.contents.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
     short = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.full(30, 1772.0)), "a.mat").contents
-    assert short.shaft_speed is None  # thirty is how many, not how fast
+    assert short.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    ramp = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.arange(30.0)), "a.mat").contents
+    assert ramp.shaft_speed is None  # thirty is how many, not how fast
 
 
 @pytest.mark.parametrize(
@@ -684,7 +690,7 @@ def test_a_column_with_one_number_is_a_fact() -> None:
     [
         ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
         ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
-        ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}),
+        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}),
     ],
 )  # fmt: skip
 def test_directions_and_places_in_headings(heading: str, found: dict) -> None:

@@ -22,7 +22,6 @@ from bearingcore.dynamics.modes import (
     two_body_matrix,
 )
 from bearingcore.dynamics.problem import motion_problem
-from bearingcore.dynamics.status import MotionStatus
 from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.integrators import METHODS
 from bearingcore.experiments.motions import at_rate
@@ -231,7 +230,7 @@ def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
         signal = march.history[:, 5]
         good = reference.history[:, 5]
         amplitude = math.sqrt(float(np.mean(signal**2)) / float(np.mean(good**2)))
-        if march.status == MotionStatus.DIVERGED or not amplitude < GROWN:
+        if march.failure or not amplitude < GROWN:
             return Trial(name, step_rate, DIVERGED, math.inf, math.inf)
         history = at_rate(march.history, step_rate, sample_rate, len(reference.history))
         errors = reference.errors(history)

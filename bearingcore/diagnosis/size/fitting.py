@@ -258,7 +258,7 @@ def guesses(search: Search, cells: Callable[[float], int]) -> list[Guess]:
 
 
 def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
-    """How well each of EXTENTS explains the signal, with one edge and then with the other."""
+    """Likeness of the signal and that of each of EXTENTS, with one edge and then the other."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)

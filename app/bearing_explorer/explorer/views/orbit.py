@@ -180,9 +180,11 @@ class SteadyOrbit(View):
         return f"Periodic with each ball pass; disturbances shrink to {percent} % per pass."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        orbit, path = results.orbit, orbit_path(results)
-        table = {} if orbit is None else orbit.table().named()
-        return table | table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
+        table = {} if results.orbit is None else results.orbit.table().named()
+        for name, path in (("", orbit_path(results)), ("marched_", marched_path(results))):
+            columns = [(f"{name}inner_{dof}", "µm", path[dof]) for dof in SHOWN]
+            table |= table_of(*columns).named()
+        return table
 
 
 def orbit_path(results: Results) -> dict[str, NDArray[np.float64]]:

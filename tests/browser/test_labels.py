@@ -51,7 +51,7 @@ COLLISIONS = """(room) => {
 @pytest.mark.parametrize(
     ("preset", "tab"),
     [
-        ("liew-lim", "overview"),
+        ("liew-lim&extent_deg=0", "overview"),
         ("liew-lim", "load"),
         ("3208", "overview"),
         ("3208", "load"),

@@ -203,6 +203,10 @@ def choose(
         for index, column in enumerate(columns)
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
+    axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    if not signals and axial:
+        words = "By their names all signals are along the shaft (z). Which is at this bearing?"
+        return Choice({}, "", words, tuple(axial))
     if not signals:
         still = any(column.role == SIGNAL for column in columns)
         words = (

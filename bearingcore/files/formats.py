@@ -25,6 +25,9 @@ from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
+STEADY = 0.02
+"""Relative range of a few numbers, such as a speed, that count as one."""
+
 DEEPEST = 8
 """Structs, cells and groups inside one another."""
 
@@ -215,7 +218,17 @@ class Variables:
         # what is much shorter was measured otherwise, or is no signal
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable, part in parts.items():
-            if len(part) < least and len(self.texts) < MOST_SCALARS:
+            if len(part) >= least:
+                continue
+            # what is said of it, such as its rate, is not of the signals
+            scalars = {
+                name: value
+                for name, value in scalars.items()
+                if not name.startswith(f"{variable}.")
+            }
+            if np.ptp(part) <= STEADY * part.mean() and len(scalars) < MOST_SCALARS:
+                scalars[variable] = float(part.mean())
+            elif len(self.texts) < MOST_SCALARS:
                 self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
         parts = {variable: part for variable, part in parts.items() if len(part) >= least}
         width = sum(part.shape[1] for part in parts.values())
@@ -234,7 +247,8 @@ class Variables:
 def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
     rows, width = shape
     if width > most_columns:
-        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+        most = f"at most {most_columns}: save those of one bearing alone"
+        raise checks.refuse(f"number of columns in {name}", width, most)
     if rows * width > most_numbers:
         raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
 

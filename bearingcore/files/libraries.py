@@ -11,6 +11,7 @@ import os
 import re
 import zipfile
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from unittest.mock import patch
 
@@ -27,6 +28,9 @@ MOST_UNPACKED = 2**28
 
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
+
+_DOCUMENT = re.compile(r"(?i)(^|/)(readme|licen[cs]e)[^/]*$|\.(md|pdf|docx?|html?|png|jpe?g)$")
+"""Files that come with the signals in a zip."""
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
@@ -75,6 +79,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
+            files = [one for one in files if not _DOCUMENT.search(one.filename)] or files
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:
@@ -113,7 +118,8 @@ def npz(content: bytes, found: Variables) -> None:
     """All arrays of NumPy's `savez`."""
     with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
         for name in arrays.files:
-            found.add(name, arrays[name])
+            with suppress(ValueError):  # of Python's own objects, which are not unpacked
+                found.add(name, arrays[name])
 
 
 def in_seconds(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -283,9 +283,10 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    Octave's text and NumPy's files are read too, and with the packages of the extra `files` UFF,
-    TDMS and Parquet; also a zip of one of them. What it is shows in its first bytes. It is read in
-    a process of its own with limits of time and memory: see `bearingcore.files.child`.
+    JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
+    UFF, TDMS, Parquet and Feather; also a zip or gzip of one of them. What it is shows in its first
+    bytes. It is read in a process of its own with limits of time and memory: see
+    `bearingcore.files.child`.
 
     Parameters
     ----------

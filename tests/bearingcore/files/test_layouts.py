@@ -65,6 +65,11 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
         ("# acc [g]\n# fs = 12000 Hz", 12e3, None, "g"),
         ("# load = 500 N", None, None, None),
         ("# duration = 0.5 s", None, None, None),
+        ("# time resolution 1.25e-4 s", RATE, None, None),
+        ("# Δt = 125 µs", RATE, None, None),
+        ("# sample_rate_Hz 12000", 12e3, None, None),
+        ("Fs [Hz];12000", 12e3, None, None),
+        ("# level 1797 today", None, None, None),
         ("# temperature: 45 °C", None, None, None),
         ("# samples = 2000", None, None, None),
         ("Recorded on Monday beside the temperature sensor", None, None, None),
@@ -106,6 +111,8 @@ def test_two_rates_that_disagree_are_asked_about() -> None:
         (pd.DataFrame({"acc": SIGNAL[:, 0]}, index=DATES - DATES[0]).to_csv(), RATE),
         (pd.DataFrame(np.column_stack([TIME, SIGNAL[:, 0]])).to_csv(index=False), RATE),
         (FRAME.reset_index().to_csv(), RATE),
+        (pd.DataFrame({"when": DATES, "acc": SIGNAL[:, 0]}).to_csv(), RATE),
+        (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),  # an uptime, no days since 1970
         ("Unnamed: 0" + FRAME.to_csv(), RATE),
         (
             '"time" "acc"\n'
@@ -124,6 +131,8 @@ def test_two_rates_that_disagree_are_asked_about() -> None:
         "bare",
         "two",
         "again",
+        "counted",
+        "uptime",
         "R",
     ],
 )
@@ -335,6 +344,7 @@ def test_a_rate_above_columns_that_count(heading: str) -> None:
 
 def test_lists_and_records_of_json_are_columns() -> None:
     check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
+    check_one_signal(read(f"[{' '.join(map(str, SIGNAL[:, 0]))}]"), None)
     check_one_signal(read(json.dumps(FRAME.to_numpy().tolist()), "a.json"))
     for lines in (False, True):
         check_one_signal(read(FRAME.to_json(orient="records", lines=lines, double_precision=9)))
@@ -412,8 +422,9 @@ def tdms() -> bytes:
     nptdms = pytest.importorskip("nptdms")
     buffer = io.BytesIO()
     said = {"wf_increment": 1.0 / RATE, "unit_string": "g"}
+    slow = nptdms.ChannelObject("Slow", "t", np.arange(20.0), {"wf_increment": 0.1})
     with nptdms.TdmsWriter(buffer) as writer:
-        writer.write_segment([nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
+        writer.write_segment([slow, nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
     return buffer.getvalue()
 
 
@@ -466,6 +477,8 @@ def test_arrays_of_numpy_are_read() -> None:
     check_one_signal(read(numpy_file(np.save, SIGNAL[:, 0]), "a.npy"), None)
     check_one_signal(read(numpy_file(np.save, np.column_stack([TIME, SIGNAL[:, 0]]).T), "a.npy"))
     several = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, unit="g")
+    beside = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, about=cells({}))
+    check_one_signal(read(beside, "a.npz"))
     for name in ("a.npz", "upload"):
         check_one_signal(read(several, name))
     with pytest.raises(ValueError, match="damaged or unknown part"):
@@ -484,6 +497,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
     assert table.files_inside("a.csv", text) == ["a.csv"]
     check_one_signal(read(two, "rig.zip/a.csv"))
+    check_one_signal(read(zipped(a_csv=text, README=b"of the rig"), "rig.zip"))
     check_one_signal(read(two, "rig.zip/b.npy"), None)
     with pytest.raises(ValueError, match="unpack it"):
         read(zipped(a_zip=two), "rig.zip")
@@ -491,11 +505,21 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
         read(two[:2000], "rig.zip")
 
 
+def matlab_table() -> bytes:
+    """As version 7.3 keeps one: numbers that point into a part of its own."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        file["T"] = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
+        file["T"].attrs["MATLAB_object_decode"] = 3
+    return buffer.getvalue()
+
+
 @pytest.mark.parametrize(
     ("content", "told"),
     [
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
         (b"Octave-1-L\x00", "save -v7"),
+        (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
     ],
@@ -656,7 +680,9 @@ def test_a_column_with_one_number_is_a_fact() -> None:
     check_one_signal(made)
     assert made.contents.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
     short = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.full(30, 1772.0)), "a.mat").contents
-    assert short.shaft_speed is None  # thirty is how many, not how fast
+    assert short.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    ramp = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.arange(30.0)), "a.mat").contents
+    assert ramp.shaft_speed is None  # thirty is how many, not how fast
 
 
 @pytest.mark.parametrize(
@@ -664,6 +690,7 @@ def test_a_column_with_one_number_is_a_fact() -> None:
     [
         ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
         ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
+        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}),
     ],
 )  # fmt: skip
 def test_directions_and_places_in_headings(heading: str, found: dict) -> None:

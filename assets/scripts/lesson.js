@@ -59,7 +59,7 @@ export function render({ model }) {
     const veiled = predict && given === undefined && !tried ? predict.veil ?? watch : []
     root.toggleAttribute("data-lesson", open)
     root.dataset.cell = (open && !listed && model.lesson.cell) || ""
-    root.toggleAttribute("data-asks", open && !listed && asks)
+    root.toggleAttribute("data-asks", lesson.classList.toggle("asks", open && !listed && asks))
     root.toggleAttribute("data-reads", lesson.classList.toggle("reads", open && (listed || reads)))
     announce("lesson", open ? { drag, watch, veiled } : null)
   }

@@ -164,7 +164,7 @@ def test_a_phone_has_room_for_figures_and_lessons(page: Page, explorer: Server) 
     expect(controls).to_be_visible()
     show(page, "accuracy")  # where the scene matters little it waits behind a button
     expect(controls).to_be_hidden()
-    page.get_by_role("button", name="Scene", exact=True).click()
+    page.locator("#scene-button").press("Enter")
     expect(controls).to_be_visible()
     page.get_by_role("button", name="Lessons").click()
     expect(page.locator(".lesson h2")).to_be_visible()

@@ -311,7 +311,7 @@ def test_life_is_computed_from_what_is_known_of_oil_and_rating(desk: Visitor) ->
 def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     desk.begin("More: Explore")
     desk.wait(lambda: len(desk.figures()) >= 3)
-    desk.sees_change(lambda: desk.choose("Vertical axis", "Radial clearance (µm)"))
+    desk.sees_change(lambda: desk.choose("Horizontal axis", "Radial clearance (µm)"))
     shown = desk.page.locator(".bk-Tooltip").filter(visible=True, has_text="clearance")
 
     def clearance_under_the_pointer() -> bool:
@@ -322,7 +322,8 @@ def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     desk.wait(clearance_under_the_pointer)  # the figure comes after its sentence
     desk.page.mouse.down()
     desk.page.mouse.up()
-    desk.wait(lambda: desk.number("Length of the defect") != 12.9)
+    desk.wait(lambda: desk.number("Load, downwards") != 100.0)
+    assert 220.0 < desk.number("Load, downwards") < 305.0  # the middle of 25 to 500 N
     desk.steady()
     _, table = desk.download(lambda: desk.export("CSV"))
     assert len(table.decode().strip().splitlines()) >= 63

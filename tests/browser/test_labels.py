@@ -54,6 +54,7 @@ COLLISIONS = """(room) => {
         ("liew-lim", ("overview", "load")),
         ("3208", ("overview", "load", "vibration")),
         ("30206-back-to-back", ("overview", "maps")),
+        ("liew-lim&extent_deg=0", ("overview",)),  # whose curves end at the floor
     ],
 )
 def test_words_in_figures_do_not_overlap(

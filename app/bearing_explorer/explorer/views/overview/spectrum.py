@@ -181,8 +181,9 @@ def end_names(
         for dof, end in ends.items()
     }
     return [
-        (top, min(max(y, shown[0] + room), shown[1] - 4.0 * room), SHOWN.index(dof))
+        (top, min(max(y, least), shown[1] - 4.0 * room), SHOWN.index(dof))
         for dof, y in places.items()
+        for least in [shown[0] + (3.0 if dof == upper else 1.0) * room]  # also at the bottom
     ]
 
 

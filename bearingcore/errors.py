@@ -149,6 +149,14 @@ class FieldTypeError(FieldError, TypeError):
     """A value of another type than a field can have: its words say which are wanted."""
 
 
+class MissingError(FieldError):
+    """An argument that has to be given, as it does not follow from the others."""
+
+    def __str__(self) -> str:
+        """Field, and what to pass, in SI units."""
+        return f"{self.field} is missing: pass {self.field}=..., {self.allowed_text}"
+
+
 @dataclass(frozen=True)
 class _InWords:
     """A number inside words: formatted without a unit it is its name, else the amount."""

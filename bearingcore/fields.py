@@ -160,15 +160,6 @@ class Field:
         return self.reverse_label or self.label
 
     @property
-    def signed_label(self) -> str:
-        """The label with what a minus means, where people read the number with the other sign."""
-        return (
-            f"{self.label} (−: {self.reverse_label.split()[-1]})"
-            if self.reverse_label
-            else self.label
-        )
-
-    @property
     def read_sign(self) -> float:
         """-1 where people read the number with the other sign, under `reverse_label`."""
         return -1.0 if self.reverse_label else 1.0

@@ -1,13 +1,15 @@
 """For all tests: what parallel processes share is made before they start."""
 
-from __future__ import annotations
-
 import os
 
 import pytest
 
 MOST = 4
 """Parallel processes at most: each may start a server and a browser of its own."""
+
+# Before numpy is loaded, as the program does it: processes in parallel leave no core for threads.
+for _library in ("OPENBLAS", "MKL", "OMP"):
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
 # before anything imports them
 pytest.register_assert_rewrite("tests.helpers", "tests.browser.explorer_page")

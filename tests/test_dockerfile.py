@@ -4,8 +4,6 @@
 from there, and asks the health check. Never tried here: the base image, and building the image.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

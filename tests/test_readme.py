@@ -1,7 +1,5 @@
 """Every Python block of the README runs as it stands, one after the other."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -4,8 +4,6 @@ Two more: steps that are too long (`bearingcore/dynamics/test_step_size.py`), an
 on an orbit which no motion follows (`bearingcore/dynamics/test_orbit.py`).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

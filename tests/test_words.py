@@ -1,7 +1,5 @@
 """Words of the program: its docstrings, comments and strings are plain English."""
 
-from __future__ import annotations
-
 import ast
 import io
 import re

@@ -18,7 +18,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.kit.plots.plane import BINS, Field, color_limits
+from bearing_explorer.kit.plots.plane import Field, color_limits
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.page import SECTIONS, figure_of
@@ -65,7 +65,7 @@ def of_sweep(found: DataArray) -> hv.AdjointLayout:
             frame_height=320,
         )
     )
-    return image.hist(num_bins=BINS)
+    return image.hist()
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

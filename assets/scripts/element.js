@@ -60,18 +60,24 @@ function follow(model, names, write) {
   write()
 }
 
+// Events of the window that a part hears while it is on the page, and again when a closed tab, which is
+// taken out whole, comes back with it.
+function while_there(type, part, act) {
+  let was_there = false  // a part may hear of something before it is put into the page
+  const heard = (event) => {
+    if (part.isConnected) was_there = true
+    if (part.isConnected) act(event)
+    else if (was_there && !part.getRootNode({ composed: true }).matches?.(".section")) removeEventListener(type, heard)
+  }
+  addEventListener(type, heard)
+}
+
 // Events between the scripts of the page: "explorer-" and their name, on the window.
 function announce(name, detail) {
   window.dispatchEvent(new CustomEvent(`explorer-${name}`, { detail }))
 }
 function on_event(name, part, act) {
-  let was_there = false  // a part may hear of something before it is put into the page
-  const heard = (event) => {
-    if (part.isConnected) was_there = true
-    if (part.isConnected) act(event.detail)
-    else if (was_there) window.removeEventListener(`explorer-${name}`, heard)
-  }
-  window.addEventListener(`explorer-${name}`, heard)
+  while_there(`explorer-${name}`, part, ({ detail }) => act(detail))
 }
 
 // A sentence in a note; a bad one in its colour.

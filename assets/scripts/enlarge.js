@@ -59,8 +59,7 @@ function enlarging(model, root) {
     enlarge.focus()
   }
   enlarge.addEventListener("click", () => set_large(!is_large()))
-  const keys = (event) => {
-    if (!enlarge.isConnected) return removeEventListener("keydown", keys)
+  while_there("keydown", enlarge, (event) => {
     if (!(is_large() || named) || event.defaultPrevented) return
     const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key]
     const [at] = event.composedPath()
@@ -69,8 +68,7 @@ function enlarging(model, root) {
       event.preventDefault()
       step(by)
     }
-  }
-  addEventListener("keydown", keys)
+  })
   on_event("tab", enlarge, () => { if (is_large()) set_large(false) })
   let named = "", own_size = null  // by a lesson, where there is room for one
   const show_named = () => {
@@ -88,10 +86,7 @@ function enlarging(model, root) {
     }
     show_cell(model.cells.findIndex(([words]) => words === named))
   }
-  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, () => {
-    show_named()
-    setTimeout(show_named, LAID_OUT)  // a tab that opens again is on the screen a little later
-  })
+  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)
   on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
     if (!model.figures.includes(figure) || cell >= 0) return
     const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)

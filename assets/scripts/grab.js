@@ -96,6 +96,7 @@ if (view?.frame?.bbox?.width > 0) {
       attribute(one, "aria-valuemax", load ? 1e6 : 360)
       attribute(one, "aria-valuetext", load ? `${number} N at ${place}\u00b0` : middle ? `at ${place}\u00b0`
         : `at ${place}\u00b0; defect ${number}\u00b0 long`)
+      cue.style.visibility = document.documentElement.hasAttribute("data-projector") ? "hidden" : ""  // too large
       if (load) cue.style.transform = at(x0[i] - 0.42 * (x[i] - x0[i]), -0.42 * y[i])
     })
   }

@@ -15,9 +15,9 @@ const go = () => {
   const of = (side, turned) => digits === null ? Number(turned(side.middle).toPrecision(6))
     : whole(turned(exact(side)))
   const typed = {}
-  const {name: x} = sides[at.x.which], {name: y} = sides[at.y.which]
-  if (x) typed[x] = of(at.x, (value) => at.start + value/at.turn)
-  if (y) typed[y] = of(at.y, (value) => value)
+  const {name: x, sign: turns_x} = sides[at.x.which], {name: y, sign: turns_y} = sides[at.y.which]
+  if (x) typed[x] = turns_x*of(at.x, (value) => at.start + value/at.turn)
+  if (y) typed[y] = turns_y*of(at.y, (value) => value)
   window.dispatchEvent(new CustomEvent("explorer-typed", {detail: typed}))
 }
 clearTimeout(clicks.get(image))

@@ -86,6 +86,8 @@ export function render({ model }) {
     const large = root.hasAttribute("data-projector")
     projector.setAttribute("aria-pressed", String(large))
     lesson.classList.toggle("large", large)
+    back.textContent = large ? "\u2039" : "Back"  // there the list of lessons needs the room
+    next.textContent = large ? "\u203a" : "Next lesson"
   }
   const close = button("\u00d7", () => announce("lessons"),
     { class: "close", "aria-label": "Close the lessons", title: "Close the lessons" })
@@ -96,8 +98,8 @@ export function render({ model }) {
     const chosen = event.target.closest("[data-ask]")
     if (chosen) ask(model, JSON.parse(chosen.dataset.ask))
   })
-  const back = button("Back", () => go(next_of(model.lesson.number, -1)), { class: "step back" })
-  const next = button("Next lesson", () => go(next_of(model.lesson.number, 1)), { class: "step next" })
+  const back = button("", () => go(next_of(model.lesson.number, -1)), { class: "step back", "aria-label": "Back" })
+  const next = button("", () => go(next_of(model.lesson.number, 1)), { class: "step next", "aria-label": "Next lesson" })
   const again = button("Begin again", () => go(model.lesson.number),
     { class: "step again", title: "Set the scene that this lesson begins with" })
   const steps = element("footer", {}, back, again, next)
@@ -130,7 +132,9 @@ export function render({ model }) {
   }
 
   // A prediction: chosen or typed. Until then the figures that would answer it are veiled.
-  const prediction = ({ ask: question, choose: choices, right, unit, within }, settled) => {
+  // A first wrong one gets the lesson's hint and another try.
+  const prediction = ({ ask: question, choose: choices, right, unit, within, hint }, settled) => {
+    let helps = hint && !hides && answers().given === undefined
     const verdict = element("p", { class: "verdict", role: "status" })
     const boxes = choices.map((_, index) =>
       element("input", { type: "radio", name: "prediction", value: String(index) }))
@@ -139,13 +143,28 @@ export function render({ model }) {
     const settle = (given) => {
       const is_right = boxes.length ? given === best : Math.abs(given - best) <= within
       const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
+      if (helps && !is_right) {
+        const off = boxes.length ? "" : `: ${said(given)} is too ${given < best ? "low" : "high"}`
+        helps = false
+        form.dataset.said = "again"
+        verdict.textContent = `Not quite${off}. ${hint} Try once more.`
+        return
+      }
       form.dataset.said = hides ? "" : is_right ? "right" : "other"
       verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(best)}.`
       remember_answer({ given })
       settled()
       announce("predicted")
     }
-    boxes.forEach((one, index) => one.addEventListener("change", () => settle(index)))
+    boxes.forEach((one, index) => {
+      one.addEventListener("change", () => settle(index))
+      one.addEventListener("keydown", (event) => {  // an arrow goes to a choice, and does not make it
+        const by = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key]
+        if (by || event.key === "Enter") event.preventDefault()
+        if (by) boxes.at((index + by) % boxes.length).focus()
+        else if (event.key === "Enter") one.click()
+      })
+    })
     const form = element("form", { class: "prediction" }, element("h3", {}, "Your prediction"),
       element("p", { class: "asked" }, question),
       element("div", { class: "choices" },

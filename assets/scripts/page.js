@@ -15,6 +15,12 @@
   })
   on_event("predicted", root, () => { veiled = []; mark() })
 
+  // On a phone the controls are folded on tabs where they matter little, see page.css.
+  const scene = part("scene-button")
+  const unfold_scene = (open) => scene.setAttribute("aria-expanded", String(open))
+  scene.addEventListener("click", () => unfold_scene(scene.getAttribute("aria-expanded") !== "true"))
+  on_event("tab", root, () => unfold_scene(false))
+
   const show_theme = () => {
     const dark = root.dataset.theme === "dark"
     theme.setAttribute("aria-pressed", String(dark))

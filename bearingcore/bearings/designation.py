@@ -56,6 +56,7 @@ from bearingcore.bearings.suffix import (
     in_small_letters,
     is_steep,
     read_suffix,
+    unknown_letters,
 )
 from bearingcore.common import checks
 from bearingcore.common.numbers import number
@@ -194,6 +195,8 @@ def read_designation(text: str) -> Designation:
         )
     inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
     bearing = _built(kind, inside, angle, play, assumed)
+    if unknown := unknown_letters(suffix):
+        assumed.append(f"that {unknown}, which is not known here, changes nothing")
     if kind == ROLLERS:
         assumed += _of_flanges(form["letters"] or "", basic, suffix)
     if said.is_ceramic:

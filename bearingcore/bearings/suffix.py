@@ -110,6 +110,22 @@ def is_steep(suffix: str) -> bool:
     return _STEEP.match(_PAIR.sub("", suffix)) is not None
 
 
+_PASSED_OVER = re.compile(
+    r"[A-DHJLMNPRVXY]|(?:2?-?(?:H?RS[1-9RHLJTD]?|RSH2|RSL|ZZ?|RZ|Z[RN]|DDU?|LL[BUH]|LU|LB|VV|UU|EE)"
+    r"|NSL|DSD|JR|TN[9HG]?|TVPB?|TVHB?|T[VWX]?|JP?|M[AB]?|F[AB]?|PH?|Y|NR?|ECM?[LPJA]?|E[MT]?[12P]?"
+    r"|P[2456]X?|P6[23]|P5[23]|C[2345N]M?|CM|K(?:30)?|W(?:20|33|64)?|WT|[HLM]T\d*|GJ[NHB]|G[ABC]"
+    r"|LHT\d*|V[AELQ]\d*|S[0-4]|SQ1|Q\d?|XL|HC5?|SN24|BE[AP]?|AC|A5|D[BFTU]|U[ALO]|C[ABC]|\d)+"
+)
+"""Known letters, of cages, seals, tolerances, grease and what is read above."""
+
+
+def unknown_letters(text: str) -> str:
+    """The parts of a suffix of which no meaning is known, empty where there are none."""
+    rest = _PAIR.sub(" ", text)
+    parts = [part for part in re.split(r"[ /,.()+-]+", rest) if part]
+    return " ".join(part for part in parts if not _PASSED_OVER.fullmatch(part))
+
+
 def in_small_letters(name: str) -> str:
     """A name in capitals with the words of an arrangement in small letters."""
     return _PAIR.sub(lambda pair: pair[0] if pair["letter"] else pair[0].lower(), name)

@@ -19,7 +19,6 @@ from bearingcore.common.numbers import span as span
 from bearingcore.common.numbers import thousands as thousands
 from bearingcore.common.numbers import with_deviation as with_deviation
 from bearingcore.common.numbers import with_prefix as with_prefix
-from bearingcore.common.progress import Progress as Progress
 from bearingcore.common.scene_file import LARGEST_TEXT as LARGEST_TEXT
 from bearingcore.common.table import ResultTable as ResultTable
 from bearingcore.common.table import as_csv as as_csv

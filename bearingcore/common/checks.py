@@ -12,7 +12,7 @@ from typing import SupportsFloat, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.errors import FieldError, FieldTypeError, Interval
+from bearingcore.errors import FieldError, FieldTypeError, Interval, MissingError
 
 T = TypeVar("T")
 
@@ -20,6 +20,11 @@ T = TypeVar("T")
 def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
     """The error to raise for `field`; `allowed` may hold ``{name:unit}`` for each of `numbers`."""
     return FieldError(field, value, allowed, unit, numbers)
+
+
+def missing(field: str, wanted: str) -> MissingError:
+    """The error to raise for an argument that has to be given."""
+    return MissingError(field, None, wanted)
 
 
 def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:

@@ -14,8 +14,5 @@ from bearingcore.diagnosis.part.parts import OUTER as OUTER
 from bearingcore.diagnosis.part.parts import PARTS as PARTS
 from bearingcore.diagnosis.part.say import perhaps_a_ball as perhaps_a_ball
 from bearingcore.diagnosis.part.status import DiagnosisStatus as DiagnosisStatus
-from bearingcore.diagnosis.size.sizing_error import extent_error as extent_error
-from bearingcore.diagnosis.size.variants import SPREAD as SPREAD
-from bearingcore.diagnosis.size.variants import variant as variant
 from bearingcore.diagnosis.trend import LINES as LINES
 from bearingcore.diagnosis.trend import time_in as time_in

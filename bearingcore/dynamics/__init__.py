@@ -11,10 +11,6 @@ from bearingcore.dynamics.motion import SETTLING as SETTLING
 from bearingcore.dynamics.orbit import common_ball_passes as common_ball_passes
 from bearingcore.dynamics.speed_runs import SpeedRun as SpeedRun
 from bearingcore.dynamics.speed_runs import speed_run as speed_run
-from bearingcore.dynamics.stability_maps import OUTCOMES as OUTCOMES
-from bearingcore.dynamics.stability_maps import StabilityMap as StabilityMap
-from bearingcore.dynamics.stability_maps import regions as regions
-from bearingcore.dynamics.stability_maps import stability_map as stability_map
 from bearingcore.dynamics.status import OrbitStatus as OrbitStatus
 from bearingcore.dynamics.step_rate import default_step_rate as default_step_rate
 from bearingcore.dynamics.step_rate import fine_step_rate as fine_step_rate

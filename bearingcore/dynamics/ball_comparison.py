@@ -1,11 +1,9 @@
-"""Balls with or without mass: below which frequency massless ones will do, and what mass costs."""
+"""Balls with or without mass: below which frequency massless ones will do."""
 
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +45,6 @@ class BallComparison:
         [Hz] frequency up to which massless balls are within the budget wherever there is more power
         than QUIETEST_COMPARED of the greatest; NaN where they are not even in the lowest third
         octave.
-    massless_seconds, seconds
-        [s] a second of motion takes without and with mass; NaN where that was not measured.
     """
 
     scene: Scene
@@ -56,22 +52,15 @@ class BallComparison:
     edges: Array
     added: Array
     massless_up_to: float
-    massless_seconds: float
-    seconds: float
 
     @property
     def sentence(self) -> str:
-        """In a line: up to where massless balls will do, and what mass costs."""
+        """In a line: up to where massless balls will do."""
         if math.isnan(self.massless_up_to):
             lowest = with_prefix(LOWEST_COMPARED, "Hz")
-            holds = f"more than {number(self.budget)} dB off from {lowest} on"
-        else:
-            up_to = with_prefix(self.massless_up_to, "Hz", 2)
-            holds = f"within {number(self.budget)} dB up to {up_to}"
-        if math.isnan(self.seconds):
-            return f"massless: {holds}"
-        times = self.seconds / max(self.massless_seconds, 1e-9)
-        return f"massless: {holds}; with mass {number(times, 2)} times the time"
+            return f"massless: more than {number(self.budget)} dB off from {lowest} on"
+        up_to = with_prefix(self.massless_up_to, "Hz", 2)
+        return f"massless: within {number(self.budget)} dB up to {up_to}"
 
     def table(self) -> ResultTable:
         """A row a third octave: its ends, and what mass adds along each direction."""
@@ -90,52 +79,15 @@ class BallComparison:
         return compared_directions(self.scene.active_dofs)
 
 
-@lru_cache(maxsize=64)
-def compare_balls(
-    scene: Scene, budget: float = BUDGET, duration: float = 0.7, sample_rate: float = 65536.0
-) -> BallComparison:
-    """Simulate a scene with massless balls and with balls that have mass, and compare.
-
-    Powers are those of third octaves, means over lines and ball passes: balls in free flight make
-    single lines sensitive to anything.
-
-    Parameters
-    ----------
-    scene
-        its own choice of balls does not matter.
-    budget
-        [dB]
-    duration, sample_rate
-        [s] after the transient, [Hz].
-
-    Raises
-    ------
-    ValueError
-        where a motion has no answer.
-    """
-    checks.real_number("budget", budget, above=0.0, unit="dB")
-    motions, seconds = [], []
-    for balls in (MASSLESS, WITH_MASS):
-        begin = time.thread_time()  # others may be using the processor
-        motion = _marched(scene.replace(balls=balls), SETTLING + duration, sample_rate)
-        seconds.append((time.thread_time() - begin) / (SETTLING + duration))
-        motions.append(motion)
-    return compare_motions(motions[0], motions[1], budget, seconds[0], seconds[1])
-
-
-def _marched(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    """The motion, known up to 0.4 of the sample rate whatever balls there are."""
-    return simulate(scene, duration, sample_rate, step_rate=fine_step_rate(scene, sample_rate))
-
-
 def compare_motions(
     massless: Motion,
     with_mass: Motion,
     budget: float = BUDGET,
-    massless_seconds: float = math.nan,
-    seconds: float = math.nan,
 ) -> BallComparison:
-    """Compare two motions of one scene over the same time, as `compare_balls` does.
+    """Compare two motions of one scene over the same time.
+
+    Powers are those of third octaves, means over lines and ball passes: balls in free flight make
+    single lines sensitive to anything.
 
     Parameters
     ----------
@@ -143,8 +95,6 @@ def compare_motions(
         the motions.
     budget
         [dB]
-    massless_seconds, seconds
-        [s] that a second of either took to compute, where it was measured.
 
     Raises
     ------
@@ -165,7 +115,7 @@ def compare_motions(
     good = len(within) if within.all() else int(np.argmin(within))
     up_to = float(edges[good]) if good else math.nan
     scene = with_mass.scene
-    return BallComparison(scene, budget, edges, added, up_to, massless_seconds, seconds)
+    return BallComparison(scene, budget, edges, added, up_to)
 
 
 def third_octave_edges(highest: float) -> Array:
@@ -193,9 +143,10 @@ def mass_share(scene: Scene, low: float, high: float, duration: float, sample_ra
     1 − P(massless)/P(with mass), all of x and y: 0 where mass changes nothing, near 1 where next to
     all comes from it, below 0 where it takes power away.
     """
-    edges = np.array([low, high])
-    massless, heavy = (
-        band_powers(_marched(scene.replace(balls=balls), duration, sample_rate), edges).sum()
-        for balls in (MASSLESS, WITH_MASS)
-    )
-    return float(1.0 - massless / heavy) if heavy > 0.0 else math.nan
+    edges, powers = np.array([low, high]), []
+    for at in (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS)):
+        rate = fine_step_rate(at, sample_rate)
+        motion = simulate(at, duration, sample_rate, step_rate=rate)
+        powers.append(float(band_powers(motion, edges).sum()))
+    massless, heavy = powers
+    return 1.0 - massless / heavy if heavy > 0.0 else math.nan

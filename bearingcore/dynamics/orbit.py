@@ -310,15 +310,6 @@ def _steps_in(packed: PackedMotion, period: float, step_rate: float | None) -> i
     return max(math.ceil(period * rate), 8)
 
 
-def least_steps(scene: Scene, ball_passes: int | None = None) -> int:
-    """Steps that `orbit` takes at least: two periods; 0 where there is none to look for."""
-    passes = ball_passes or common_ball_passes(scene)
-    if passes is None or scene.shaft_speed == 0.0:
-        return 0
-    period = passes * scene.bearing.ball_spacing / scene.cage_speed
-    return 2 * _steps_in(packed_motion(scene), period, None)
-
-
 def common_ball_passes(scene: Scene) -> int | None:
     """Ball passes after which everything that acts on the rings repeats; None where it never does.
 

@@ -1,4 +1,4 @@
-"""Statuses of a simulated motion, of the search for an orbit and of a point of a map."""
+"""Statuses of a simulated motion and of the search for an orbit."""
 
 from __future__ import annotations
 
@@ -41,18 +41,4 @@ class OrbitStatus(Status):
     NOT_CONVERGED = "not converged"
     NO_PERIOD = "no common period"
     NO_START = "no static state to start from"
-    TOO_MANY_STEPS = "too many steps"
-
-
-@unique
-class MapOutcome(Status):
-    """Outcome of a point of a stability map; its place in this list is its code."""
-
-    STABLE = "stable orbit"
-    UNSTABLE = "unstable orbit"
-    NOT_CONVERGED = "not converged"
-    NO_PERIOD = "no common period"
-    NO_START = "no static state to start from"
-    REFUSED = "refused"
-    NOT_COMPUTED = "not computed"
     TOO_MANY_STEPS = "too many steps"

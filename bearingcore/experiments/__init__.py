@@ -3,7 +3,6 @@
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """
 
-from bearingcore.experiments.balls import BALL_ERRORS as BALL_ERRORS
 from bearingcore.experiments.integrators import METHODS as METHODS
 from bearingcore.experiments.measurements import MEASURED as MEASURED
 from bearingcore.experiments.measurements import ORBITS as ORBITS
@@ -11,11 +10,7 @@ from bearingcore.experiments.measurements import STABILITY as STABILITY
 from bearingcore.experiments.measurements import Measurements as Measurements
 from bearingcore.experiments.measurements import measure as measure
 from bearingcore.experiments.measurements import measurements_from as measurements_from
-from bearingcore.experiments.models import EXACT as EXACT
-from bearingcore.experiments.models import FULL as FULL
-from bearingcore.experiments.models import MODEL_ERRORS as MODEL_ERRORS
-from bearingcore.experiments.models import SETTLED as SETTLED
-from bearingcore.experiments.motions import motion_experiment as motion_experiment
+from bearingcore.experiments.orbits import OrbitAtSpeed as OrbitAtSpeed
 from bearingcore.experiments.points import Experiment as Experiment
 from bearingcore.experiments.points import Point as Point
 from bearingcore.experiments.points import Reference as Reference
@@ -26,8 +21,6 @@ from bearingcore.experiments.simpler_models import Alternatives as Alternatives
 from bearingcore.experiments.simpler_models import alternatives as alternatives
 from bearingcore.experiments.stability import FIXED_STEP as FIXED_STEP
 from bearingcore.experiments.stability import VERDICTS as VERDICTS
-from bearingcore.experiments.stability import OrbitAtSpeed as OrbitAtSpeed
 from bearingcore.experiments.stability import StabilityChart as StabilityChart
-from bearingcore.experiments.statics import ANGLE_ERRORS as ANGLE_ERRORS
 from bearingcore.experiments.statics import HARD_CASES as HARD_CASES
 from bearingcore.experiments.statics import STATIC_ERRORS as STATIC_ERRORS

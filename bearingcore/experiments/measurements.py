@@ -18,18 +18,12 @@ import msgspec
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.progress import CancelledError
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.experiments.balls import balls_experiment
 from bearingcore.experiments.integrators import usable_methods
-from bearingcore.experiments.models import models_experiment
 from bearingcore.experiments.motions import motion_experiment
+from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
 from bearingcore.experiments.points import RIGHT, Experiment, Watch
-from bearingcore.experiments.stability import (
-    OrbitAtSpeed,
-    StabilityChart,
-    orbits_over_speed,
-    stability_chart,
-)
-from bearingcore.experiments.statics import angles_experiment, statics_experiment
+from bearingcore.experiments.stability import StabilityChart, stability_chart
+from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
 
 PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
@@ -39,10 +33,7 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     "motion": lambda scene, watch, slow: motion_experiment(
         scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
     ),
-    "models": lambda scene, watch, _: models_experiment(scene, duration=0.2, watch=watch),
-    "balls": lambda scene, watch, _: balls_experiment(scene, duration=0.25, watch=watch),
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
-    "angles": lambda scene, watch, _: angles_experiment(scene, watch=watch),
 }
 """Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
 MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
@@ -204,7 +195,7 @@ def measure(
 ) -> Measurements:
     """Measure a scene by experiments, one after the other.
 
-    Balls are taken without mass except where that is what is measured.
+    Balls are taken without mass.
 
     Parameters
     ----------

@@ -18,6 +18,7 @@ from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import common_ball_passes, orbit
+from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import DOF_NAMES, MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.ball_positions import static_state
@@ -119,9 +120,9 @@ class Alternatives:
 def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> Alternatives:
     """Measure what other models of a scene would change, and what they cost.
 
-    Fewer directions, massless balls or balls with mass, no inertia (quasi-static), the periodic
-    orbit instead of a march, other steps, and more or fewer cage angles. Nothing is predicted: each
-    is computed and compared with what the page draws. Motions last DURATION.
+    Fewer directions, other edges, massless balls or balls with mass, no inertia (quasi-static), the
+    periodic orbit instead of a march, other steps, and more or fewer cage angles. Nothing is
+    predicted: each is computed and compared with what the page draws. Motions last DURATION.
 
     Parameters
     ----------
@@ -163,6 +164,7 @@ class _Measure:
                 f"directions {' '.join(dofs)}", self.scene.replace(dofs=dofs), own, seconds
             )
             yield replace(row, changes={"dofs": dofs})
+        yield from self._edges(own, seconds)
         for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
             rate = factor * own.step_rate
             row = self._other_march(words, self.scene, own, seconds, rate)
@@ -232,6 +234,15 @@ class _Measure:
         error = self._difference(found, own)
         note = f"{with_prefix(found.step_rate, 'Hz')}, drawn: {with_prefix(own.step_rate, 'Hz')}"
         return Alternative(name, SPECTRUM, error, seconds, own_seconds, note)
+
+    def _edges(self, own: Motion, own_seconds: float) -> Iterator[Alternative]:
+        """The other models of the edges of all defects."""
+        defects = self.scene.defects
+        for edge in EDGES if defects else ():
+            if any(one.edge != edge for one in defects):
+                scene = self.scene.replace(defect=tuple(replace(d, edge=edge) for d in defects))
+                row = self._other_march(f"{edge} edges", scene, own, own_seconds)
+                yield replace(row, changes={"edge": edge} if len(defects) == 1 else {})
 
     def _balls(self, own: Motion, own_seconds: float) -> Alternative:
         heavy = self.scene.balls == WITH_MASS

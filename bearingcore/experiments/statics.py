@@ -1,4 +1,4 @@
-"""Work and precision of static equilibrium: solvers, and the number and placing of cage angles.
+"""Work and precision of solvers of the static equilibrium.
 
 The contacts are here a second time, in NumPy and over all cage angles at once: readable, in any
 precision, and what the compiled ones are compared with.
@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.numbers import scientific
-from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.experiments.points import (
     NOT_WATCHED,
     RIGHT,
@@ -42,13 +41,6 @@ STATIC_ERRORS = {
     "load": "greatest error of a ball's load over the greatest load",
 }
 """Errors of static states by name."""
-
-ANGLE_ERRORS = {
-    "trace": "greatest error of straight lines between the cage angles, over each curve's swing "
-    "(or 1 % of its size)",
-    "mean": "greatest error of the mean of a stiffness term, over the size of the term",
-}
-"""Errors of a choice of cage angles by name."""
 
 STATICS_LEFT_OUT = (
     "gradient descent on the energy, which takes hundreds of evaluations an angle; plain "
@@ -233,14 +225,15 @@ def _by_scipy(
     problem: StaticProblem,
     tolerance: float,
     method: str,
-    warm: bool,
+    warm: bool = False,
     starts: Array | None = None,
 ) -> Solved:
     """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
 
-    They start from the guess, `warm` from the angle before, or from `starts` (m, 5) [m].
+    "trust-exact" is `minimize` on the energy. They start from the guess, `warm` from the angle
+    before, or from `starts` (m, 5) [m].
     """
-    from scipy.optimize import least_squares, root  # imported late: slow to import
+    from scipy.optimize import least_squares, minimize, root  # imported late: slow to import
 
     one = _OneByOne(problem)
     for k in range(len(problem.angles)):
@@ -254,25 +247,17 @@ def _by_scipy(
                 gtol=tight,
             )  # fmt: skip
             one.take(k, fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8))
+        elif method == "trust-exact":
+            found = minimize(
+                one.energy, start, args=(k,), jac=True, hess=one.jacobian,
+                method="trust-exact", options={"gtol": tolerance},
+            )  # fmt: skip
+            one.take(k, found.x, found.success)
         else:
             answer = root(  # type: ignore[call-overload]
                 one.unbalanced, start, args=(k,), jac=one.jacobian, method=method, tol=tolerance
             )
             one.take(k, answer.x, answer.success)
-    return one.solutions()
-
-
-def _by_minimize(problem: StaticProblem, tolerance: float) -> Solved:
-    """`scipy.optimize.minimize` (trust-exact) on the energy, angle by angle, from the guess."""
-    from scipy.optimize import minimize  # imported late: slow to import
-
-    one = _OneByOne(problem)
-    for k in range(len(problem.angles)):
-        answer = minimize(
-            one.energy, one.guess, args=(k,), jac=True, hess=one.jacobian,
-            method="trust-exact", options={"gtol": tolerance},
-        )  # fmt: skip
-        one.take(k, answer.x, answer.success)
     return one.solutions()
 
 
@@ -300,11 +285,11 @@ OWN = "compiled energy Newton"
 SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
     OWN: (_compiled, (kernels.RESIDUAL_AIM,)),
     f"{OWN}, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
-    "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _TOLERANCES),
+    "scipy hybr": (partial(_by_scipy, method="hybr"), _TOLERANCES),
     "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _TOLERANCES),
-    "scipy lm": (partial(_by_scipy, method="lm", warm=False), _TOLERANCES),
-    "scipy trust-exact on the energy": (_by_minimize, _TOLERANCES),
-    "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _TOLERANCES),
+    "scipy lm": (partial(_by_scipy, method="lm"), _TOLERANCES),
+    "scipy trust-exact on the energy": (partial(_by_scipy, method="trust-exact"), _TOLERANCES),
+    "scipy least squares": (partial(_by_scipy, method="least_squares"), _TOLERANCES),
 }
 """Ways to solve, by name, with the tolerances at which each is measured."""
 
@@ -337,7 +322,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     exact, seconds, _ = least_time(
         lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
     )
-    other = _by_scipy(problem, 1e-12, "hybr", warm=False)
+    other = _by_scipy(problem, 1e-12, "hybr")
     # it calls answers solved that are none
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
     alone = int((exact.solved & ~other.solved).sum())
@@ -499,132 +484,3 @@ def _measured(problem: StaticProblem, truth: StaticReference, name: str, toleran
         name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n, runs,
         found.evaluations / n, status, in_use=name == OWN,
     )  # fmt: skip
-
-
-# --- number and placing of cage angles ------------------------------------------------------------
-
-
-DRAWN = 361
-"""Cage angles to a ball spacing as the page draws curves."""
-
-PLACINGS = ("equally spaced", "equally spaced and edges")
-"""Ways to choose cage angles."""
-
-
-def angles_experiment(
-    scene: Scene,
-    *,
-    watch: Watch = NOT_WATCHED,
-) -> Experiment:
-    """Error against cost of cage angles: equally spaced, and with those where a ball meets an edge.
-
-    Parameters
-    ----------
-    scene
-        whose stiffness is drawn.
-    watch
-        progress, points as they come, and cancelling.
-
-    Raises
-    ------
-    ValueError
-        for a scene without a static state.
-    """
-    watch.within(0.0, 0.2)(0.0)
-    period = default_cage_angles(scene, 2)
-    first, last = float(period[0]), float(period[-1])
-    truth = _DenseTruth(scene, first, last)
-    kinks = path_kinks(scene, first, last)
-
-    def equal(n: float) -> tuple[Array, int]:
-        return np.linspace(first, last, round(n)), round(n)
-
-    def with_edges(n: float) -> tuple[Array, int]:
-        angles = np.unique(np.concatenate([np.linspace(first, last, round(n)), kinks]))
-        return angles, len(angles)
-
-    counts = (17.0, 33.0, 65.0, 129.0, 257.0, float(DRAWN), 513.0, 1025.0, 2049.0)
-    tasks = [
-        (name, choose, value)
-        for name, choose in zip(PLACINGS, (equal, with_edges), strict=True)
-        for value in counts
-    ]
-
-    def measure(task: tuple[str, Callable[[float], tuple[Array, int]], float]) -> Point:
-        name, choose, value = task
-
-        def work() -> tuple[Array, Array, int]:
-            angles, solved = choose(value)
-            return angles, stiffness_curves(equilibrium(scene, angles)), solved
-
-        (angles, values, solved), seconds, runs = least_time(work)
-        errors = truth.errors(angles, values)
-        in_use = name == PLACINGS[0] and value == DRAWN
-        words = f"{len(angles)} angles"
-        return Point(name, words, value, errors, seconds, runs, solved, in_use=in_use)
-
-    experiment = Experiment(
-        "angles",
-        f"Cage angles for curves of stiffness over {math.degrees(last - first):.4g}°",
-        ANGLE_ERRORS,
-        "cage angles solved",
-        {"": truth.reference},
-        (),
-        "cubic curves between angles: no better than lines at a corner or a root",
-    )
-    return measured_in_turn(
-        experiment, tasks, lambda task: f"{task[0]}, {task[2]:g}", measure, watch, begin=0.2
-    )
-
-
-class _DenseTruth:
-    """Curves on a dense grid with a node at every edge, and their means by another quadrature."""
-
-    def __init__(self, scene: Scene, first: float, last: float) -> None:
-        # the compiled solver's curves against contacts in NumPy: the same model, other code
-        began = default_cage_angles(scene, 1001)
-        self.angles = np.union1d(np.linspace(first, last, 16001), path_kinks(scene, first, last))
-        self.values = stiffness_curves(equilibrium(scene, self.angles))
-        known = np.asarray(np.isfinite(self.values).all(axis=1))
-        _refuse_without(known, scene)
-        self.scale = swings(self.values)
-        self.size = np.nanmax(np.abs(self.values), axis=0)
-        self.size = np.maximum(self.size, self.scale)
-        self.complete = bool(known.all())
-        self.mean = np.trapezoid(self.values, self.angles, axis=0) / (last - first)
-        # midpoints of equal intervals, never at an edge: another rule, other angles
-        n = 2**14
-        middle = first + (np.arange(n) + 0.5) * (last - first) / n
-        other = stiffness_curves(equilibrium(scene, middle)).mean(axis=0)
-        problem = static_problem(scene, began)
-        same = equilibrium(scene, began)
-        twin = refined(problem, same.state)
-        both = same.converged & twin.solved
-        units = np.ones(5)
-        units[3:] = scene.bearing.groove_center_radius
-        mine = same.stiffness[both] / (units[:, None] * units)
-        size = np.abs(mine).max(axis=0, initial=0.0) if both.any() else np.ones((5, 5))
-        diagonal = np.diagonal(size)
-        size = np.maximum(size, 1e-6 * np.sqrt(diagonal[:, None] * diagonal)) + 1e-300
-        theirs = contacts(problem, twin.q[both], both).stiffness
-        agreement = {
-            "trace": float((np.abs(mine - theirs) / size).max(initial=0.0)),
-            "mean": float((np.abs(other - self.mean) / self.size).max()),
-        }
-        self.reference = Reference(
-            (
-                "compiled Newton on a dense grid",
-                "80-bit NumPy; midpoint rule for the mean",
-            ),
-            agreement,
-            agreement["trace"] < 1e-6 and (not self.complete or agreement["mean"] < 1e-4),
-            math.nan,
-            "" if self.complete else "some cage angles have no equilibrium; no mean there",
-        )
-
-    def errors(self, angles: Array, values: Array) -> dict[str, float]:
-        """Of lines between the angles, and of the trapezoidal rule's mean."""
-        errors = curve_errors(angles, values, self.angles, self.values)
-        trace = float(errors.max(initial=0.0))
-        mean = np.trapezoid(values, angles, axis=0) / (angles[-1] - angles[0])
-        return {"trace": trace, "mean": float((np.abs(mean - self.mean) / self.size).max())}

@@ -1,6 +1,7 @@
 """Signals out of files: columns of numbers, their meaning by the file, open questions."""
 
 from bearingcore.files.channels import OTHER as OTHER
+from bearingcore.files.channels import PLACES as PLACES
 from bearingcore.files.channels import SIGNAL as SIGNAL
 from bearingcore.files.channels import SPEED as SPEED
 from bearingcore.files.channels import TIME as TIME

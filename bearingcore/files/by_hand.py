@@ -103,7 +103,7 @@ def _with_roles(
     for role in columns:
         checks.choice("columns", role, ("signal", "time", "speed", "nothing"))
     if columns.get("speed") is not None and speed_unit is None:
-        raise checks.refuse("speed_unit", None, "one of " + ", ".join(SPEEDS))
+        raise checks.missing("speed_unit", "one of " + ", ".join(SPEEDS))
     guessed = table.contents.columns
     given: dict[int | str, Column] = {}
     for role, key, of_role in (
@@ -140,9 +140,7 @@ def _recording(
     picked = [table.index_of(column) for column in signals] or list(choice.columns.values())
     if not picked:
         names = ", ".join(table.names)
-        raise checks.refuse(
-            "columns", None, f'"signal" with one or two of {names}. {choice.question}'
-        )
+        raise checks.missing("columns", f'"signal" with one or two of {names}. {choice.question}')
     if directions is None:
         named = {index: axis for axis, index in choice.columns.items()}
         known = [named.get(i) or table.contents.columns[i].direction for i in picked]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bearingcore.files.units import SPEEDS, UNITS, kind_of, unit_in, unit_named
+from bearingcore.files.units import SPEEDS, UNITS, VOLTAGES, kind_of, unit_in, unit_named
 
 SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
 ROLES = (SIGNAL, TIME, SPEED, OTHER)
@@ -27,6 +27,9 @@ _PLACES = {
     "base": "base",
     "gearbox": "gearbox",
 }
+PLACES = tuple(dict.fromkeys(_PLACES.values()))
+"""Places of sensors that names of columns may say."""
+
 _PHRASES = (
     ("nondriveend", "non-drive end"),
     ("oppositedriveend", "non-drive end"),
@@ -34,7 +37,18 @@ _PHRASES = (
     ("fanend", "fan end"),
 )
 _NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
-_NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no"}
+_NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no", "tach", "pulse", "pulses"}
+_NOT_SIGNALS |= {"keyphasor", "keyphaser", "trigger", "encoder", "microphone", "mic", "temperatur"}
+_NOT_SIGNALS |= {
+    "drehzahl",
+    "strom",
+    "drehmoment",
+    "druck",
+    "pressure",
+    "power",
+    "humidity",
+    "flow",
+}
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
     "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
@@ -88,7 +102,7 @@ class Choice:
 
 def column_of(name: str) -> Column:
     """Meaning of a column by its heading."""
-    words = words_of(name)
+    words = words_of(name) | words_of(re.sub(r"(?<=[a-z])(?=[XYZ]\b)", " ", name))
     unit = unit_in(name)
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
@@ -103,11 +117,25 @@ def column_of(name: str) -> Column:
     if (timed and unit is None) or (unit is not None and kind_of(unit) == "time"):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
-        return Column(name, SPEED, unit)
-    if (unit is not None and unit not in UNITS) or (words & _NOT_SIGNALS and unit is None):
+        return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
+    other = words & _NOT_SIGNALS and (unit is None or unit in VOLTAGES)  # of a sensor for it
+    if other or (unit is not None and unit not in UNITS):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
-    return Column(name, SIGNAL, unit, direction, place_in(name))
+    place = place_in(name)
+    if place and re.search(r"[\s_.]V$", name):
+        unit, direction = None, "y"  # the vertical one at a place, no voltage
+    return Column(name, SIGNAL, unit, direction, place)
+
+
+def names_a_frequency(name: str) -> bool:
+    """Whether a heading is that of frequencies, and not of those of a shaft."""
+    words = words_of(name)
+    return bool(words & _FREQUENCIES) and not words & _TURNS
+
+
+_FREQUENCIES = {"f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz"}
+_TURNS = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
 
 
 def place_in(name: str) -> str:
@@ -175,6 +203,10 @@ def choose(
         for index, column in enumerate(columns)
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
+    axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    if not signals and axial:
+        words = "By their names all signals are along the shaft (z). Which is at this bearing?"
+        return Choice({}, "", words, tuple(axial))
     if not signals:
         still = any(column.role == SIGNAL for column in columns)
         words = (

@@ -23,6 +23,7 @@ from bearingcore.files.channels import (
     Column,
     choose,
     column_of,
+    names_a_frequency,
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named
@@ -36,6 +37,9 @@ USUAL_LEVEL = 5.0
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
+
+STEADY = 0.02
+"""Relative range of numbers that count as one."""
 
 GRAVITY_SHARE = 0.1
 """Relative difference to gravity up to which a mean is taken for it."""
@@ -125,6 +129,8 @@ class FileContents:
         everything else that the file names, in its own words.
     frequencies
         [Hz] of the bearing's parts that the file names, by `facts.BEARING_FREQUENCIES`.
+    sensitivity
+        [V/(m/s²)] of the sensor.
     collection
         the public collection that it looks like; empty where it looks like none.
     bearing
@@ -142,6 +148,7 @@ class FileContents:
     sampling: Sampling | None
     said: Mapping[str, str]
     frequencies: Mapping[str, float] = field(default_factory=dict)
+    sensitivity: Finding[float] | None = None
     collection: str = ""
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
@@ -173,6 +180,10 @@ def contents_of(table: FileColumns) -> FileContents:
         table.name,
         known.place,
     )
+    if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
+        choice = Choice(
+            {}, "", f"“{axis}” rises evenly as in a spectrum: export the signal over time."
+        )
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     said = {**{one.name: _text(one) for one in named}, **table.texts}
@@ -186,6 +197,7 @@ def contents_of(table: FileColumns) -> FileContents:
         sampling,
         said,
         facts.bearing_frequencies_in(named),
+        facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
         known.collection,
         known.bearing,
         known.orders,
@@ -211,7 +223,7 @@ def _columns(
     signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
     if len(said) > 1 and len(said) == len(signals):  # each channel's own
         for index, unit in zip(signals, said, strict=True):
-            role = SIGNAL if unit is None or unit in UNITS else OTHER
+            role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
             columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
     if known.signals:
         columns = [
@@ -225,6 +237,9 @@ def _columns(
         ]
     for index, axis in enumerate(known.directions, len(columns) - len(known.directions)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
+    for index, column in enumerate(columns if len(columns) > 1 else ()):
+        if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
+            columns[index] = Column(column.name, OTHER)
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
@@ -241,7 +256,7 @@ def _columns(
         found = sampling_of(values, TIMES[unit])
         return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
     if stamped:
-        return tuple(columns), times_of(table.columns[:, stamped[0]], "s")
+        return tuple(columns), times_of(table.columns[:, stamped[0]], "s", sure=True)
     return _with_times(table, columns)
 
 
@@ -255,25 +270,33 @@ def _with_times(
         rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
         if index in table.given or not (timed or rises):
             continue
-        if _counts(values, column):
-            columns[index] = Column(column.name, OTHER)
-        elif timed:
+        if timed:
             found[index] = times_of(values, column.unit)
         elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
             # what rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
-            if not sampling.trouble:
+            if not sampling.trouble and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
     time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
-    return tuple(columns), None if time is None else found[time]
+    if time is None:
+        return tuple(columns), None
+    first = found[time]
+    for index, other in found.items():
+        rate = other.sample_rate
+        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
+            said = (
+                f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
+            )
+            return tuple(columns), dataclasses.replace(first, stated=False, reason=said)
+    return tuple(columns), first
 
 
 _LABELS = re.compile(
     r"(?i)(.*\.)?([a-z0-9]+[ _]?)?"
-    r"(names?|labels?|channels?|sensors?|columns|items|headings?)\{\d+\}"
+    r"(names?|labels?|channels?|sensors?|columns|items|head(ing|er)?s?|legend|titles?)\{\d+\}"
 )
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 
@@ -284,16 +307,14 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
     for name, text in texts.items():
         parent, _, end = name.lower().rpartition(".")
         unit = facts.unit_of(end, text)
-        if (
-            unit is not None
-            and column.role == SIGNAL
-            and column.unit is None
-            and parent
-            and parent in (of, column.name.lower())
-        ):
+        if not parent or parent not in (of, column.name.lower()):
+            continue
+        if unit in TIMES and column.role == TIME:
+            column = dataclasses.replace(column, unit=column.unit or unit)
+        if unit is not None and column.role == SIGNAL and column.unit is None:
             role = SIGNAL if unit in UNITS else OTHER
             column = dataclasses.replace(column, unit=unit, role=role)
-        if of and parent == of and end in _DESCRIBES:
+        if end in _DESCRIBES:
             said = column_of(text)
             column = dataclasses.replace(
                 column,
@@ -301,6 +322,20 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
                 direction=column.direction or said.direction,
             )
     return column
+
+
+def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
+    """The name of a column of the frequencies of a spectrum; empty where there is none."""
+    return next(
+        (
+            column.name
+            for index, column in enumerate(columns)
+            if index not in table.given
+            and names_a_frequency(column.name)
+            and sampling_of(table.columns[:, index]).stated
+        ),
+        "",
+    )
 
 
 def _counts(time: NDArray[np.float64], column: Column) -> bool:
@@ -319,7 +354,7 @@ def _rate(
 ) -> Finding[float] | None:
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
-    said = facts.sample_rate_in(named, table.name)
+    said = facts.sample_rate_in([*named, *_constants(table)], table.name)
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
@@ -342,7 +377,7 @@ def _unit(
         name = next(columns[index].name for index in picked if columns[index].unit)
         return Finding(unit, f"the name “{name}”")
     said = facts.units_said(table.remarks, table.texts)
-    if len(said) == 1 and (unit := said[0]) is not None:
+    if len(said) == 1 and (unit := said[0]) in UNITS and unit is not None:
         return Finding(unit, "a line of the file")
     if known.unit is not None:
         return known.unit
@@ -387,14 +422,24 @@ def _speed(
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
             if mean > 0.0:
-                steady = float(np.ptp(speeds)) <= 0.02 * mean
+                steady = float(np.ptp(speeds)) <= STEADY * mean
                 words = f"the column “{column.name}”" + (
                     ""
                     if steady
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
                 return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
-    return facts.shaft_speed_in(named, table.name)
+    return facts.shaft_speed_in([*named, *_constants(table)], table.name)
+
+
+def _constants(table: FileColumns) -> list[Named]:
+    """Columns that hold one number: in every row, or in one alone."""
+    made = []
+    for name, column in zip(table.names, table.columns.T, strict=True):
+        values = column[np.isfinite(column)]
+        if values.size and 0.0 <= np.ptp(values) <= STEADY * values.mean():
+            made.append(Named(name, float(values.mean()), column_of(name).unit))
+    return made
 
 
 def _text(one: Named) -> str:

@@ -13,7 +13,15 @@ from dataclasses import dataclass
 from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
-from bearingcore.files.units import FORCES, SPEEDS, TIMES, unit_in, unit_named
+from bearingcore.files.units import (
+    FORCES,
+    SPEEDS,
+    STANDARD_GRAVITY,
+    TIMES,
+    VOLTAGES,
+    unit_in,
+    unit_named,
+)
 
 T = TypeVar("T")
 
@@ -80,10 +88,10 @@ _SEVERAL = re.compile(
     r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
 )
 _WITH_UNIT = re.compile(
-    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*(k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min)?\W*",
-    re.IGNORECASE,
+    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*", re.IGNORECASE
 )
-"""A number with the unit of a rate or a speed, with no mark before it or no name."""
+_OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
+"""A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
 
 _RATES = {
     "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
@@ -95,7 +103,7 @@ _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
     "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
-    "tinterval",
+    "tinterval", "δt", "timeresolution",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -105,6 +113,7 @@ _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
     "motorspeed", "drehzahl",
 }  # fmt: skip
+_KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
@@ -121,7 +130,7 @@ FASTEST_IN_HZ = 150.0
 
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
-    kept = [line.strip() for line in islice(lines, MOST_REMARKS)]
+    kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
     under = [one for pair in pairwise(kept) for one in _under(*pair)]
     return [*(one for line in kept for one in _in_line(line)), *under]
 
@@ -138,22 +147,23 @@ def _under(names: str, values: str) -> Iterator[Named]:
 def _in_line(line: str) -> Iterator[Named]:
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
-    if match is not None:
-        found = [match.groups()]
-    elif len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None:
-        # of each channel the same, or the settings of an instrument beside its numbers
-        others = {cell for cell in cells[1:] if cell}
-        alone = len(others) == 1 or not cells[2]
-        found = [(cells[0], cells[1], None)] if alone else []
+    several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
+    # of each channel the same, or the settings of an instrument beside its numbers
+    if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
+        found: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
+    elif match is not None:
+        found = [(match[1], match[2], match[3])]
+    elif several:
+        found = []
     else:
         found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
     for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
         match = _WITH_UNIT.fullmatch(part.strip())
-        if match is not None and match[3]:
+        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
             turns = unit_named(match[3]) == "rpm"
             found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and _key(match[1]) in _RATES | _SPEEDS | {"rpm"}:
-            found.append((match[1], match[2], None))
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _KNOWN:
+            found.append((match[1], match[2], match[3]))
     for name, text, unit in found:
         value = _number(text)
         if value is not None:
@@ -163,8 +173,12 @@ def _in_line(line: str) -> Iterator[Named]:
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
     keys = {_rate_key(one.name) for one in named_in([line])}
-    known = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS
-    return bool(keys & known) or any("rpm" in key for key in keys) or ":" in line or "=" in line
+    return (
+        bool(keys & (_KNOWN | _LOADS))
+        or any("rpm" in key for key in keys)
+        or ":" in line
+        or "=" in line
+    )
 
 
 def _number(text: str) -> float | None:
@@ -190,7 +204,9 @@ def _rate_key(name: str) -> str:
     return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
 
 
-_OTHER_RATE = re.compile(r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf")
+_OTHER_RATE = re.compile(
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf|f_?max|lines|baud|bit"
+)
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -218,7 +234,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         return dataclasses.replace(first, stated=False)
     for one in named:
         value = one.value * (1e3 if one.unit == "kHz" else 1.0)
-        likely = _key(one.name) == "rate" or one.unit in ("Hz", "kHz")
+        likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
         if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
             return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
     match = re.search(
@@ -292,6 +308,24 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
         and math.isfinite(one.value)
         and one.value > 0.0
     }
+
+
+_SENSITIVITY = re.compile(
+    rf"(?i)(sensitivity|empfindlichkeit|sensibilit\w+)\b.{{0,30}}?({_NUMBER})\s*"
+    r"(mV|V)\s?(?:/|per)\s?(g|\(?m/?s\S{0,3}[2²])"
+)
+
+
+def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
+    """[V/(m/s²)] where all lines that say one say the same."""
+    found: dict[float, str] = {}
+    for match in filter(None, map(_SENSITIVITY.search, lines)):
+        per = STANDARD_GRAVITY if match[4].lower() == "g" else 1.0
+        if value := _number(match[2]):
+            found[value * VOLTAGES["V" if match[3] in "Vv" else "mV"] / per] = (
+                f"“{match[1]}” in the file"
+            )
+    return Finding(*found.popitem()) if len(found) == 1 else None
 
 
 _UNITS = {

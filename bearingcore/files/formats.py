@@ -7,8 +7,10 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 from __future__ import annotations
 
 import io
+import json
 import re
 import warnings
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -22,6 +24,9 @@ from bearingcore.files import libraries
 from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
+
+STEADY = 0.02
+"""Relative range of a few numbers, such as a speed, that count as one."""
 
 DEEPEST = 8
 """Structs, cells and groups inside one another."""
@@ -55,6 +60,9 @@ def read(
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
+    if content[:2] == b"\x1f\x8b":
+        content = _unzipped_alone(name, content)
+        return read(re.sub(r"(?i)\.gz$", "", name), content, most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
@@ -69,6 +77,8 @@ def read(
         kind, walk = "NumPy file", libraries.npz
     elif re.match(rb"# Created by Octave", content):
         kind, walk = "text of Octave", _walk_octave
+    elif re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
+        kind, walk = "JSON file", lambda _, found: _walk_json(values, "", found, 0)
     elif content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     elif (
@@ -92,13 +102,53 @@ def read(
     return found.table(name, kind, most_numbers, most_columns)
 
 
+def _unzipped_alone(name: str, content: bytes) -> bytes:
+    """Unpack what gzip packed."""
+    try:
+        made = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
+    except zlib.error:
+        raise checks.refuse("file", name, "a whole file of gzip") from None
+    if len(made) > libraries.MOST_UNPACKED:
+        most = f"at most {libraries.MOST_UNPACKED >> 20} MB"
+        raise checks.refuse("file", name, f"one that holds {most} unpacked")
+    return made
+
+
+def _json(content: bytes) -> Any:
+    """The value of a JSON text, or of one record a line; None where it is neither."""
+    try:
+        text = content.decode("utf-8-sig")
+        try:
+            return json.loads(text)
+        except ValueError:
+            return [json.loads(line) for line in text.splitlines() if line.strip()]
+    except (ValueError, RecursionError):
+        return None
+
+
+def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
+    """Lists of numbers, and lists of records by the records' names."""
+    _check_depth(depth)
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        records = [one for one in value if isinstance(one, dict)]
+        value = {name: [one.get(name) for one in records] for name in records[0]}
+    if isinstance(value, dict):
+        for name, inside in value.items():
+            _walk_json(inside, f"{path}.{name}" if path else str(name), found, depth + 1)
+        return
+    try:
+        found.add(path or "array", np.array(value, dtype=float))
+    except (TypeError, ValueError):
+        found.add(path or "array", np.asarray(value, dtype=object))
+
+
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
     """Whole numbers come out as parts of full scale, −1 to 1."""
     from scipy.io import wavfile
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # chunks with remarks that it does not know
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")  # of chunks with remarks that it does not know, too
             rate, data = wavfile.read(io.BytesIO(content))
     except MemoryError:
         raise
@@ -116,6 +166,8 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         columns /= float(np.iinfo(data.dtype).max) + 1.0
     names = [f"channel {i + 1}" for i in range(columns.shape[1])]
     about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
+    if any("EOF" in str(one.message) for one in warned):
+        about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
 
 
@@ -125,9 +177,17 @@ class Variables:
 
     numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
+    objects: list[str] = field(default_factory=list)
 
     def add(self, path: str, value: NDArray[Any]) -> None:
-        """Keep a real matrix or a word; anything else is passed over."""
+        """Keep real numbers as a matrix, or a word; anything else is passed over."""
+        for part in value.dtype.names or ():
+            self.add(f"{path}.{part}" if path else part, value[part].ravel())
+        if value.dtype.kind in "Mm":
+            value = libraries.in_seconds(value)
+        if value.ndim > 2:  # the longest direction is that of the samples
+            longest = int(np.argmax(value.shape))
+            value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
         if value.dtype.kind in "iuf" and value.ndim <= 2:
             self.numbers[path] = np.atleast_2d(value)
         elif value.dtype.kind in "OSU":
@@ -147,14 +207,29 @@ class Variables:
             elif matrix.size and len(scalars) < MOST_SCALARS:
                 with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
                     scalars[variable] = float(matrix[0, 0])
+        if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
+            wanted = (
+                f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
+            )
+            raise checks.refuse("file", name, f"{wanted}its columns, as in acc = T.acc, or as CSV")
         if not parts:
             raise checks.refuse("file", name, f"a {kind} with a vector or matrix of real numbers")
         rows = max(len(part) for part in parts.values())
         # what is much shorter was measured otherwise, or is no signal
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable, part in parts.items():
-            if len(part) < least and len(self.texts) < MOST_SCALARS:
-                self.texts[variable] = f"{len(part)} × {part.shape[1]} numbers, not used"
+            if len(part) >= least:
+                continue
+            # what is said of it, such as its rate, is not of the signals
+            scalars = {
+                name: value
+                for name, value in scalars.items()
+                if not name.startswith(f"{variable}.")
+            }
+            if np.ptp(part) <= STEADY * part.mean() and len(scalars) < MOST_SCALARS:
+                scalars[variable] = float(part.mean())
+            elif len(self.texts) < MOST_SCALARS:
+                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
         parts = {variable: part for variable, part in parts.items() if len(part) >= least}
         width = sum(part.shape[1] for part in parts.values())
         _check_size(name, (rows, width), most_numbers, most_columns)
@@ -172,7 +247,8 @@ class Variables:
 def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
     rows, width = shape
     if width > most_columns:
-        raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+        most = f"at most {most_columns}: save those of one bearing alone"
+        raise checks.refuse(f"number of columns in {name}", width, most)
     if rows * width > most_numbers:
         raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
 
@@ -202,6 +278,8 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
     _check_depth(depth)
+    if isinstance(value, MatlabOpaque):
+        found.objects.append(path)
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
         return
     if value.dtype.names:
@@ -252,6 +330,9 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
             if own and not (depth == 0 and name.startswith("#")):
                 _hdf5(item[name], f"{path}.{name}" if path else name, found, depth + 1)
     elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
+        return
+    elif "MATLAB_object_decode" in item.attrs:
+        found.objects.append(path)
         return
     elif h5py.check_ref_dtype(item.dtype) is not None:
         references = item[()].ravel()

@@ -11,6 +11,7 @@ import os
 import re
 import zipfile
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from unittest.mock import patch
 
@@ -27,6 +28,9 @@ MOST_UNPACKED = 2**28
 
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
+
+_DOCUMENT = re.compile(r"(?i)(^|/)(readme|licen[cs]e)[^/]*$|\.(md|pdf|docx?|html?|png|jpe?g)$")
+"""Files that come with the signals in a zip."""
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
@@ -75,6 +79,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
+            files = [one for one in files if not _DOCUMENT.search(one.filename)] or files
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:
@@ -105,35 +110,32 @@ def is_npz(content: bytes) -> bool:
 
 
 def _npy(content: bytes, found: Variables) -> None:
-    _add_array("", np.load(io.BytesIO(content), allow_pickle=False), found)
+    array = np.load(io.BytesIO(content), allow_pickle=False)
+    found.add("" if array.dtype.names else "array", array)
 
 
 def npz(content: bytes, found: Variables) -> None:
     """All arrays of NumPy's `savez`."""
     with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
         for name in arrays.files:
-            _add_array(name, arrays[name], found)
+            with suppress(ValueError):  # of Python's own objects, which are not unpacked
+                found.add(name, arrays[name])
 
 
-def _add_array(name: str, array: np.ndarray[Any, Any], found: Variables) -> None:
-    if array.dtype.names:
-        for part in array.dtype.names:
-            found.add(f"{name}.{part}" if name else part, _plain(array[part].ravel()))
-    else:
-        found.add(name or "array", _plain(array))
-
-
-def _plain(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Dates and durations as seconds since the first."""
+def in_seconds(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Dates as seconds since the first, and durations."""
     if values.dtype.kind == "M" and values.size:
         values = values - values.ravel()[0]
-    return values / np.timedelta64(1, "s") if values.dtype.kind == "m" else values
+    return values / np.timedelta64(1, "s")
 
 
-def _parquet(content: bytes, found: Variables) -> None:
+def _frame(content: bytes, found: Variables) -> None:
     import pandas as pd
 
-    frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
+    if content[:4] == b"PAR1":
+        frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
+    else:
+        frame = pd.read_feather(io.BytesIO(content), use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
     for name in frame.columns:
@@ -143,7 +145,7 @@ def _parquet(content: bytes, found: Variables) -> None:
             column = values.to_numpy().astype(
                 values.dtype.str.replace("tz", "") if dated else float
             )
-            found.add(f"{name} [s]" if dated else str(name), _plain(column))
+            found.add(f"{name} [s]" if dated else str(name), column)
 
 
 def _tdms(content: bytes, found: Variables) -> None:
@@ -154,7 +156,7 @@ def _tdms(content: bytes, found: Variables) -> None:
         for group in file.groups():
             for channel in group.channels():
                 path = f"{group.name}.{channel.name}"
-                found.add(path, _plain(np.asarray(channel[:])))
+                found.add(path, np.asarray(channel[:]))
                 parts.append((path, channel))
         for path, part in parts:
             for name, value in part.properties.items():
@@ -193,7 +195,8 @@ _AXES = {1: "x", 2: "y", 3: "z"}
 _KINDS: tuple[tuple[bytes, str, Callable[[bytes, Variables], None], tuple[str, str] | None], ...]
 _KINDS = (
     (rb"\x93NUMPY", "NumPy file", _npy, None),
-    (rb"PAR1", "Parquet file", _parquet, ("pyarrow", "pyarrow")),
+    (rb"PAR1", "Parquet file", _frame, ("pyarrow", "pyarrow")),
+    (rb"ARROW1", "Feather file", _frame, ("pyarrow", "pyarrow")),
     (rb"TDSm", "TDMS file", _tdms, ("nptdms", "npTDMS")),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", _uff, ("pyuff", "pyuff")),
 )

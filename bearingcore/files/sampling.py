@@ -69,22 +69,27 @@ _SINCE_1970 = 1e9, 2.6e9
 """[s] from 2001 to 2052, counted as computers do."""
 
 
-def times_of(time: NDArray[np.float64], unit: str | None = None) -> Sampling:
+def times_of(time: NDArray[np.float64], unit: str | None = None, *, sure: bool = False) -> Sampling:
     """Sample rate and faults of a column of times whose unit may not be known.
 
     Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
-    has is a proposal, in the unit that would make it a likely one.
+    has is a proposal, in the unit that would make it a likely one; none where the unit is `sure`.
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
     low, high = _SINCE_1970
-    dated = next((name for name in _PARTS if low <= first * TIMES[name] <= high), None)
+    dated = next((name for name in _PARTS[:-1] if low <= first * TIMES[name] <= high), None)
     found = sampling_of(time, TIMES[unit or dated or "s"])
     if unit is None and dated is not None:
         found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
     rate = found.sample_rate
     if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
         return found
+    if sure:
+        trouble = (
+            f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
+        )
+        return dataclasses.replace(found, sample_rate=None, stated=False, trouble=trouble)
     per_second = rate * TIMES[unit or dated or "s"]
     low, high = LIKELY_RATES
     likely = next((name for name in _PARTS if low <= per_second / TIMES[name] <= high), None)

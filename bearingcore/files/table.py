@@ -111,7 +111,7 @@ class Table(FileColumns):
         full_scale
             meaning of the number 1 in the file [unit]: the full scale of a WAV file.
         sensitivity
-            of the sensor [V/(m/s²)], for voltages.
+            of the sensor [V/(m/s²)], for voltages; None takes that of the file.
         shaft_speed
             [rad/s]; None takes that of the file, if it has one.
 
@@ -134,6 +134,8 @@ class Table(FileColumns):
         first, last, gaps = self._rows(picked)
         notes = [*self.notes, *notes, gaps]
         signal = self.columns[first:last, picked] * scale
+        if sensitivity is None and contents.sensitivity is not None:
+            sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
             notes += self._to_acceleration(signal, units, rate, sensitivity)
         speed = contents.shaft_speed
@@ -159,11 +161,11 @@ class Table(FileColumns):
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
             if kind_of(unit) == "voltage":
+                if sensitivity is None:
+                    wanted = "that of the sensor [V/(m/s²)]: 100 mV/g is 0.1 / 9.80665"
+                    raise checks.missing("sensitivity", wanted)
                 signal[:, index] /= checks.real_number(
-                    "sensitivity",
-                    np.nan if sensitivity is None else sensitivity,
-                    above=0.0,
-                    unit="V/(m/s²)",
+                    "sensitivity", sensitivity, above=0.0, unit="V/(m/s²)"
                 )
             elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
                 if np.isfinite(signal[:, index]).all():
@@ -190,9 +192,7 @@ class Table(FileColumns):
             of_file = self.contents.unit
             unit = column.unit or (of_file.value if of_file.stated else None)
             if unit is None:
-                raise checks.refuse(
-                    "unit", None, f"one of {', '.join(UNITS)}: the file does not say it"
-                )
+                raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
         return checks.choice("unit", unit, tuple(UNITS))
 
     def _rate(self, given: float | None) -> tuple[float, list[str]]:
@@ -207,17 +207,21 @@ class Table(FileColumns):
                     else ""
                 )
                 why = f" {trouble}" if trouble else ""
-                raise checks.refuse(
-                    "sample_rate", None, f"a number [Hz]: the file does not say it{guess}.{why}"
+                raise checks.missing(
+                    "sample_rate", f"a number [Hz]: the file does not say it{guess}.{why}"
                 )
             return stated.value, [trouble]
         rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
         notes = [trouble]
-        if stated is not None and stated.stated and abs(rate / stated.value - 1.0) > RATE_DOUBT:
+        typed = f"The sample rate was typed as {number(rate, 6)} Hz"
+        if stated is None:
             notes.append(
-                f"The sample rate was typed as {number(rate, 6)} Hz; {stated.reason} says "
-                f"{number(stated.value, 6)} Hz."
+                f"{typed}. Nothing in the file shows whether it was: every frequency, and so the "
+                "part, rests on it."
             )
+        elif abs(rate / stated.value - 1.0) > RATE_DOUBT:
+            says = "says" if stated.stated else "suggests"
+            notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
     def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:
@@ -279,9 +283,10 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    Octave's text and NumPy's files are read too, and with the packages of the extra `files` UFF,
-    TDMS and Parquet; also a zip of one of them. What it is shows in its first bytes. It is read in
-    a process of its own with limits of time and memory: see `bearingcore.files.child`.
+    JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
+    UFF, TDMS, Parquet and Feather; also a zip or gzip of one of them. What it is shows in its first
+    bytes. It is read in a process of its own with limits of time and memory: see
+    `bearingcore.files.child`.
 
     Parameters
     ----------

@@ -7,6 +7,7 @@ in its first lines; pandas reads the rest. Runs in the process of `child` alone.
 
 from __future__ import annotations
 
+import csv
 import dataclasses
 import io
 import math
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
-from bearingcore.files.facts import named_in, names_a_fact
+from bearingcore.files.facts import named_in, names_a_fact, units_said
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -40,16 +41,26 @@ SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
 READABLE = (
-    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, Parquet, or "
-    "a zip of one of these; export it as CSV where it is none of them"
+    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
+    "Parquet, or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
 
-MOST_ROWS = 64
-"""Up to so many long rows are signals that are written in a row each."""
+LONG_ROW = 64
+"""Numbers in a row from which on fewer rows than this are signals written in a row each; of rows
+longer than columns may be many, fewer than the numbers in each are."""
 
 MOST_WRONG = 0.01
 """Share of lines without numbers, from which on a text is no table."""
+
+MOST_MISSING, MOST_MISSING_WORDS = 0.5, 8
+"""Share of lines with words in place of numbers, and how many different ones those may be."""
+
+MOST_CHANGES = 0.1
+"""Share of rows with another word than the row before, from which on these mix several signals."""
+
+MOST_SIGNALS_MIXED = 32
+"""Different words of such a column."""
 
 
 def read_text(
@@ -70,23 +81,28 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        content = content.decode("utf-16", "replace").encode()
+    if encoding := _of_two_bytes(content[:4096]):
+        content = content.decode(encoding, "replace").encode()
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    if re.match(rb"\s*\[[\s\[]*-?\.?\d", content):  # a list, as Python and JSON write it
-        content = content.replace(b"],", b"\n").translate(None, b"[]")
+    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
     style, width, begin, remarks = _beginning(name, content)
-    if width > min(MOST_ROWS, most_columns):
-        turned = _rows(content[begin:], style, width, MOST_ROWS)
+    if width > min(LONG_ROW, most_columns):
+        fewer = most_columns if width > most_columns else LONG_ROW
+        turned = _rows(content[begin:], style, width, min(fewer, width))
         if turned is not None and turned[0].size <= most_numbers:
             columns, names = turned
             return _about(columns, names or _headings(remarks, style, columns), remarks)
         if width > most_columns:
-            raise checks.refuse(f"number of columns in {name}", width, f"at most {most_columns}")
+            raise checks.refuse(
+                f"number of columns in {name}",
+                width,
+                f"at most {most_columns}: leave out some, or write each signal in a row",
+            )
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style, width)
     read = _numbers(body, style, width, most_rows)
@@ -104,11 +120,23 @@ def read_text(
             f"at most {most_numbers}; split it by rows and join the parts",
         )
     headings = _headings(remarks, style, read)
+    if headings and any(column_of(name).role == TIME for name in headings):
+        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if len(kept) < width and kept:
         read = read[:, kept]
         headings = headings and [headings[i] for i in kept]
     return _about(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+
+
+def _of_two_bytes(start: bytes) -> str:
+    """The encoding of a text with two bytes a character, by its mark or its zeros; "" of others."""
+    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "utf-16"
+    even, odd = (start[i::2].count(0) for i in (0, 1))
+    if min(even, odd) > 0 or max(even, odd) < 0.45 * len(start) or not start:
+        return ""
+    return "utf-16-le" if odd else "utf-16-be"
 
 
 def _about(
@@ -125,10 +153,15 @@ def _about(
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
 _DATE = rf"(?:{_DAY})[T _;,\t]+"
-_SECOND = rf"((?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d)"
-_ZONE = r"(?:\s?Z|[+-]\d\d:?\d\d|\s?[AP]M\b)?"
-_POINT_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}(\.\d+)?{_ZONE}")
-_COMMA_STAMP = re.compile(rf"(?<![\w.:-]){_SECOND}([.,]\d+)?{_ZONE}")
+_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d"
+_ZONE = r"(\s?Z|[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
+_POINT_STAMP, _COMMA_STAMP = (
+    # minutes and seconds alone are known by the part of a second behind them
+    re.compile(
+        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?{_ZONE}"
+    )
+    for point in (r"\.", "[.,]")
+)
 
 
 class _Clock:
@@ -140,19 +173,21 @@ class _Clock:
         self._midnights = 0
 
     def __call__(self, stamp: re.Match[str]) -> str:
-        second, _, part = stamp.groups()
+        second, _, part, zone = stamp.groups()
         try:
-            whole = self._whole(second)
+            whole = self._whole(second, (zone or "").strip().lower()[:1])
         except ValueError:
             return stamp[0]  # a day that is in no calendar is no number either
         if part and whole < 0:
             return repr(whole + float(f"0.{part[1:]}"))
         return f"{whole}.{part[1:]}" if part else str(whole)
 
-    def _whole(self, text: str) -> int:
-        """Whole seconds since the first stamp."""
-        hour, minute, second = (int(number) for number in text[-8:].lstrip("T _;,\t").split(":"))
-        whole = hour * 3600 + minute * 60 + second
+    def _whole(self, text: str, half: str) -> int:
+        """Whole seconds since the first stamp; `half` is "a" or "p" of a clock of 12 hours."""
+        parts = [int(number) for number in re.split(r"[T _;,\t+]", text)[-1].split(":")]
+        if half in ("a", "p"):
+            parts[0] = parts[0] % 12 + 12 * (half == "p")
+        whole = sum(part * size for part, size in zip(reversed(parts), (1, 60, 3600), strict=False))
         if " day" in text:
             whole += 86_400 * int(text.split()[0])
         elif len(text) > 8:
@@ -196,13 +231,30 @@ class _Style:
 
     def plain(self, text: str) -> str:
         """Text with points in its numbers, without quotation marks, times as seconds."""
-        text = text.replace('"', "")
+        if self.delimiter == "," and _QUOTED_DECIMALS.search(text):
+            text = re.sub(r'("[-+]?\d*),(\d+(?:[eE][-+]?\d+)?")', r"\1.\2", text)
+        if '"' in text:
+            text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text).replace('"', "")
         if " sec" in text:
             text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
             text = self.stamp.sub(self.clock, text)
-        return text.replace(",", ".") if self.decimal_comma else text
+        if "D+" in text or "D-" in text:
+            text = re.sub(r"(?<=[\d.])D(?=[+-]\d)", "E", text)  # Fortran's exponents
+        if self.delimiter and ("'" in text or (self.decimal_comma and " " in text)):
+            text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
+        if not self.decimal_comma:
+            return text
+        if re.search(
+            r"\.\d{3},\d", text
+        ):  # 1.234,5: wherever it is, such a point is no decimal one
+            text = re.sub(r"(?<=\d)\.(?=\d{3}(?!\d))", "", text)
+        return text.replace(",", "" if re.search(r",\d{3}\.\d", text) else ".")
 
+
+_QUOTED = re.compile(r'"-?\d{1,3}(?:,\d{3})+(?:\.\d*)?"')
+_QUOTED_DECIMALS = re.compile(r'"[-+]?\d*,(?:\d{1,2}|\d{4,})(?:[eE][-+]?\d+)?"')
+"""A number with commas between thousands, and one with a comma that can only be a decimal one."""
 
 _STYLES = (
     _Style(";", True),
@@ -215,10 +267,27 @@ _STYLES = (
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
+    if delimiter and '"' in line:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [""])]
     return [cell.strip() for cell in line.split(delimiter)]
 
 
-MISSING = {"", "na", "n/a", "#n/a", "null", "none", "-", "--"}
+MISSING = {
+    "",
+    "na",
+    "n/a",
+    "#n/a",
+    "null",
+    "none",
+    "-",
+    "--",
+    "---",
+    "...",
+    "<na>",
+    "nat",
+    "?",
+    "*",
+}
 """Cells that hold no number, in lower case, apart from "nan" itself."""
 
 
@@ -303,6 +372,10 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
         return ()
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
+    if any(
+        word and not re.search(r"[^\W\d]", cell) for word, cell in zip(words, rows[0], strict=False)
+    ):
+        return ()  # "000125 −0" between two commas of decimals
     return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
 
 
@@ -326,7 +399,7 @@ def _decoded(line: bytes) -> str:
     try:
         return line.decode().rstrip("\r\n")
     except UnicodeDecodeError:
-        return line.decode("latin-1").rstrip("\r\n")
+        return line.decode("cp1252", "replace").rstrip("\r\n")
 
 
 def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
@@ -396,17 +469,29 @@ def _headings(
     width = columns.shape[1]
     remarks = [re.sub(r"Unnamed: \d+", "", line) for line in remarks]  # as pandas calls an index
     # a rate or a speed is no name; the place of a line that names two columns is the last
-    lines = [line for line in remarks if not _is_remark(line, style, width)][-3:]
+    lines = [
+        line
+        for line in remarks
+        if re.search(r"[^\W_]", line)
+        and not _TYPES.fullmatch(line)
+        and not _is_remark(line, style, width)
+    ][-3:]
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    if len(lines) > 1 and all(_is_unit(cell) for cell in names):
+    if len(lines) > 1 and _are_units(names):
         above = _names(lines[-2], style, columns)
         if above is not None:
             names = [
                 f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
                 for name, unit in zip(above, names, strict=True)
             ]
+    elif len(lines) > 1 and len(set(names)) < len(names):  # pandas' names of two levels
+        above = _names(lines[-2], style, columns)
+        if above is not None and len(set(above)) > 1:
+            names = [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]
+    elif width > 1 and all(units := [_unit_alone(cell) for cell in names]):
+        names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
     given = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
         return None  # numbers beside the settings of an instrument
@@ -422,13 +507,25 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Whether a line says something else than the names of columns."""
     if width > 1:
         single = [cell for cell in _cells(line, style.delimiter) if cell]
-        numbers = ":" in line or "=" in line or any(_number(cell) is not None for cell in single)
-        return numbers and names_a_fact(line)
+        said = ":" in line or "=" in line
+        if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
+            return False  # "Ch 1: acc [g], Ch 2: acc [g]"
+        if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+            return True
+        return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
     if unit_in(line) in UNITS and re.search(r"[\[(]", line):
         return False
+    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line):
+        return True  # a name and what it is
     said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
     return said or bool(named_in([line]))
 
+
+_TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
+"""A line of the columns' types of numbers."""
+
+_VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
+"""A number with or without a unit."""
 
 LONGEST_HEADING = 4
 """[words] of the name of the only column; more are a remark."""
@@ -440,8 +537,18 @@ _WORDS_OF_A_ROW = {
 _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
 
-def _is_unit(cell: str) -> bool:
-    return bool(_UNIT_LIKE.fullmatch(cell)) or unit_named(cell.strip("[]() ")) is not None
+def _are_units(cells: Sequence[str]) -> bool:
+    """Whether a line is of units: known ones, and others that look like one."""
+    like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
+    known = [_unit_alone(cell) is not None for cell in cells]
+    return any(known) and all(a or b for a, b in zip(like, known, strict=True))
+
+
+def _unit_alone(cell: str) -> str | None:
+    """The unit that a cell is; a letter without brackets is one as it is written alone."""
+    bare = cell.strip("[]() ")
+    unit = unit_named(bare)
+    return unit if len(bare) > 1 or bare in ("g", "s", unit) or bare != cell else None
 
 
 _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
@@ -456,12 +563,14 @@ def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] 
     if width == 1:
         return [line.strip(' "\t,;')]
     for cells in (
-        line.split(style.delimiter),
-        *(line.split(delimiter) for delimiter in (";", "\t", ",")),
+        _cells(line, style.delimiter),
+        *(_cells(line, delimiter) for delimiter in (";", "\t", ",")),
         *(() if re.search(r"[,;\t]", line) else _BLANKS),
     ):
         cells = re.split(cells, line) if isinstance(cells, str) else cells
         names = [cell.strip().strip('"').strip() for cell in cells]
+        if _is_a_value(names):
+            continue
         while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
             names.pop()  # LabVIEW names a column of words, which is empty
         if len(names) == width - 1 and _counts_rows(columns[:, 0]):
@@ -476,6 +585,13 @@ def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] 
     if len(names) > width and any(known[:width]) and not any(known[width:]):
         return names[:width]  # columns of words at the end, empty and not delimited
     return None
+
+
+def _is_a_value(cells: Sequence[str]) -> bool:
+    """Whether cells are a name and its number, such as "block 3", and no names of columns."""
+    values = set(cells[1:])
+    same = len(values) == 1 and "" not in values and _number(*values) is not None
+    return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
 
 
 def _counts_rows(column: NDArray[np.float64]) -> bool:
@@ -511,6 +627,16 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
     for index in style.words:
+        words = frame[index]
+        if (
+            words != words.shift()
+        ).mean() > MOST_CHANGES and 1 < words.nunique() <= MOST_SIGNALS_MIXED:
+            raise checks.refuse(
+                f"column {index + 1}",
+                f"words that change from row to row ({', '.join(map(str, words.unique()[:4]))})",
+                "rows of one signal alone: bring those of each word into columns or files of their "
+                "own",
+            )
         frame[index] = np.nan
     columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
@@ -559,26 +685,39 @@ def _mended(
     The first line has the number `above`.
     """
     lines = body.splitlines(keepends=True)
-    most = int(MOST_WRONG * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
+    few, many = (
+        int(share * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
+        for share in (MOST_WRONG, MOST_MISSING)
+    )
     wrong: list[tuple[int, str, str]] = []
+    words: set[str] = set()  # in place of numbers in lines that are whole
+    torn = 0
     for index, text, allowed in _wrong_lines(lines, style, width):
-        if not allowed:  # numbers, and a comment behind them
-            lines[index] = (style.delimiter or " ").join(
-                _decoded(lines[index]).split(style.delimiter)[:width]
-            ).encode("latin-1", "replace") + b"\n"
-            continue
-        wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
-        if len(wrong) > most:
-            raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
-    notes = []
-    for index, _, _ in wrong:
-        lines[index] = (style.delimiter or " ").join(["nan"] * width).encode() + b"\n"
-    if wrong:
-        index, text, _ = wrong[0]
-        number = "One line holds" if len(wrong) == 1 else f"{thousands(len(wrong))} lines hold"
-        first = f"line {above + index}, “{text}”"
-        notes.append(f"{number} no numbers ({first}) and count as missing.")
-    return b"".join(lines), notes
+        cells = _decoded(lines[index]).split(style.delimiter)
+        if allowed:
+            wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
+            bad = [i for i, cell in enumerate(cells) if _is_word(cell, i, style)]
+            if len(cells) in (width, width + 1) and bad:
+                words |= {cells[i].strip() for i in bad}
+            else:
+                bad, torn = list(range(width)), torn + 1
+                cells = [""] * width
+            for i in bad:
+                cells[i] = "nan"
+            if torn > few or len(wrong) > (many if len(words) <= MOST_MISSING_WORDS else few):
+                raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
+        lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
+        lines[index] += b"\n"
+    if not wrong:
+        return b"".join(lines), []
+    index, text, _ = wrong[0]
+    number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
+    first = f"line {above + index}, “{text}”"
+    return b"".join(lines), [f"{number} numbers ({first}), which count as missing."]
+
+
+def _is_word(cell: str, index: int, style: _Style) -> bool:
+    return index not in style.words and _number(style.plain(cell).strip()) is None
 
 
 def _rows(

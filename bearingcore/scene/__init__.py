@@ -3,7 +3,6 @@
 from bearingcore.scene.floor import MOST_ROWS as MOST_ROWS
 from bearingcore.scene.packing import ball_angles as ball_angles
 from bearingcore.scene.packing import is_planar as is_planar
-from bearingcore.scene.pits import pit as pit
 from bearingcore.scene.presets import preset_labels as preset_labels
 from bearingcore.scene.scene import DOF_SYMBOLS as DOF_SYMBOLS
 from bearingcore.scene.scene import FREE_TILT_WORDS as FREE_TILT_WORDS

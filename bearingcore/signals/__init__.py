@@ -1,14 +1,10 @@
 """Signals as such, measured or simulated: reading, spectra, envelopes, averages."""
 
-from bearingcore.signals.averaging import BallPasses as BallPasses
 from bearingcore.signals.filter_bank import BAND_COUNTS as BAND_COUNTS
-from bearingcore.signals.filter_bank import Band as Band
-from bearingcore.signals.filter_bank import squared_envelopes as squared_envelopes
 from bearingcore.signals.indicators import SHAFT_SPEEDS as SHAFT_SPEEDS
 from bearingcore.signals.indicators import ZONES as ZONES
 from bearingcore.signals.indicators import severity_zone as severity_zone
 from bearingcore.signals.recording import FEWEST_SAMPLES as FEWEST_SAMPLES
-from bearingcore.signals.spectrograms import FEWEST_SEGMENTS as FEWEST_SEGMENTS
 from bearingcore.signals.spectrograms import Spectrogram as Spectrogram
 from bearingcore.signals.spectrograms import order_map as order_map
 from bearingcore.signals.spectrograms import spectrogram as spectrogram

@@ -59,8 +59,6 @@ class BallPasses:
     begins : (passes + 1,) [s] or None
         when the passes begin, and the last one ends, where the cage was followed; None where it
         turns steadily.
-    skipped
-        passes of the signal before the first that is averaged.
     """
 
     frequency: float
@@ -70,16 +68,6 @@ class BallPasses:
     noise_power: NDArray[np.float64]
     prominence: float = math.inf
     begins: NDArray[np.float64] | None = None
-    skipped: int = 0
-
-    def time_of(self, passed: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Time [s] in the signal at which so many balls have passed since its begin."""
-        if self.begins is None:
-            return np.asarray(passed / self.frequency)
-        place = np.asarray(passed, dtype=float) - self.skipped
-        inside = np.clip(place, 0.0, self.n_passes)
-        time = np.interp(inside, np.arange(self.n_passes + 1), self.begins)
-        return np.asarray(time + (place - inside) / self.frequency)
 
     @property
     def scatter(self) -> NDArray[np.float64]:
@@ -87,17 +75,11 @@ class BallPasses:
         around = self.power - np.abs(self.harmonics) ** 2
         return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
 
-    @property
-    def density(self) -> NDArray[np.float64]:
-        """Power spectral density (N, d) [(unit)²/Hz] at the harmonics, spread between them."""
-        return np.asarray(2.0 * self.power / self.frequency)
-
-    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
-        """The mean pass as n samples (n, d), of the harmonics from `lowest` [Hz] on."""
-        kept = self.harmonics * (self.harmonic_frequency >= lowest)[:, None]
-        full = np.zeros((n // 2 + 1, kept.shape[1]), dtype=complex)
-        count = min(len(kept), n // 2)
-        full[1 : count + 1] = kept[:count]
+    def waveform(self, n: int) -> NDArray[np.float64]:
+        """The mean pass as n samples (n, d)."""
+        full = np.zeros((n // 2 + 1, self.harmonics.shape[1]), dtype=complex)
+        count = min(len(self.harmonics), n // 2)
+        full[1 : count + 1] = self.harmonics[:count]
         return np.asarray(np.fft.irfft(full, n, axis=0) * n)
 
     @property
@@ -216,7 +198,7 @@ def average_passes(
     noise = 0.5 * floor * frequency
     if coloured:
         noise = _coloured(mean, power, noise)
-    return BallPasses(frequency, n_passes, mean, power, noise, prominence, begins, margin)
+    return BallPasses(frequency, n_passes, mean, power, noise, prominence, begins)
 
 
 def load_zone_weights(

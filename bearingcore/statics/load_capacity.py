@@ -23,10 +23,6 @@ EPSILON = float(np.finfo(float).eps)
 ROUNDING = 1e-13
 """A gradient below this is that of a ball which is across the direction to a digit."""
 
-LEAST_GAIN, ALIKE = 1e-14, 1e-11
-"""The part of a load of size 1 that another ball must be able to take for it to be tried, and how
-much two rays must differ to be two."""
-
 
 def descent_direction(
     contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
@@ -39,6 +35,8 @@ def descent_direction(
     them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
     of the load is 0 where contacts can carry all of it.
     """
+    from scipy.optimize import nnls  # imported late: slow to import
+
     nothing = np.zeros(len(active)), 0.0
     if not load.any():
         return nothing
@@ -59,7 +57,9 @@ def descent_direction(
     # what is left free is known to a digit times how unevenly the rest is held
     unevenness = sizes[0] / sizes[held - 1] if held else 1.0
     pressing[np.abs(pressing) < max(ROUNDING, 10.0 * EPSILON * unevenness)] = 0.0
-    left = beyond_cone(pressing, still @ load / np.linalg.norm(load))
+    along = still @ load / np.linalg.norm(load)
+    taken, _ = nnls(pressing, along, maxiter=100 * pressing.shape[1])
+    left = along - pressing @ taken
     return left @ still, float(np.linalg.norm(left))
 
 
@@ -71,37 +71,3 @@ def is_unbounded(
     The energy then falls without end. `load` belongs to the active directions.
     """
     return descent_direction(contacts, cage_angle, active, load)[1] > RESIDUAL_LIMIT
-
-
-def beyond_cone(rays: Array, point: Array) -> Array:
-    """Rest of `point` (m,) after its nearest in the cone of `rays` (m, k) is taken off.
-
-    Lawson and Hanson's active sets, with a tolerance, as rays of balls opposite each other are.
-    """
-    inside: list[int] = []
-    amounts = np.zeros(rays.shape[1])
-    for _ in range(3 * rays.shape[1]):
-        gain = (point - rays @ amounts) @ rays
-        gain[inside] = -np.inf
-        if gain.max() <= LEAST_GAIN:
-            break
-        inside.append(int(gain.argmax()))
-        while inside:
-            wanted = np.linalg.lstsq(rays[:, inside], point, rcond=ALIKE)[0]
-            if np.all(wanted > 0.0):
-                amounts[inside] = wanted
-                break
-            # go towards what is wanted until the first ball lets go
-            now = amounts[inside]
-            blocking = wanted <= 0.0
-            step = float(np.min(now[blocking] / (now[blocking] - wanted[blocking])))
-            moved = now + min(step, 1.0) * (wanted - now)
-            amounts[:] = 0.0
-            kept = moved > ROUNDING
-            amounts[np.array(inside)[kept]] = moved[kept]
-            inside = [ball for ball, keep in zip(inside, kept, strict=True) if keep]
-    left = point - rays @ amounts
-    if inside:  # once more: what is left is small against the point and has lost digits
-        taken = rays[:, inside]
-        left = left - taken @ np.linalg.lstsq(taken, left, rcond=ALIKE)[0]
-    return left

@@ -33,8 +33,9 @@ def scene_of(bearing: BearingLike) -> Scene:
     two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
 
     Rotor and support are assumed, as no number of a bearing says them: a rotor that weighs the
-    radial load, in the housing and on the springs of the fan rig. Natural frequencies and vibration
-    are those of such a machine; give the machine's own for those of another.
+    radial load in a housing as heavy, on the springs of the fan rig made as much larger as the
+    bearing is: stiffness grows as lengths do, and damping keeps its ratio. Natural frequencies and
+    vibration are those of such a machine; give the machine's own for those of another.
 
     Parameters
     ----------
@@ -62,7 +63,7 @@ def scene_of(bearing: BearingLike) -> Scene:
         defect=Defect.none(),
         load=Load(fy=-load),
         shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * own.pitch_diameter)),
-        support=_carrying(load),
+        support=_carrying(load, own.pitch_diameter),
     )
     way = facing(own)
     if not way:
@@ -70,13 +71,23 @@ def scene_of(bearing: BearingLike) -> Scene:
     return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))
 
 
+RIG_DIAMETER = 0.045
+"""[m] pitch diameter of the fan rig's bearing."""
+
+
 def _rounded(value: float) -> float:
     return float(f"{value:.3g}")
 
 
-def _carrying(load: float) -> Support:
-    """The fan rig's support with a rotor that weighs a load [N]."""
-    rig = FAN_RIG_SUPPORT
-    mass = _rounded(load / STANDARD_GRAVITY)
-    inertia = (rig.inner_inertia or 0.0) * mass / rig.inner_mass
-    return dataclasses.replace(rig, inner_mass=mass, inner_inertia=inertia)
+def _carrying(load: float, pitch_diameter: float) -> Support:
+    """The fan rig's support with rings that weigh a load [N], for a bearing of this size [m]."""
+    length, mass = pitch_diameter / RIG_DIAMETER, _rounded(load / STANDARD_GRAVITY)
+    heavier = mass / FAN_RIG_SUPPORT.inner_mass
+    factors = {"mass": heavier, "stiffness": length, "damping": math.sqrt(heavier * length)}
+    factors["inertia"] = heavier
+    made = {}
+    for name, value in dataclasses.asdict(FAN_RIG_SUPPORT).items():
+        tilts = "inertia" in name or name.endswith(("_rx", "_ry"))
+        factor = next(factor for part, factor in factors.items() if part in name)
+        made[name] = value * factor * (length**2 if tilts else 1.0)
+    return Support(**made)

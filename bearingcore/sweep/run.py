@@ -131,9 +131,8 @@ def run(
     processes: bool,
     scenes_per_task: int | None,
     progress: Progress | None,
-    say: Callable[[str], object] | None = None,
 ) -> xarray.Dataset:
-    """`sweep` of a grid. `say` is called once where Dask's page shows what its workers do."""
+    """`sweep` of a grid."""
     if scenes_per_task is not None:
         scenes_per_task = checks.whole_number(
             "scenes_per_task", scenes_per_task, at_least=1, at_most=10_000_000
@@ -142,10 +141,10 @@ def run(
         workers = checks.whole_number("workers", workers, at_least=1, at_most=1000)
     region_shape = grid.region_shape(scenes_per_task)
     if store is None:
-        return _in_memory(grid, region_shape, client, workers, processes, progress, say)
+        return _in_memory(grid, region_shape, client, workers, processes, progress)
     path = stores.local_path(store)
     try:
-        return _in_store(path, grid, region_shape, client, workers, processes, progress, say)
+        return _in_store(path, grid, region_shape, client, workers, processes, progress)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EDQUOT):
             raise
@@ -160,7 +159,6 @@ def _in_store(
     workers: int | None,
     processes: bool,
     progress: Progress | None,
-    say: Callable[[str], object] | None,
 ) -> xarray.Dataset:
     region_shape = stores.prepare(path, grid, region_shape)
     regions = (
@@ -169,7 +167,6 @@ def _in_store(
     )
     done = _Progress(grid.size, progress)
     with _cluster(client, workers, processes) as cluster:
-        _say_where(cluster, say)
         seen = False
         for region, computed in _finished(cluster, stores.finish, regions):
             if not (seen or stores.is_finished(region)):
@@ -198,7 +195,6 @@ def _in_memory(
     workers: int | None,
     processes: bool,
     progress: Progress | None,
-    say: Callable[[str], object] | None,
 ) -> xarray.Dataset:
     import xarray
 
@@ -217,7 +213,6 @@ def _in_memory(
     parts = ((place, grid.part(place)) for place in places)
     done = _Progress(grid.size, progress)
     with _cluster(client, workers, processes) as cluster:
-        _say_where(cluster, say)
         for (place, part), (codes, found) in _finished(cluster, _compute, parts):
             status[place] = codes
             for name, values in found.items():
@@ -259,11 +254,6 @@ class _Progress:
             if self._kept:
                 words += f", {self._kept:,} of them from before"
             self._progress(self._done / self._size, words)
-
-
-def _say_where(client: Client, say: Callable[[str], object] | None) -> None:
-    if say is not None:
-        say(f"What each worker does: {client.dashboard_link}")
 
 
 @contextmanager

@@ -3,8 +3,6 @@
 All of them run in one fresh interpreter, each in a namespace of its own.
 """
 
-from __future__ import annotations
-
 import ast
 import dataclasses
 import io
@@ -52,11 +50,9 @@ PLANE = {"x": "extent_deg", "x_from": "10", "x_to": "40", "y": "shaft_speed_hz",
          "y_to": "12", "grid": "8"}  # fmt: skip
 CHOICES: dict[str, dict[str, Any]] = {
     "explore": PLANE | {"output": "k_xx_mean"},
-    "stability-map": PLANE | {"grid": "13"},
     "speed-run": {"from": "7", "to": "9", "count": "25"},
-    "accuracy": {"experiment": "angles"},
+    "accuracy": {"experiment": "statics"},
     "diagnosis": {"speed": "rough"},
-    "sizing": {"support": "known"},  # among others it takes five times the time
     "measured-spectrum": {"direction": "x", "scale": "linear"},
     "measured-envelope": {"low": "400", "high": "3000"},
 }
@@ -66,7 +62,6 @@ CASES = [
     *(("two defects", name) for name in ("depth-profile", "maps", "vibration-time")),
     *(("inner race", name) for name in ("load-distribution", "modes", "vibration-spectrum")),
     *(("balls with mass", name) for name in ("bearing", "stiffness", "mass-time")),
-    ("error of the extent", "explore"),
 ]
 RECORDED = 'it\'s "a" file.wav'
 
@@ -88,10 +83,8 @@ def recorded() -> tuple[bytes, Measured]:
 def shown(case: tuple[str, str]) -> tuple[View, Results]:
     """A view with all that it shows, as it is when its lines are asked for."""
     name = case[1]
-    scene, cage_angle, compared = SCENES.get(case[0], SCENES["dragged"])
+    scene, cage_angle, compared = SCENES[case[0]]
     choices = CHOICES.get(name, {})
-    if case[0] == "error of the extent":  # none has an answer, which is quick
-        scene, choices = SCENES["inner race"][0], choices | {"output": "extent_error"}
     results = Results(scene, cage_angle, compared=compared)
     view = VIEWS[name](PackedSource())
     if isinstance(view, MeasuredView):

@@ -1,7 +1,5 @@
 """The notebooks run as they stand, and are kept without what they put out."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -18,9 +18,10 @@ from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_
 from bearing_explorer.explorer.report import About, mark_of, page, report
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import Reference
+from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
-from bearing_explorer.explorer.views.stability_map import OrbitStability
+from bearing_explorer.explorer.views.speed_run import SPEED, FoundRun, SpeedRunSpectra
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
 from bokeh.document import Document
@@ -28,8 +29,8 @@ from bokeh.document import Document
 from bearingcore import Defect, presets
 from bearingcore.common.numbers import number, probability
 from bearingcore.diagnosis import DiagnosisStatus
+from bearingcore.dynamics import speed_run
 from tests.helpers.measuring import measuring
-from tests.helpers.stability import found_map
 
 KINDS = [view for section in SECTIONS for view in section.views]
 NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7}}"
@@ -73,7 +74,9 @@ def made() -> dict:
     def current() -> None:
         raise AssertionError("a report is made in a thread, where that is anybody's document")
 
-    found = {"stability-map": found_map()}
+    speeds = Sweep(SWEEPABLE[SPEED], np.array([10.0, 20.0, 30.0]))
+    run = speed_run(presets["fan-rig"], speeds.in_si[1], resolution=16.0)
+    found = {"speed-run": FoundRun(run, speeds)}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("bokeh.io.curdoc", current)
         return report(Results(presets["fan-rig"], 0.1), KINDS, found, about())
@@ -105,7 +108,7 @@ def test_it_says_what_there_is_to_say(made: dict) -> None:
         "Computed without problems",
         LoadDistribution(PackedSource()).sentence(results),
         NaturalFrequencies(PackedSource()).sentence(results).replace("k_", "k"),
-        OrbitStability.title,
+        SpeedRunSpectra.title,
         *(limit.sentence for limit in results.limits),
     ):
         assert said in words, said
@@ -143,7 +146,7 @@ def test_a_scene_without_an_answer_has_a_report() -> None:
 def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page() -> None:
     """With a unit that is guessed and a speed that is typed in; a journey prints the sheet."""
     scene = presets["6205"]
-    measured = simulated(scene.replace(race="outer", extent=0.2), 20.0, False, 1)
+    measured = simulated(scene.replace(race="outer", extent=0.2), 20.0, 1)
     recording = dataclasses.replace(measured.recording, name=NASTY)
     measured = dataclasses.replace(measured, recording=recording, true_load=None, true_edge=None)
     session = measuring(measured)
@@ -205,7 +208,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
 def test_the_next_step_rests_on_part_zone_and_growth(
     fault: str, zone: str, change: float | None, begins: str, says: str
 ) -> None:
-    question = Question.about(simulated(presets["6205"], 20.0, False, 1))
+    question = Question.about(simulated(presets["6205"], 20.0, 1))
     found = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:

@@ -12,7 +12,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 CORE = ROOT / "bearingcore"
 PACKAGES = sorted(path.parent.name for path in CORE.glob("*/__init__.py"))
-TAKEN_AND_RETURNED = {"BallPositions", "Support", "TrendPoint"}
+TAKEN_AND_RETURNED = {
+    "BallPositions", "Candidate", "Sizing", "Spectrogram", "Support", "TrendPoint",
+}  # fmt: skip
 """Types of what the functions of `bearingcore` take and return: its reference describes them."""
 
 FRONTS = ["bearingcore", *(f"bearingcore.{name}" for name in PACKAGES)]

@@ -9,8 +9,6 @@ to five minutes a preset on a quiet machine. What a scene cannot have is kept in
 reason, and printed. Then the tables of assets/docs/ACCURACY.md are written from the files.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 import time

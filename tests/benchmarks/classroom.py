@@ -13,8 +13,6 @@ where the last change of a drag is not drawn within five seconds. Each client ha
 as no other's; a scene leaks where a picture shows another depth.
 """
 
-from __future__ import annotations
-
 import argparse
 import asyncio
 import itertools

@@ -8,8 +8,6 @@ wander, resonances, load zones, coloured noise, shaft lines, gear meshes, tones 
 lines. Prints the confusion matrix, by noise too, and how far the stated probability holds.
 """
 
-from __future__ import annotations
-
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 

@@ -10,8 +10,6 @@ second of processor time, whether the log is without a traceback, and whether no
 folder for temporary files.
 """
 
-from __future__ import annotations
-
 import argparse
 import asyncio
 import math

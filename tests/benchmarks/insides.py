@@ -6,8 +6,6 @@ prints each bearing of `tests/reference/published_insides.csv` with the number o
 estimated and the errors of ball over pitch diameter and of BPFO, the number being right.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 from pathlib import Path

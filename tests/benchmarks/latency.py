@@ -14,8 +14,6 @@ system's count of processor time: two cores have 67 ms of it for each of 30 fram
 else is on them.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ A time alone says little: the same machine takes twice as long with a neighbour 
 beside every time that is printed stands what the C loops take in the same minute.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import statistics

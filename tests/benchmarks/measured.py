@@ -10,8 +10,6 @@ record with bearings that are not the machine's. What is conclusive and wrong, a
 not the machine's from 90 % on, makes the command fail.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections import Counter

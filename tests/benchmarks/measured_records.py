@@ -5,8 +5,6 @@ What is true follows from the names of four public collections: Case Western Res
 HIT-SM (`hitsm`, with spalls of known length on both races).
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator

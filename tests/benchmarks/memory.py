@@ -6,8 +6,6 @@ first pictures of a class that comes at once took. From the second class on, onc
 what is left must be flat within 15 %.
 """
 
-from __future__ import annotations
-
 import asyncio
 import sys
 import time

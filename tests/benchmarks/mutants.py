@@ -10,8 +10,6 @@ folder, those from outside, then all others that plain `pytest` runs without a b
 found is kept, and the next call goes on from there.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import json

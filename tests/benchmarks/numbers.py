@@ -13,8 +13,6 @@ Then the page, by `starting`, `latency` and `classroom` of this folder: its firs
 compiled, slider to pixels, a classroom. `--core` leaves them out.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

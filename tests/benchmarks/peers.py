@@ -8,8 +8,6 @@ else. EXUDYN and SciPy integrate the motion with the compiled equations of `test
 the truth is DOP853 at 1e-12 on these. Times are those of the processor, as others may use it too.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import importlib

@@ -3,8 +3,6 @@
 A clock counts what neighbours take as well. The system counts what each process has worked.
 """
 
-from __future__ import annotations
-
 import psutil
 
 

@@ -10,8 +10,6 @@ samples the accelerations of both rings are held against the loads that the same
 places of rings and balls. A motion that broke off must be NaN from there on.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 import sys

@@ -6,8 +6,6 @@ M. I. Friswell et al., Dynamics of Rotating Machines (2010), pages 182-185, as R
 `BallBearingElement`: no clearance, no load zone, no grooves.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

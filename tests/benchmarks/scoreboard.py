@@ -6,8 +6,6 @@ their numbers (`tables`; a test holds them together). What measured records have
 the other machines alone would have set.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

@@ -10,8 +10,6 @@ with the kernels that those before it have left, and every tenth on an empty fol
 start with what the last of them has left. The exit code says whether a log held a traceback.
 """
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import socket

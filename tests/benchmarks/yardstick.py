@@ -4,8 +4,6 @@ They are yardsticks, not part of the program: the same work as a competent engin
 C, compiled by gcc on the machine that runs it.
 """
 
-from __future__ import annotations
-
 import ctypes
 import shutil
 import subprocess

@@ -4,8 +4,6 @@ Without Chromium they are skipped; where the environment says CI they fail inste
 failed test saw is kept in `failures/`: a screenshot and the server's log.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from pathlib import Path

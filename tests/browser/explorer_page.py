@@ -1,7 +1,5 @@
 """The explorer's page as the browser tests read it: its controls, figures and sentences."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

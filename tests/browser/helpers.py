@@ -1,7 +1,5 @@
 """What the browser tests share: a real server, a real browser, and a record of what went wrong."""
 
-from __future__ import annotations
-
 import itertools
 import os
 import re

@@ -1,7 +1,5 @@
 """A slider in motion: what is sent, what is drawn last, and what is one step to take back."""
 
-from __future__ import annotations
-
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, settle, slider, value

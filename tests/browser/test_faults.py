@@ -4,8 +4,6 @@
 ``python -m tests.benchmarks.starting --kills 20`` ends first starts at every tenth.
 """
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess
@@ -27,6 +25,7 @@ from tests.browser.helpers import (
     holding,
     serving,
 )
+from tests.browser.test_first_minute import samples
 from tests.helpers.compiled import compile_once
 
 pytestmark = pytest.mark.proof
@@ -39,6 +38,10 @@ UNSENT = "not connected so cannot send"  # Bokeh, of what is moved when the line
 
 def first_picture(page: Page, url: str) -> None:
     page.goto(url)
+    can_be_used(page)
+
+
+def can_be_used(page: Page) -> None:
     page.wait_for_function("window.__frames >= 1")
     page.wait_for_selector("aside:not(:has([inert])) #control-extent_deg")  # statics are compiled
     settle(page)
@@ -76,7 +79,8 @@ def test_a_server_that_stands_still_and_one_that_is_started_anew(watch: tuple[Pa
     page, watching = watch
     compile_once()
     with serving(explorer_server()) as server:
-        first_picture(page, server.url)
+        assert samples(page, server) == [], "from the first frame of a cold start on"
+        can_be_used(page)
         moves = holding(page, slider(page, "extent_deg"), 0.1, 0.7, 40)
         next(moves)
         settle(page)

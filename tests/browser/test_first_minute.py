@@ -1,14 +1,11 @@
 """The first minute: what stands on the first screen, what moves, and no nonsense in words."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import number, rest, settle, slider, value
-from tests.browser.helpers import Server, explorer_server, serving
+from tests.browser.helpers import Server
 
 #: every element inside shadows too, and the ones that are seen
 SEEN = """
@@ -130,12 +127,6 @@ def test_no_frame_says_undefined(page: Page, explorer: Server) -> None:
     # what is looked for is found
     page.evaluate("document.querySelector('footer').append(String(undefined))")
     page.wait_for_function("window.__nonsense.size === 1")
-
-
-@pytest.mark.proof
-def test_no_frame_of_a_cold_start_says_undefined(page: Page) -> None:
-    with serving(explorer_server()) as server:
-        assert samples(page, server) == []
 
 
 # --- it moves -------------------------------------------------------------------------------------

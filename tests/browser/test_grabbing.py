@@ -1,7 +1,5 @@
 """The defect and the load are grabbed in the drawing of the bearing, by mouse and by finger."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

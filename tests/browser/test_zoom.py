@@ -1,7 +1,5 @@
 """Figures zoom by the wheel and by boxes, stay so while sliders move, and go back."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

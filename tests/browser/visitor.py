@@ -3,8 +3,6 @@
 Journeys go through this, so that they hold however the page is built.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A client that sends what no page sends, and connects again when it is cut off."""
 
-from __future__ import annotations
-
 import math
 import random
 import struct

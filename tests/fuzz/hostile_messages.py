@@ -5,8 +5,6 @@ hostile ones take them from here. A message is a list of frames of a websocket; 
 bytes as bytes, and a `Raw` frame as it stands, with any opcode and flags.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import random
@@ -46,7 +44,7 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("ShareBar", {"keep": "a", "want": "toml", "title": "a"}),
     ("ShareBar", {"report": "http://localhost/"}),
     ("LessonPanel", {"mark": 1, "lesson": "a", "words_only": True, "show": "load"}),
-    ("LessonPanel", {"mark": 1, "simulate": {"noise": "20", "machine": "same", "pit": "scene"}}),
+    ("LessonPanel", {"mark": 1, "simulate": {"noise": "20"}}),
     ("FileUpload", {"type": "begin", "name": "a.wav", "size": 64}),
     ("FileUpload", {"type": "piece", "of": 1, "content": "00"}),
 )

@@ -1,7 +1,5 @@
 """Inputs made of good ones by breaking them, each repeatable by its number."""
 
-from __future__ import annotations
-
 import random
 import re
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The parsers of inputs from outside; each returns a result or raises a ValueError."""
 
-from __future__ import annotations
-
 import io
 import random
 import time
@@ -22,7 +20,6 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Scene, presets, read_catalogue, read_floor
 from bearingcore.files.table import read_table
-from bearingcore.sweep.file import grid_from_toml
 from tests.fuzz.inputs import bytes_like, text_like
 
 LONGEST_SENTENCE = 700  # characters
@@ -75,14 +72,6 @@ def unclear(sentence: str) -> str | None:
 
 def _texts() -> list[str]:
     return [scene.to_toml() for scene in list(presets.values())[:6]]
-
-
-def _sweeps() -> list[str]:
-    over = (
-        '[sweep]\noutputs = ["k_*_mean", "band_*"]\n\n[sweep.over]\n'
-        "extent = {start = 0.0, stop = 1.5, num = 91}\nfy = [-50.0, -100.0, -200.0]\n"
-    )
-    return [text + "\n" + over for text in _texts()[:3]]
 
 
 def _floors() -> list[str]:
@@ -242,12 +231,11 @@ def _open_address(text: str) -> None:
 
 def targets() -> list[Target]:
     """All of them."""
-    scenes, sweeps, floors, bearings = _texts(), _sweeps(), _floors(), _bearings()
+    scenes, floors, bearings = _texts(), _floors(), _bearings()
     bearing_bytes = [text.encode() for text in bearings]
     files, addresses = broken_files(), _addresses()
     return [
         Target("scene", lambda r: text_like(r, scenes), Scene.from_toml),
-        Target("sweep", lambda r: text_like(r, sweeps), grid_from_toml),
         Target("floor", lambda r: text_like(r, floors), read_floor),
         Target("bearings", lambda r: text_like(r, bearings), read_catalogue),
         Target("bearings file", lambda r: bytes_like(r, bearing_bytes), read_catalogue),

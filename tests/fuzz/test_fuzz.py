@@ -1,7 +1,5 @@
 """Broken inputs of every parser: ``FUZZ_INPUTS=100000 pytest -n 0 tests/fuzz/test_fuzz.py``."""
 
-from __future__ import annotations
-
 import os
 import warnings
 

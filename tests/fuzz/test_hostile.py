@@ -1,7 +1,5 @@
 """Small shares of the benchmark `hostile`: other messages and files."""
 
-from __future__ import annotations
-
 import asyncio
 import logging
 from typing import Any

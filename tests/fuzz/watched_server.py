@@ -5,8 +5,6 @@ by the clock and by the processor time of the loop's own thread; once a second t
 written to the file, as JSON.
 """
 
-from __future__ import annotations
-
 import asyncio
 import json
 import sys

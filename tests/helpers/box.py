@@ -4,8 +4,6 @@ A point of the box is a `Point`: plain numbers, drawn by hypothesis or by a rand
 which `scene_at` makes a scene and `cage_angles_at` the cage angles to look at.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import NamedTuple

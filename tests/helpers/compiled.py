@@ -1,7 +1,5 @@
 """Machine code of the kernels, made once before anybody who needs it at the same time starts."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

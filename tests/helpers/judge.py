@@ -1,7 +1,5 @@
 """A judge of static answers, by the independent contact law."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """A session's measurement for tests: without a browser, with a signal that is there already."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 
@@ -17,7 +15,7 @@ from bearingcore import Scene, presets
 @cache
 def signal() -> Measured:
     """A simulated signal of the fan rig, 20 dB above its noise."""
-    return simulated(presets["fan-rig"], 20.0, False, 1)
+    return simulated(presets["fan-rig"], 20.0, 1)
 
 
 def at(scene: Scene, shaft_speed: float | None = None) -> Machine:

@@ -5,8 +5,6 @@ scripts of the page do: a message carries a mark, and packets of the packed sour
 the mark of the newest change that is drawn. Packets are cut into sources as the page does it.
 """
 
-from __future__ import annotations
-
 import asyncio
 import json
 import re

@@ -1,7 +1,5 @@
 """Fingerprints of the core's answers, to hold runs, threads and processes against each other."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 

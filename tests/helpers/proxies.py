@@ -1,7 +1,5 @@
 """A reverse proxy of a few lines, as operators have one in front of the explorer."""
 
-from __future__ import annotations
-
 import asyncio
 import re
 import threading

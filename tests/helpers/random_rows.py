@@ -1,7 +1,5 @@
 """Random pairs, self-aligning and roller bearings, and unlike rows."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any

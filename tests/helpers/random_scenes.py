@@ -1,7 +1,5 @@
 """Random scenes within what the page's sliders allow, from a seed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

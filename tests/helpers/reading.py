@@ -1,7 +1,5 @@
 """Files read in this process: quick, for tests of what is made of them."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Signals of damaged bearings: the package's own, and one that no code of the package made."""
 
-from __future__ import annotations
-
 import functools
 import math
 

@@ -1,7 +1,5 @@
 """The explorer's server inside a test's own event loop, and what tests ask of it."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
 import time

@@ -1,7 +1,5 @@
 """A session of the scene's half alone, without a browser."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Simulated measurements of an accelerometer on the housing."""
 
-from __future__ import annotations
-
 from bearingcore.dynamics.motion import simulate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording

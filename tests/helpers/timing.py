@@ -1,7 +1,5 @@
 """Times that experiments measure: taken once where a test does not look at them."""
 
-from __future__ import annotations
-
 import pytest
 
 from bearingcore.experiments.points import least_time

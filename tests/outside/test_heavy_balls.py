@@ -97,7 +97,7 @@ def marched(
 
 
 @witness(
-    "balls: with mass", "function: simulate", "ball bearing: motion", "chart: balls",
+    "balls: with mass", "function: simulate", "ball bearing: motion",
     by="SciPy's DOP853 on equations with a place for each ball, written down in the test",
     compared="velocity of the fan rig's housing over 20 ms, root mean square of what differs",
     within=2e-3,

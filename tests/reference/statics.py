@@ -32,15 +32,11 @@ Conventions the paper leaves open:
   shaft: by cage angle × 2 / (1 − D_b cos α0 / D_p).
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from mpmath import mp, mpf
-from scipy.optimize import minimize
 
 HERE = Path(__file__).parent
 DOFS = ("x", "y", "z", "rx", "ry")
@@ -223,61 +219,10 @@ def push_and_stiffness(ready: dict[str, Any], q: Any) -> tuple[Any, Any, list[An
     return total, K, each
 
 
-def start(ready: dict[str, Any], free: list[int]) -> np.ndarray:
-    """Minimum of the energy in double precision, by a trust region of scipy."""
-    G_r = np.array([[float(x) for x in c["radial"]] for c in ready["contacts"]])
-    G_z = np.array([[float(x) for x in c["axial"]] for c in ready["contacts"]])
-    # a double has no digits of a compression left for centres of straight races, far apart
-    near = [
-        {**c, "A0": min(c["A0"], mpf(10)), "less": max(c["A0"] - 10, 0)} for c in ready["contacts"]
-    ]
-    r0, z0 = (
-        np.array([float(c[name] - c["less"] * c[part]) for c in near])
-        for name, part in (("r0", "ca"), ("z0", "sa"))
-    )
-    ca, sa, A0, K = (np.array([float(c[name]) for c in near]) for name in ("ca", "sa", "A0", "K"))
-    n = float(ready["n"])
-    load = np.array([float(v) for v in ready["load"]])
-    scale = 1e-5 * np.array([1.0, 1.0, 1.0, *[1.0 / float(ready["arm"])] * 2])
-    size = float(np.linalg.norm(load)) * 1e-5
-
-    def parts(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-        q = np.zeros(5)
-        q[free] = x * scale[free]
-        r, z = r0 + G_r @ q, z0 + G_z @ q
-        back = np.minimum(r * ca + z * sa, 0.0)
-        r, z = r - back * ca, z - back * sa
-        A = np.maximum(np.hypot(r, z), 1e-300)
-        delta = np.maximum(A - A0, 0.0)
-        Q = K * delta**n
-        w = G_r * (r / A)[:, None] + G_z * (z / A)[:, None]
-        v = G_z * (r / A)[:, None] - G_r * (z / A)[:, None]
-        v[back < 0.0] = 0.0  # a guarded ball's line of contact does not turn
-        energy = float(np.sum(Q * delta) / (n + 1.0) - load @ q)
-        slope = w.T @ Q - load
-        bend = (w.T * (n * K * delta ** (n - 1.0) * (delta > 0.0))) @ w + (v.T * (Q / A)) @ v
-        unit = scale[free]
-        return (
-            energy / size,
-            slope[free] * unit / size,
-            bend[np.ix_(free, free)] * np.outer(unit, unit) / size,
-        )
-
-    found = minimize(
-        lambda x: parts(x)[0],
-        np.zeros(len(free)),
-        jac=lambda x: parts(x)[1],
-        hess=lambda x: parts(x)[2],
-        method="trust-exact",
-        options={"gtol": 1e-11, "maxiter": 3000},
-    )
-    x = found.x
-    for _ in range(5):  # the last digits, lost to rounding of the energy itself
-        _, slope, bend = parts(x)
-        x = x - np.linalg.solve(bend, slope)
-    q = np.zeros(5)
-    q[free] = x * scale[free]
-    return q
+def energy(ready: dict[str, Any], q: Any, each: list[Any]) -> Any:
+    """What contacts store, less the work of the load [N m]."""
+    stored = sum(Q * max(delta, mpf(0)) for Q, _, delta, _ in each) / (ready["n"] + 1)
+    return stored - (ready["load"].T * q)[0]
 
 
 def solve(scene: dict[str, Any]) -> dict[str, Any]:
@@ -286,17 +231,24 @@ def solve(scene: dict[str, Any]) -> dict[str, Any]:
     free = [DOFS.index(name) for name in scene["dofs"]]
     unit = [mpf(1), mpf(1), mpf(1), ready["arm"], ready["arm"]]
     size = max(abs(ready["load"][i]) / unit[i] for i in free)
-    q = mp.matrix([mpf(float(v)) for v in start(ready, free)])
-    for _ in range(60):
-        total, K, each = push_and_stiffness(ready, q)
-        gap = total - ready["load"]
-        residual = max(abs(gap[i]) / unit[i] for i in free) / size
+    q, damping = mp.zeros(5, 1), size * 100_000  # [N/m], a hundredth of a millimetre at first
+    total, K, each = push_and_stiffness(ready, q)
+    for _ in range(400):  # Newton's steps, damped while a full one would go too far
+        gap = mp.matrix([(total[i] - ready["load"][i]) / unit[i] for i in free])
+        residual = mp.norm(gap, mp.inf) / size
         if residual < mpf(10) ** (-DIGITS + 24):  # a straight race takes 21 of a compression
             break
         small = mp.matrix([[K[i, k] / unit[i] / unit[k] for k in free] for i in free])
-        step = mp.lu_solve(small, mp.matrix([gap[i] / unit[i] for i in free]))
+        step = mp.lu_solve(small + damping * mp.eye(len(free)), gap)
+        moved = q.copy()
         for i, value in zip(free, step, strict=True):
-            q[i] -= value / unit[i]
+            moved[i] -= value / unit[i]
+        there = push_and_stiffness(ready, moved)
+        left = max(abs(there[0][i] - ready["load"][i]) / unit[i] for i in free) / size
+        if left < residual / 2 or energy(ready, moved, there[2]) < energy(ready, q, each):
+            q, (total, K, each), damping = moved, there, damping / 100
+        else:
+            damping *= 10
     quotient = mp.zeros(5, 5)
     with mp.workdps(2 * DIGITS):
         for i in range(5):

@@ -27,7 +27,6 @@ from bearing_explorer.diagnosis.measurement_state import (
     NOT_YET,
     REFUSED,
     MeasurementState,
-    Sized,
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN
 from bearing_explorer.diagnosis.signal import Measured
@@ -69,7 +68,6 @@ class Findings:
         draw: Callable[[], None],
     ) -> None:
         self.measured: Measured | None = None
-        self.sized: Sized | None = None
         self.state = MeasurementState()
         #: called with the new state, for the form of the signal and for that of its machine
         self.show: Callable[[MeasurementState], None] = lambda _: None

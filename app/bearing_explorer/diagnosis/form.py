@@ -29,6 +29,7 @@ from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.files import (
     OTHER,
+    PLACES,
     SIGNAL,
     SPEED,
     SPEEDS,
@@ -64,7 +65,8 @@ ROLES = (
 )
 """Possible roles of a column, as the form has them and in words."""
 DIRECTIONS = ("x", "y")
-"""Roles that are signals; each may have its unit behind it: "x g"."""
+"""Roles that are signals; each may have its unit and its place behind it: "x g@drive end"."""
+AT = "@"
 APART = ";"
 """Between the roles of the columns in their field."""
 NOT_KNOWN = ""
@@ -109,12 +111,14 @@ class FormResult:
 def guess(table: Table) -> dict[str, str]:
     """The first values of the form: what the file says, and good guesses."""
     contents = table.contents
-    rate = contents.sample_rate
+    rate, sensor = contents.sample_rate, contents.sensitivity
     return {
         "columns": APART.join(roles_of(table)),
         "unit": _unit(table),
         "full_scale": "1",
-        "sensitivity": NOT_KNOWN,
+        "sensitivity": NOT_KNOWN
+        if sensor is None
+        else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}",
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
@@ -158,14 +162,19 @@ def with_roles(table: Table, text: str) -> Table:
     known = {role for role, _ in ROLES} | {
         f"{axis} {unit}" for axis in DIRECTIONS for unit in UNITS
     }
-    if len(roles) != len(guessed) or not set(roles) <= known:
+    columns = table.contents.columns
+    there = {"", *PLACES, *(column.place for column in columns)}
+    split = [role.partition(AT) for role in roles]
+    if len(roles) != len(guessed) or any(
+        role not in known or place not in there for role, _, place in split
+    ):
         raise FormError({"columns": f"{table.name} has other columns."})
     given: dict[int | str, Column] = {}
-    for index, (role, was) in enumerate(zip(roles, guessed, strict=True)):
-        column, (kind, _, unit) = table.contents.columns[index], role.partition(" ")
+    for index, ((role, at, place), was) in enumerate(zip(split, guessed, strict=True)):
+        column, (kind, _, unit) = columns[index], role.partition(" ")
         if kind in DIRECTIONS:
             headed = column.unit if column.unit in UNITS else None
-            given[index] = Column("", SIGNAL, unit or headed, kind, column.place)
+            given[index] = Column("", SIGNAL, unit or headed, kind, place if at else column.place)
         elif role != was:
             given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
     try:
@@ -175,9 +184,15 @@ def with_roles(table: Table, text: str) -> Table:
 
 
 def with_role(
-    roles: Sequence[str], units: Sequence[str], index: int, role: str, unit: str
+    roles: Sequence[str],
+    units: Sequence[str],
+    places: Sequence[str],
+    index: int,
+    role: str,
+    unit: str,
+    place: str,
 ) -> dict[str, str]:
-    """The fields "columns" and "unit" with another role or unit of a column.
+    """The fields "columns" and "unit" with another role, unit or place of a column.
 
     No other column keeps that role. Signals have one unit together until they are given two.
     """
@@ -188,13 +203,21 @@ def with_role(
     known = set(own.values()) - {NOT_KNOWN}
     if len(known) > 1:
         roles = [f"{one} {own.get(i, '')}".strip() for i, one in enumerate(roles)]
+    at = [place if i == index else was for i, was in enumerate(places)]
+    roles = [f"{one}{AT}{at[i]}" if i in own else one for i, one in enumerate(roles)]
     said = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
     return {"columns": APART.join(roles), **said}
 
 
+def places_of(text: str, headed: Sequence[str]) -> list[str]:
+    """The place of each column out of the field of roles, else as it is `headed`."""
+    roles = (role.partition(AT) for role in text.split(APART))
+    return [place if at else was for (_, at, place), was in zip(roles, headed, strict=False)]
+
+
 def roles_and_units(text: str) -> tuple[list[str], list[str]]:
     """The roles out of their field, and the units that a person gave signals there."""
-    roles = text.split(APART)
+    roles = [role.partition(AT)[0] for role in text.split(APART)]
     signals = [one.partition(" ") if one[:2] in ("x ", "y ") else (one, "", "") for one in roles]
     return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
@@ -256,7 +279,8 @@ def reasons(table: Table) -> dict[str, str]:
         found["unit"] = "By the heading of each column, or as given over it."
     if not table.full_scale_known:
         found["full_scale"] = "Full scale of the recorder, in the unit."
-    found["sensitivity"] = "See the label of the sensor."
+    sensor = contents.sensitivity
+    found["sensitivity"] = "See the label of the sensor." if sensor is None else _because(sensor)
     found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     if contents.frequencies:
         found["bearing"] = "Its frequencies are in the file."
@@ -279,10 +303,16 @@ def questions(table: Table) -> dict[str, str]:
         asked["columns"] = _which_column(table)
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
-        trouble = contents.sampling.trouble if contents.sampling is not None else ""
+        trouble = _trouble(table)
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
     return asked
+
+
+def _trouble(table: Table) -> str:
+    """Faults of the times of the file."""
+    sampling = table.contents.sampling
+    return "" if sampling is None else sampling.trouble
 
 
 NO_SIGNAL = "Which column is the signal? Say it above the column."
@@ -412,7 +442,7 @@ def read_form(
         try:
             numbers[name] = _read(name, texts)
         except ValueError as error:
-            refused[name] = str(error)
+            refused[name] = f"{_trouble(table) if name == 'sample_rate' else ''} {error}".strip()
     roles, _ = roles_and_units(texts["columns"])
     chosen = {role: index for index, role in enumerate(roles) if role in DIRECTIONS}
     if not chosen:
@@ -446,8 +476,9 @@ def read_form(
     except ValueError as error:
         raise FormError({"columns": f"These columns are no signal: {_said_by(error)}."}) from None
     origin = Origin(
-        table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given)
-    )
+        table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given),
+        place=" and ".join(sorted({table.contents.columns[i].place for i in columns} - {""})),
+    )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
     sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)
     return FormResult(sized if in_si else _without_size(sized), origin, found_machine, in_si)
@@ -485,8 +516,8 @@ def _doubts(table: Table, chosen: Sequence[int], unit: str | None) -> list[str]:
     doubts = []
     if len(places) > 1:
         doubts.append(
-            f"By their names these are sensors at two places ({' and '.join(places)}); as you "
-            "chose them they count as two directions of one bearing."
+            f"These are sensors at two places ({' and '.join(places)}); as you chose them they "
+            "count as two directions of one bearing."
         )
     for name in (table.names[index] for index in chosen):
         headed = unit_in(name)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from bearing_explorer.diagnosis.half import DiagnosisOfSignal
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
-from bearing_explorer.diagnosis.views.how_sure import HowSure
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
@@ -13,7 +12,6 @@ from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectr
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.signal_figure import figure_of
-from bearing_explorer.diagnosis.views.sizing import DefectSize
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.kit.half import Section
 
@@ -27,14 +25,12 @@ SECTIONS = (
             MeasuredSignal,
             PartDiagnosis,
             SpallExtent,
-            DefectSize,
             TrendOfFiles,
             MeasuredIndicators,
             MeasuredSpectrum,
             MeasuredEnvelope,
             MeasuredKurtogram,
             MeasuredSpectrogram,
-            HowSure,
         ),
     ),
 )

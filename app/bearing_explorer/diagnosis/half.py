@@ -64,9 +64,9 @@ class DiagnosisOfSignal:
         """Have messages about the scene taken by this."""
         self.measurement.change_scene = change
 
-    def simulate(self, noise: str, machine: str, pit: str) -> None:
+    def simulate(self, noise: str) -> None:
         """Simulate a measurement of the scene."""
-        self.measurement.simulate(noise, machine, pit)
+        self.measurement.simulate(noise)
 
     def report(self, about: About) -> Callable[[], dict[str, Any] | None] | str:
         """A function that makes the report on the signal, in any thread; or why there is none."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from bearing_explorer.diagnosis.form import ShownColumns
-from bearing_explorer.diagnosis.signal import Measured
-from bearingcore import Scene, Sizing
 
 FIRST_WORDS = (
     "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
@@ -73,12 +71,3 @@ class AboutMeasurement:
     machine: str = ""
     point: str = ""
     date: str = ""
-
-
-@dataclass(frozen=True)
-class Sized:
-    """The size that was found for a defect, with its signal and its scene."""
-
-    measured: Measured
-    scene: Scene
-    sizing: Sizing

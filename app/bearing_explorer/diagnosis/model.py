@@ -2,26 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-import bearingcore as core
-from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.compute.cache import cached
-from bearingcore.scene import WITH_MASS
-
 if TYPE_CHECKING:
     from bearing_explorer.kit.views.base import View
-    from bearingcore import Limit, Motion, Scene
-
-DURATION, SHORT, RATE = 1.4, 0.7, 65_536.0
-"""[s] of a simulated motion, of one while a slider moves, and its sample rate [Hz]."""
-MOST_STEPS, MOST_STEPS_WITH_MASS = 400_000, 1_600_000
-"""Steps of a simulated motion: where it takes more, it is shorter."""
-SHORTEST = 0.1
-"""[s] Shorter motions show nothing."""
+    from bearingcore import Limit, Scene
 
 
 @dataclass(frozen=True)
@@ -91,26 +78,3 @@ class Inputs:
     def content(self, give_up: Callable[[], bool] | None = None) -> Model:
         """The model of these inputs."""
         return Model(self.scene, moving=not self.rested, at_work=self.at_work)
-
-
-@cached
-def motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    """A simulated motion [s], [Hz]; ValueError where there is none, or it does not end."""
-    compiling.need(compiling.MOTION, scene)
-    most = MOST_STEPS_WITH_MASS if scene.balls == WITH_MASS else MOST_STEPS
-    rate = core.simulate(scene, 2.0 / sample_rate, sample_rate).step_rate
-    if math.isfinite(rate) and rate > 0.0:
-        duration = min(duration, max(most / rate, SHORTEST))
-    return core.simulate(scene, duration, sample_rate, most_steps=MOST_STEPS_WITH_MASS)
-
-
-def motion_of(model: Model) -> Motion:
-    """The motion of a model, half as long while a slider moves."""
-    return motion(model.scene, SHORT if model.moving else DURATION, RATE)
-
-
-@cached
-def bands(scene: Scene) -> dict[str, tuple[float, float]]:
-    """Least and greatest natural frequency [Hz] of each mode."""
-    compiling.need(compiling.STATICS)
-    return core.frequency_bands(scene)

@@ -130,6 +130,7 @@ def measured_report(
         of = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
     title = about.title.strip() or f"{of}: {question.measured.recording.name}"
     said = measurement.about
+    place = "" if (origin := question.measured.origin) is None else origin.place
     about = replace(about, machine=said.machine or about.machine)
     trend = found.get(TrendOfFiles.name)
     if not isinstance(trend, FoundTrend) or trend.series is not measurement.series:
@@ -138,7 +139,7 @@ def measured_report(
     steps = next_steps(answer, question, zone, None if trend is None else trend.trend)
     body = [
         *heading(about, title),
-        f"<p>Measuring point: {html_text(said.point or NOT_SAID)}. "
+        f"<p>Measuring point: {html_text(said.point or place or NOT_SAID)}. "
         f"Recorded: {html_text(recorded(measurement))}.</p>",
         part_html(state),
         f"<h2>What to do next</h2><p class='do'>{html_text(steps)}</p>",

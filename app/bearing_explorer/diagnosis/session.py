@@ -20,10 +20,10 @@ from bearing_explorer.diagnosis.reading import Arrival, Read, read_file, read_of
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
-from bearing_explorer.diagnosis.simulated import simulated, with_pit
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
 from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import join_tables
 from bearingcore.errors import FieldError
 from bearingcore.files import files_inside
@@ -205,9 +205,9 @@ class Measurement(SignalForm):
 
     # Simulated ones
 
-    def simulate(self, noise: str, machine: str, pit_name: str = "scene") -> None:
-        """Simulate a measurement; the choices are keys of NOISES, MACHINES and PITS."""
-        if self._ended or noise not in NOISES or machine not in MACHINES or pit_name not in PITS:
+    def simulate(self, noise: str) -> None:
+        """Simulate a measurement of the scene; `noise` is a key of NOISES."""
+        if self._ended or noise not in NOISES:
             return
         self._upload = self._arrival = None
         self._latest += 1
@@ -216,14 +216,12 @@ class Measurement(SignalForm):
         self._tell(words="Simulating a measurement.", bad=False, busy=True)
 
         def make() -> Measured:
-            return simulated(
-                with_pit(scene, PITS[pit_name]), NOISES[noise], machine == "different", seed
-            )
+            return simulated(scene, NOISES[noise], seed)
 
         self._in_background(make, self._take_simulated, "The scene")
 
     def _take_simulated(self, found: Measured) -> None:
-        self._table, self._cut, self.measured, self.sized = None, "", found, None
+        self._table, self._cut, self.measured = None, "", found
         self.state = MeasurementState(
             arrival=self.state.arrival + 1,
             values={"speed": SIMULATED},

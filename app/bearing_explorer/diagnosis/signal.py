@@ -1,4 +1,4 @@
-"""A measured signal and the same of a scene: spectra and envelopes, computed when first used.
+"""A measured signal: its spectra and envelopes, computed when first used.
 
 As with `results.results`, everything that is drawn of a measurement passes through here.
 """
@@ -15,24 +15,15 @@ from numpy.typing import NDArray
 
 import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
-from bearing_explorer.diagnosis.model import Model, motion_of
-from bearing_explorer.kit.compute.cache import cached
 from bearingcore.common import cached_property
 from bearingcore.diagnosis import NARROWEST
 from bearingcore.files import Column
-from bearingcore.signals import Band, squared_envelopes
 
 if TYPE_CHECKING:
-    from bearingcore import Bearing, Indicators, Kurtogram, Motion, Recording, Scene, Spectrum
-
-SETTLING = 0.2
-"""[s] of a simulated motion that are left out, when the start is forgotten."""
-
-ENVELOPE_ORDERS = 40.0
-"""Turns of the shaft a second up to which an envelope over time is kept."""
+    from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 
 ENVELOPE_TOP = 1000.0
-"""[Hz] up to which an envelope over time is kept, and its spectrum drawn, of an unknown machine."""
+"""[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""
 
 ENVELOPE_LINES = 1600
 """Frequencies of an envelope spectrum that are drawn, at most."""
@@ -44,7 +35,8 @@ class Origin:
 
     `unit` is None where the columns have units of their own, empty where it is not known.
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave, `parts` are the files that were joined to this one.
+    meaning of columns that a person gave, `parts` are the files that were joined to this one,
+    `place` is that of the sensors, as given or by the file.
     """
 
     file: str
@@ -54,6 +46,7 @@ class Origin:
     sensitivity: float | None = None
     given: Mapping[int, Column] = field(default_factory=dict)
     parts: tuple[str, ...] = ()
+    place: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,16 +158,6 @@ class Measured:
         """Condition indicators of the recording."""
         return core.indicators(self.recording, self.shaft_speed)
 
-    def envelope_signal(
-        self, direction: str, band: tuple[float, float]
-    ) -> tuple[NDArray[np.float64], float]:
-        """Squared envelope of a band [Hz] along a direction over time, and its sample rate [Hz]."""
-        speed = self.shaft_speed
-        top = ENVELOPE_ORDERS * speed / (2.0 * math.pi) if speed else ENVELOPE_TOP
-        rate = self.recording.sample_rate
-        (found,) = squared_envelopes(self.column(direction), rate, [Band(*band)], top)
-        return found.values, found.rate
-
     @cached_property
     def _middle(self) -> NDArray[np.float64]:
         return np.asarray(self.recording.acceleration.mean(axis=0))
@@ -198,54 +181,3 @@ def _put(known: dict, key: object, value: object, most: int = 6) -> None:
     while len(known) >= most:
         known.pop(next(iter(known)))
     known[key] = value
-
-
-class Simulated:
-    """The simulation of a measurement: the scene at its shaft speed.
-
-    The start of the motion is left out, so that spectra hold the steady state alone.
-    """
-
-    def __init__(self, model: Model, measured: Measured) -> None:
-        #: that is simulated
-        self.model = Model(measured.scene(model.scene), model.moving)
-
-    def spectrum(self, direction: str, resolution: float) -> Spectrum | None:
-        """Spectrum along a direction; None where the housing cannot move along it."""
-        return simulated_spectrum(self.model, direction, resolution)
-
-    def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum | None:
-        """Envelope spectrum of a band [Hz], up to `top` [Hz]."""
-        return simulated_envelope(self.model, direction, *band, top)
-
-
-def _steady(motion: Motion, direction: str) -> NDArray[np.float64] | None:
-    if direction not in motion.dofs:
-        return None
-    first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
-    signal = motion.outer_acceleration[first:, motion.dofs.index(direction)]
-    if not np.isfinite(signal).all():
-        raise ValueError("the simulated motion does not stay finite")
-    return signal
-
-
-@cached
-def simulated_spectrum(model: Model, direction: str, resolution: float) -> Spectrum | None:
-    motion = motion_of(model)
-    signal = _steady(motion, direction)
-    if signal is None:
-        return None
-    finest = 1.0 / (len(signal) / motion.sample_rate)
-    return core.spectrum(signal, motion.sample_rate, max(resolution, 1.01 * finest))
-
-
-@cached
-def simulated_envelope(
-    model: Model, direction: str, low: float, high: float, top: float
-) -> Spectrum | None:
-    motion = motion_of(model)
-    signal = _steady(motion, direction)
-    if signal is None or high >= 0.5 * motion.sample_rate or not signal.any():
-        return None
-    resolution = max(motion.sample_rate / len(signal), top / ENVELOPE_LINES)
-    return core.envelope_spectrum(signal, motion.sample_rate, (low, high), resolution)

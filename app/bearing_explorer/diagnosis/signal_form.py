@@ -140,7 +140,7 @@ class SignalForm(Findings):
         self._cut, self._first, self._agreed = found.cut, found.first, {}
         self._kept, self._parts = found.kept, found.parts
         self._taken = found.form
-        self.measured = self.sized = None
+        self.measured = None
         if found.asked is not None:
             self.measured = self._measured(found.asked, found.form)
             words, bad = self._summary(about_size(found.sizes)), False

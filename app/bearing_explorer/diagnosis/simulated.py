@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.diagnosis.machine import SIMULATED, of_scene
-from bearing_explorer.diagnosis.model import motion
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.sentences import sentence_of
-from bearingcore import Defect, Recording, Scene
-from bearingcore.diagnosis import SPREAD, variant
-from bearingcore.scene import WITH_MASS, pit
+from bearingcore import Defect, Motion, Recording, Scene, simulate
+from bearingcore.scene import WITH_MASS
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
 """[rad], [m] of the defect under the load to whose vibration the noise is relative."""
@@ -33,7 +33,20 @@ PASSES = 200.0
 are one shaft frequency apart."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
+MOST_STEPS, MOST_STEPS_WITH_MASS = 400_000, 1_600_000
+"""Steps of a simulated motion: where it takes more, it is shorter."""
 SETTLING = 0.3  # [s] before a simulated measurement begins
+
+
+@cached
+def motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
+    """A simulated motion [s], [Hz]; ValueError where there is none, or it does not end."""
+    compiling.need(compiling.MOTION, scene)
+    most = MOST_STEPS_WITH_MASS if scene.balls == WITH_MASS else MOST_STEPS
+    rate = simulate(scene, 2.0 / sample_rate, sample_rate).step_rate
+    if math.isfinite(rate) and rate > 0.0:
+        duration = min(duration, max(most / rate, 0.1))
+    return simulate(scene, duration, sample_rate, most_steps=MOST_STEPS_WITH_MASS)
 
 
 def true_part(scene: Scene) -> str:
@@ -75,21 +88,6 @@ def noise_level(
     return np.asarray(np.sqrt(np.mean(signal**2, axis=0)) * share)
 
 
-def with_pit(scene: Scene, length: float | None) -> Scene:
-    """The scene with a small pit so long [m] in place of its defects, and balls with mass.
-
-    On the race of its first defect, or the outer one, under the load. None leaves it as it is;
-    ValueError with a sentence where there can be no such pit.
-    """
-    if length is None:
-        return scene
-    race = scene.defects[0].race if scene.defects else "outer"
-    try:
-        return scene.replace(defect=pit(scene, length, race), balls=WITH_MASS)
-    except ValueError as error:
-        raise ValueError(sentence_of(error)) from None
-
-
 def load_on_defect(scene: Scene) -> float | None:
     """Radial load [N] of a scene towards its defect; None where it has several, or presses none.
 
@@ -103,15 +101,13 @@ def load_on_defect(scene: Scene) -> float | None:
     return load if load > 1e-6 * abs(force) else None
 
 
-def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Measured:
+def simulated(scene: Scene, noise_db: float, seed: int) -> Measured:
     """A measurement of a scene as a sensor with noise would make it, its extent known.
 
     Parameters
     ----------
     noise_db
         signal over noise [dB], each direction against its own.
-    different
-        whether the machine's stiffnesses, load, damping and depth are off what the scene says.
 
     Raises
     ------
@@ -119,17 +115,11 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         with a sentence, where the scene does not move.
     """
     rng = np.random.default_rng(seed)
-    truth = scene
-    single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
-    if different and single:
-        (defect,) = scene.defects
-        exponents = np.clip(rng.standard_normal(5), -1.5, 1.5) * SPREAD
-        truth = variant(scene, defect.extent, defect.edge, exponents)
     passing = scene.bearing.bpfo(scene.shaft_speed)
     duration = min(max(PASSES / passing, SHORTEST), LONGEST) if passing > 0.0 else SHORTEST
     duration += SETTLING
     try:
-        moved = motion(truth, duration, RATE)
+        moved = motion(scene, duration, RATE)
     except ValueError as error:
         raise ValueError(sentence_of(error)) from None
     columns = [index for index, dof in enumerate(moved.dofs) if dof in ("x", "y")]
@@ -138,7 +128,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
     signal = moved.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():
         raise ValueError("Not possible: the simulated housing does not move along x or y.")
-    level = noise_level(truth, signal, columns, noise_db, duration, RATE)
+    level = noise_level(scene, signal, columns, noise_db, duration, RATE)
     noisy = signal + level * rng.standard_normal(signal.shape)
     name = "Simulated" + (", balls with mass" if scene.balls == WITH_MASS else "")
     name += f", noise {noise_db:.0f} dB below" if math.isfinite(noise_db) else ""
@@ -147,6 +137,7 @@ def simulated(scene: Scene, noise_db: float, different: bool, seed: int) -> Meas
         recording = Recording(noisy, moved.sample_rate, directions, name)
     except ValueError:
         raise ValueError("Not possible: the simulated housing does not move.") from None
+    single = len(scene.defects) == 1 and scene.defects[0].race == "outer"
     extent = scene.defects[0].extent if single else None
     edge = scene.defects[0].edge if len(scene.defects) == 1 else None
     return Measured(

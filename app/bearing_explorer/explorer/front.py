@@ -37,7 +37,6 @@ from bearing_explorer.explorer.views.paper import PaperFigures
 from bearing_explorer.explorer.views.scene_figure import figure_of
 from bearing_explorer.explorer.views.slow_passage import SlowPassage
 from bearing_explorer.explorer.views.speed_run import SpeedRunSpectra
-from bearing_explorer.explorer.views.stability_map import OrbitStability
 from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
@@ -77,7 +76,7 @@ SECTIONS = (
     Section("life", "Life", (LifeOfBearing,), "Machine"),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels)),
     Section("explore", "Explore", (ExplorePlane,), "More"),
-    Section("over-speed", "Over speed", (SpeedRunSpectra, SteadyOrbit, OrbitStability), "More"),
+    Section("over-speed", "Over speed", (SpeedRunSpectra, SteadyOrbit), "More"),
     Section("paper", "Paper", (PaperFigures,), "More"),
 )
 """Tabs of the scene, and their parts."""

@@ -87,11 +87,9 @@ class LinksChange(SceneChange, omit_defaults=True):
 
 
 class Simulation(msgspec.Struct):
-    """A simulated measurement, by the names of its options."""
+    """A simulated measurement, by the name of its noise."""
 
-    noise: str = "scene"
-    machine: str = "scene"
-    pit: str = "scene"
+    noise: str
 
 
 class LessonChange(SceneChange, omit_defaults=True):

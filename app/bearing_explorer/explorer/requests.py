@@ -93,7 +93,7 @@ class Requests:
         self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | None] = lambda _: (
             None
         )
-        self.simulate: Callable[[str, str, str], None] = lambda noise, machine, pit: None
+        self.simulate: Callable[[str], None] = lambda noise: None
         self._owner = owner
         self._reporting = False
         self._open_lesson_of_link()
@@ -306,5 +306,4 @@ class Requests:
             self._owner.page.show_tab(message if lesson is None else {"show": lesson.tab})
         self.change_scene(message)  # the mark, and what a button changes
         if "simulate" in message and begins:
-            wish = message["simulate"]
-            self.simulate(wish["noise"], wish["machine"], wish["pit"])
+            self.simulate(message["simulate"]["noise"])

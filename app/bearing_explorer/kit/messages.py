@@ -69,8 +69,9 @@ class UploadPiece(msgspec.Struct, tag="piece"):
 
 
 class RoleOfColumn(msgspec.Struct):
-    """The role of a column of a file, from 0, was chosen, or the unit of a signal."""
+    """The role of a column of a file, from 0, was chosen, or the unit or place of a signal."""
 
     column: int
     role: str
     unit: str = ""
+    place: str = ""

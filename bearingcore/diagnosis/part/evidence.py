@@ -18,8 +18,6 @@ NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
 LIKELY = 0.9
 """Probability from which a part is called damaged without a "probably"."""
 
-FAULTS = (*PARTS, NONE_SEEN, CANNOT_TELL)
-
 
 @dataclass(frozen=True)
 class PartEvidence:

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.pass_quality import PassQuality
 from bearingcore.diagnosis.size.synthesis import Band
-from bearingcore.dynamics.modes import frequency_bands
 from bearingcore.errors import Status
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses
 from bearingcore.signals.recording import Recording
-from bearingcore.statics.passes import crossings
 
 
 class SizingStatus(Status):
@@ -98,10 +93,6 @@ class Candidate:
         natural logarithm of simulated over measured power.
     scene
         with this defect: its modes, bands, motion and spectrum are the candidate's.
-    passes
-        its simulated ball passes.
-    lag
-        ball-pass phase [rad] of the simulation at which the measured signal begins.
     """
 
     turns: int
@@ -112,27 +103,6 @@ class Candidate:
     spectrum_misfit: NDArray[np.float64]
     level: float
     scene: Scene = field(repr=False)
-    passes: BallPasses = field(repr=False)
-    lag: float = field(repr=False)
-
-    @cached_property
-    def bands(self) -> dict[str, tuple[float, float]]:
-        """Least and greatest natural frequency [Hz] of each mode, by label."""
-        return frequency_bands(self.scene)
-
-    def waveform(self, n: int, lowest: float = 0.0) -> NDArray[np.float64]:
-        """The simulated mean pass (n, d), laid over the measured one."""
-        turn = np.exp(1j * self.lag * np.arange(1, len(self.passes.harmonics) + 1))
-        moved = dataclasses.replace(self.passes, harmonics=self.passes.harmonics * turn[:, None])
-        return moved.waveform(n, lowest)
-
-    def phases(self) -> tuple[float, float]:
-        """Phases [rad] of the measured ball pass at which balls enter and leave."""
-        spacing = self.scene.bearing.ball_spacing
-        found = {}
-        for crossing in crossings(self.scene, 0.0, spacing):
-            found[crossing.enters] = 2.0 * math.pi * crossing.cage_angle / spacing - self.lag
-        return found[True] % (2.0 * math.pi), found[False] % (2.0 * math.pi)
 
 
 @shown_as_table
@@ -198,18 +168,6 @@ class Sizing:
         )
 
     @property
-    def time_difference(self) -> float:
-        """Δt [s] from a ball entering to the next that leaves, by the most probable candidate.
-
-        What its extent leaves over whole ball spacings, at the speed of the measured cage. Knocks
-        in the signal are closer together (see `measure_extent`): a ball loses its load a little
-        inside the edge and takes it up again before the other.
-        """
-        best = self.best
-        spacing = best.scene.bearing.ball_spacing
-        return (best.extent - best.turns * spacing) / (spacing * self.passes.frequency)
-
-    @property
     def resolved(self) -> float:
         """The extent [rad] that a ball passes in a cycle of the highest compared frequency."""
         spacing = self.best.scene.bearing.ball_spacing
@@ -228,15 +186,3 @@ class Sizing:
         if not self.candidates:
             raise ValueError(self.sentence)
         return max(self.candidates, key=lambda candidate: candidate.probability)
-
-    def event_times(self, candidate: Candidate) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Times [s] in the recording at which balls enter and leave a candidate's defect."""
-        entry, leave = candidate.phases()
-        duration, frequency = self.recording.duration, self.passes.frequency
-        turns = np.arange(-1.0, math.floor(duration * frequency) + 2.0)
-
-        def times(phase: float) -> NDArray[np.float64]:
-            all_times = self.passes.time_of(turns + phase / (2.0 * math.pi))
-            return np.asarray(all_times[(all_times >= 0.0) & (all_times <= duration)])
-
-        return times(entry), times(leave)

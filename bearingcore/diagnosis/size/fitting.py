@@ -26,7 +26,6 @@ from bearingcore.diagnosis.size.matching import (
 from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
 from bearingcore.scene.defect import EDGES
 from bearingcore.scene.scene import Scene
-from bearingcore.signals.averaging import BallPasses
 
 LEAST_EXTENT = math.radians(0.2)
 GREATEST_EXTENT = math.radians(110.0)
@@ -39,7 +38,7 @@ PITS = np.radians([0.2, 0.28, 0.4, 0.55, 0.75])
 """[rad] Shorter ones than two steps, which are simulated too."""
 
 PARTS = 16
-"""In which the library is simulated, so that progress can be shown and work given up."""
+"""In which the library is simulated, side by side."""
 
 ROUGH_STEPS_A_CYCLE = 7.7
 """Steps in a cycle of the highest natural frequency in the library: they move a few thousandths of
@@ -62,8 +61,6 @@ HOPPING = (4, 2)
 HOPS = np.radians([0.25, 0.5, 0.75, 1.0, 1.5])
 OTHER_EDGE_HOPS = np.radians([0.2, 0.45, 0.7, 1.0, 1.3])
 """Distance of neighbours [rad]: edges there excite the resonances a cycle later."""
-
-Stop = Callable[[float], None]
 
 SMALL_TURN = 0.3 * EXTENT_STEP
 """Change of the extent [rad] by which slopes are found."""
@@ -90,8 +87,6 @@ class Guess:
         edge model.
     score
         logarithm of how well it explains the signal, before the temperature.
-    lag
-        ball-pass phase [rad] of the simulation at which the measured pass begins.
     level
         natural logarithm of simulated over measured power.
     extent_spread
@@ -103,9 +98,7 @@ class Guess:
     score: float
     waveform_misfit: NDArray[np.float64]
     spectrum_misfit: NDArray[np.float64]
-    lag: float
     level: float
-    passes: BallPasses
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
     begin: Begin | None
@@ -142,9 +135,7 @@ class Search:
             score,
             match.waveform_misfit[0],
             match.spectrum_misfit[0],
-            float(match.lag[0]),
             float(match.level[0]),
-            passes,
             match.waveform_residual[0],
             match.spectrum_residual[0],
             begin,
@@ -255,33 +246,19 @@ def steps_needed(search: Search) -> int:
     return (library + refined) * steps_of(search.scene, frequency, search.count)
 
 
-@dataclass(frozen=True)
-class _Compared:
-    """Simulated defects (m,), and how well each explains the signal."""
-
-    extents: NDArray[np.float64]
-    edges: tuple[str, ...]
-    score: NDArray[np.float64]
-
-
-def guesses(search: Search, cells: Callable[[float], int], progress: Stop) -> list[Guess]:
+def guesses(search: Search, cells: Callable[[float], int]) -> list[Guess]:
     """Refined guesses, the best first; and one at least in each cell of extents.
 
     `cells` numbers the cells that extents fall into once the best guess is known; it takes
-    differences of extents [rad]. `progress` is called with the share done, and may raise to end.
-    Threads share the work, most of which holds no interpreter lock; nothing depends on which is
-    done first, as everything is taken in its own order.
+    differences of extents [rad]. Threads share the work, most of which holds no interpreter lock;
+    nothing depends on which is done first, as everything is taken in its own order.
     """
-    threads = ThreadPoolExecutor(processors(), "size")
-    try:
-        compared = _library_compared(search, progress, threads)
-        return _refined(search, compared, cells, progress, threads)
-    finally:
-        threads.shutdown(cancel_futures=True)
+    with ThreadPoolExecutor(processors(), "size") as threads:
+        return _refined(search, _library_scores(search, threads), cells, threads)
 
 
-def _library_compared(search: Search, progress: Stop, threads: Executor) -> _Compared:
-    """All extents, with either edge."""
+def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
+    """Likeness of the signal and that of each of EXTENTS, with one edge and then the other."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
@@ -293,27 +270,18 @@ def _library_compared(search: Search, progress: Stop, threads: Executor) -> _Com
         score = target.match(*_library(sought, *task)).score
         return score - OTHER_EDGE * (task[0] != search.edges[0])
 
-    scores = []
-    for done, score in enumerate(threads.map(explained, tasks)):
-        scores.append(score)
-        progress(0.5 * (done + 1) / len(tasks))
-    return _Compared(
-        np.tile(EXTENTS, len(search.edges)),
-        tuple(edge for edge in search.edges for _ in EXTENTS),
-        np.concatenate(scores),
-    )
+    return np.concatenate(list(threads.map(explained, tasks)))
 
 
 def _refined(
     search: Search,
-    compared: _Compared,
+    scores: NDArray[np.float64],
     cells: Callable[[float], int],
-    progress: Stop,
     threads: Executor,
 ) -> list[Guess]:
     """The best guesses made better, and those of each cell."""
-    sources = list(zip(compared.extents.tolist(), compared.edges, strict=True))
-    order = np.argsort(-compared.score, kind="stable")
+    sources = [(extent, edge) for edge in search.edges for extent in EXTENTS.tolist()]
+    order = np.argsort(-scores, kind="stable")
 
     def starts() -> Iterator[int]:
         taken: list[float] = []
@@ -328,10 +296,7 @@ def _refined(
     def begun(index: int) -> Guess:
         return search.refined(search.guess(*sources[index]))
 
-    found: list[Guess] = []
-    for done, guess in enumerate(threads.map(begun, starts())):
-        found.append(guess)
-        progress(0.5 + 0.25 * (done + 1) / STARTS)
+    found = list(threads.map(begun, starts()))
     for done, count in enumerate(FURTHER):
         found.sort(key=lambda guess: -guess.score)
         if done < len(HOPPING):
@@ -339,7 +304,6 @@ def _refined(
             found.sort(key=lambda guess: -guess.score)
         before = [guess.score for guess in found[:count]]
         found[:count] = threads.map(search.refined, found[:count])
-        progress(0.75 + 0.15 * (done + 1) / len(FURTHER))
         gained = [one.score - old for one, old in zip(found, before, strict=False)]
         if done >= len(HOPPING) and max(gained) < LEAST_GAIN:
             break
@@ -353,5 +317,4 @@ def _refined(
             reached.add(cell)
             alone.append(index)
     found += threads.map(lambda index: search.refined(begun(index)), alone)
-    progress(1.0)
     return sorted(found, key=lambda guess: -guess.score)

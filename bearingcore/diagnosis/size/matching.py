@@ -55,8 +55,6 @@ class Match:
         mean squared natural logarithm of the ratio of smoothed spectra.
     level : (m,)
         natural logarithm of simulated over measured power, all directions.
-    lag : (m,) [rad]
-        ball-pass phase of the simulation (2π a pass) at which the measured pass begins.
     waveform_residual : (m, n, d), spectrum_residual : (m, b, d)
         for least squares; exp(waveform_cost) is 1 and the sum of the former's squares,
         spectrum_misfit the mean of the latter's.
@@ -66,7 +64,6 @@ class Match:
     waveform_cost: NDArray[np.float64]
     spectrum_misfit: NDArray[np.float64]
     level: NDArray[np.float64]
-    lag: NDArray[np.float64]
     waveform_residual: NDArray[np.complex128]
     spectrum_residual: NDArray[np.float64]
 
@@ -135,7 +132,6 @@ class Target:
             cost,
             (difference**2).mean(axis=1),
             level,
-            lag,
             weighed,
             difference,
         )

@@ -83,7 +83,6 @@ def size_defect(
     slip: float = SLIP,
     most_steps: int = MOST_STEPS,
     most_samples: int = MOST_SAMPLES,
-    progress: Callable[[float], None] | None = None,
 ) -> Sizing:
     """Candidates for the extent of a defect on the outer race, and their probabilities.
 
@@ -112,8 +111,6 @@ def size_defect(
         there would be more there are no candidates, and the status says how many.
     most_samples
         of all directions that may be looked at.
-    progress
-        is called with the share of the work done, and may raise an exception to end it.
 
     Raises
     ------
@@ -169,7 +166,6 @@ def size_defect(
         return round(difference / spacing)
 
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
-    progress = progress if progress is not None else _go_on
     search = Search(scene, target, columns)
     steps = steps_needed(search)
     if steps > most_steps:
@@ -178,7 +174,7 @@ def size_defect(
             f"{thousands(most_steps)}"
         )
         return dataclasses.replace(nothing, status=SizingStatus.TOO_MANY_STEPS, sentence=cost)
-    found = guesses(search, cell, progress)
+    found = guesses(search, cell)
     return _with_judgement(_answer(nothing, search, found, cell), scene)
 
 
@@ -232,10 +228,6 @@ def _answer(
     )
 
 
-def _go_on(share: float) -> None:
-    """Progress that is not shown."""
-
-
 def _prepared(scene: Scene, directions: tuple[str, ...]) -> tuple[Scene, tuple[int, ...]]:
     """The scene with a nominal extent, and the columns of its motion that were measured."""
     if not isinstance(scene.defect, Defect):
@@ -269,8 +261,6 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
         spectrum_misfit=guess.spectrum_misfit,
         level=guess.level,
         scene=search.scene.replace(extent=guess.extent, edge=guess.edge),
-        passes=guess.passes,
-        lag=guess.lag,
     )
 
 

@@ -1,7 +1,5 @@
 """A measurement of one's own: brought in pieces, judged, asked about; and simulated ones."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 import math
@@ -18,7 +16,7 @@ from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.simulated import simulated, with_pit
+from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import (
     LONGEST_NAME,
     MOST_BYTES,
@@ -27,8 +25,7 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
-from bearing_explorer.diagnosis.widgets.measurement_form import roles_with_units
-from bearing_explorer.kit.simulated_signals import PITS
+from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
 
 from bearingcore import Scene, catalogue, presets, read_table
@@ -95,14 +92,6 @@ def brought(
 
 
 # -- good files ------------------------------------------------------------------------------------
-
-
-def test_the_scene_of_a_signal_can_have_a_small_pit_and_balls_with_mass() -> None:
-    motor = presets["6205"].replace(extent=0.2, race="inner")
-    pitted = with_pit(motor, PITS["0.3"])
-    assert (pitted.balls, pitted.defect.race) == ("with mass", "inner")
-    assert pitted.defect.extent * pitted.bearing.inner_raceway_radius == pytest.approx(3e-4)
-    assert with_pit(motor, PITS["scene"]) is motor
 
 
 def test_a_file_from_elsewhere_is_understood_without_a_word():
@@ -347,17 +336,36 @@ def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
     made = brought("two.csv", csv_of(NOISE, "time,x,y"))
 
     def choose(*column: Any) -> np.ndarray:
-        answer(made, **with_role(*roles_with_units(made.state), *column))
+        answer(made, **with_role(*columns_as_said(made.state), *column))
         return made.measured.recording.acceleration
 
-    np.testing.assert_allclose(choose(1, "x", "g"), NOISE * 9.80665, rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "x", "g", ""), NOISE * 9.80665, rtol=1e-5)
     assert made.state.values["unit"] == "g"
-    np.testing.assert_allclose(choose(2, "y", "m/s²"), NOISE * [9.80665, 1.0], rtol=1e-5)
-    assert roles_with_units(made.state) == (["time", "x", "y"], ["", "g", "m/s²"])
+    np.testing.assert_allclose(choose(2, "y", "m/s²", ""), NOISE * [9.80665, 1.0], rtol=1e-5)
+    assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"], ["", "", ""])
     given = made.measured.origin.given
     assert [given[index].unit for index in (1, 2)] == ["g", "m/s²"]
-    np.testing.assert_allclose(choose(1, "", "g")[:, 0], NOISE[:, 1], rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "", "g", "")[:, 0], NOISE[:, 1], rtol=1e-5)
     assert made.state.values["unit"] == "m/s²"
+
+
+def test_a_place_chosen_over_a_column_is_that_of_the_sensor():
+    made = brought("two.csv", csv_of(NOISE, "time,A,B"))
+
+    def choose(*column: Any) -> Any:
+        answer(made, **with_role(*columns_as_said(made.state), *column))
+        return made.measured.origin
+
+    origin = choose(1, "y", "g", "fan end")
+    assert (origin.columns, origin.place, origin.given[1].place) == ((1,), "fan end", "fan end")
+    assert columns_as_said(made.state)[2] == ["", "fan end", ""]
+    assert choose(2, "x", "g", "drive end").place == "drive end and fan end"
+    assert "sensors at two places" in made.state.remarks
+    assert choose(2, "x", "g", "fan end").place == "fan end"
+    assert "two places" not in made.state.remarks
+    assert choose(2, "x", "g", "").given[2].place == ""
+    answer(made, columns="time;y@under the bed;")
+    assert "other columns" in made.state.words
 
 
 @pytest.mark.parametrize(
@@ -535,7 +543,7 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
 
 def test_what_is_not_offered_changes_nothing():
     made = measuring(signal())
-    made.simulate("20", "another")
+    made.simulate("another")
     made.take_load()
     made.take_form({}, True)
     made.begin_upload("a", -3)
@@ -574,8 +582,8 @@ def test_what_was_asked_last_wins():
 
 
 def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
-    quiet = simulated(RIG, math.inf, False, 1)
-    noisy = simulated(RIG, 20.0, False, 1)
+    quiet = simulated(RIG, math.inf, 1)
+    noisy = simulated(RIG, 20.0, 1)
     assert quiet.true_extent == RIG.defects[0].extent
     clean, with_noise = quiet.recording.acceleration, noisy.recording.acceleration
     ratio = np.std(with_noise - clean, axis=0) / np.sqrt(np.mean(clean**2, axis=0))
@@ -586,7 +594,7 @@ def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
 @pytest.mark.parametrize("scene", [RIG.replace(dofs=("z",), fz=10.0), RIG.replace(fy=0.0)])
 def test_scenes_that_do_not_move_are_refused_in_a_sentence(scene):
     with pytest.raises(ValueError, match="Not possible"):
-        simulated(scene, math.inf, False, 1)
+        simulated(scene, math.inf, 1)
 
 
 def test_a_long_file_name_loses_its_middle_and_keeps_its_end() -> None:

@@ -1,7 +1,5 @@
 """What nothing says of a machine is not known: no number of the scene enters a diagnosis unsaid."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 import math
@@ -22,14 +20,12 @@ from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectrogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
-from bearing_explorer.diagnosis.views.measured_view import WITHOUT_BEARING, WITHOUT_SPEED
+from bearing_explorer.diagnosis.views.measured_view import WITHOUT_BEARING
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.sizing import DefectSize
-from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.views.trend import SceneNow, TrendOfFiles
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -58,7 +54,7 @@ def quick() -> Iterator[None]:
 @cache
 def silent() -> bytes:
     """An outer race of a 6205 at 1797 rpm, in a file that says neither bearing nor speed."""
-    recording = simulated(MOTOR, 20.0, False, 1).recording
+    recording = simulated(MOTOR, 20.0, 1).recording
     time = np.arange(len(recording.acceleration)) / recording.sample_rate
     file = io.StringIO()
     columns = np.column_stack([time, recording.acceleration[:, 1]])
@@ -130,21 +126,10 @@ def test_what_needs_no_bearing_is_shown_and_the_scene_changes_nothing_of_it(kind
     assert 'bearing="unknown"' in lines
 
 
-def test_sizes_wait_for_the_bearing_and_the_speed() -> None:
-    made = brought("silent.csv", silent())
-    extent, sizing = SpallExtent(PackedSource()), DefectSize(PackedSource())
-    for view in (extent, sizing):
-        view.measure(made)
-        assert WITHOUT_BEARING in view.sentence(MODEL)
-    with pytest.raises(ValueError, match="which bearing"):
-        sizing.prepare({}, SceneNow(lambda: RIG))
-    answer(made, bearing="designation", designation="6205")
-    with pytest.raises(ValueError, match=WITHOUT_SPEED):
-        sizing.prepare({}, SceneNow(lambda: RIG))
-    answer(made, bearing="frequencies", speed="given", shaft_speed="1797 rpm", bpfo="3.585 x",
-           bpfi="5.415 x")  # fmt: skip
-    with pytest.raises(ValueError, match="do not give the dimensions"):
-        sizing.prepare({}, SceneNow(lambda: RIG))
+def test_the_extent_waits_for_the_bearing() -> None:
+    extent = SpallExtent(PackedSource())
+    extent.measure(brought("silent.csv", silent()))
+    assert WITHOUT_BEARING in extent.sentence(MODEL)
 
 
 def test_a_bearing_that_is_then_said_has_its_answer_at_once() -> None:
@@ -262,7 +247,7 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
         return str(halves.diagnosis.inputs().content().status(0.0, frozenset())["words"])
 
     assert words() == "Ready"
-    measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    measurement.measured = simulated(MOTOR, 20.0, 1)
     question = measurement.question()
     assert question is not None
     assert words() == "Analysing the signal"
@@ -279,7 +264,7 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
 def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
     halves = Halves()
     halves.session.draw = lambda: None  # type: ignore[method-assign]
-    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, False, 1)
+    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
     halves.explorer.requests.change_links({"report": "http://localhost", "measured": True})
     assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 

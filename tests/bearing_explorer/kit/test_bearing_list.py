@@ -1,7 +1,5 @@
 """Bearings by designation, and a workshop's own table."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

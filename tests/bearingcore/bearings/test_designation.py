@@ -1,7 +1,5 @@
 """Bearings by designation: boundary dimensions, clearances, and how well insides are estimated."""
 
-from __future__ import annotations
-
 import csv
 import itertools
 import math

@@ -27,7 +27,6 @@ from bearingcore import (
 )
 from bearingcore.common.table import ResultTable, as_csv, table_of
 from bearingcore.dynamics.speed_runs import speed_run
-from bearingcore.dynamics.stability_maps import stability_map
 from bearingcore.units import UNITS
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -94,9 +93,7 @@ def test_every_result_has_a_table_of_its_own_numbers() -> None:
     assert steady.table()["multiplier_size"].max() == pytest.approx(steady.largest_multiplier)
     run = speed_run(FAN_RIG, [40.0, 44.0], duration=0.1)
     np.testing.assert_array_equal(run.table()["density_x"].reshape(2, -1), run.density[..., 0])
-    held = stability_map(FAN_RIG, ("extent", [0.1, 0.2]), ("fy", [-100.0, -90.0]))
-    assert held.table()["extent"].tolist() == [0.1, 0.2] * 2
-    assert isinstance(held.table(), ResultTable)
+    assert isinstance(run.table(), ResultTable)
 
 
 def test_what_has_no_answer_is_nan_with_its_reason() -> None:

@@ -1,7 +1,5 @@
 """Values of a wrong type: a TypeError that names the field and says what is wanted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

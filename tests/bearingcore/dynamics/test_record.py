@@ -1,7 +1,5 @@
 """Simulated records: what is drawn is the scene's, each effect does what it says."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from pathlib import Path

@@ -1,7 +1,6 @@
 """Experiments on precision: references agree, orders are known ones, failures are named."""
 
 import itertools
-import math
 from pathlib import Path
 
 import numpy as np
@@ -11,13 +10,11 @@ from bearingcore import presets
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import HAS_CVODE
 from bearingcore.experiments.measurements import measure
-from bearingcore.experiments.models import models_experiment
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.points import Experiment, Watch
 from bearingcore.experiments.references import motion_reference
 from bearingcore.experiments.stability import DIVERGED, linear_limits, stability_chart
 from bearingcore.experiments.statics import (
-    angles_experiment,
     hard_cases,
     static_problem,
     static_reference,
@@ -117,14 +114,6 @@ def test_rollers_that_touch_by_rounding_alone_are_left_out() -> None:
     assert touching.known.all()
 
 
-def test_angles() -> None:
-    experiment = angles_experiment(FAN_RIG)
-    check_that_all_is_given(experiment)
-    equal = experiment.of("equally spaced")
-    assert equal[-1].errors["trace"] < 0.3 * equal[0].errors["trace"]
-    assert equal[-1].errors["mean"] < 1e-3
-
-
 def test_motion() -> None:
     cvode = ("CVODE Adams", "CVODE BDF") if HAS_CVODE else ()
     names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA", *cvode)
@@ -141,16 +130,6 @@ def test_motion() -> None:
     assert [p.method for p in experiment.points if p.in_use] == ["RK4"]
     assert experiment.order("RK4", "series L2") > 2.0
     assert len(experiment.references[""].families) == 2 + bool(cvode)
-
-
-def test_models() -> None:
-    experiment = models_experiment(LIEW_LIM.replace(edge="exact"), duration=0.05)
-    check_that_all_is_given(experiment)
-    points = {point.method: point for point in experiment.points}
-    assert points["5 DOF"].errors["spectrum"] < 0.1 < points["2 DOF"].errors["spectrum"]
-    assert points["quasi-static"].errors["spectrum"] == math.inf
-    assert points["exact edges"].errors["level"] < 0.1 < points["published edges"].errors["level"]
-    assert points["orbit"].against == "settled motion"
 
 
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
@@ -173,7 +152,7 @@ def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
 def test_references_end_as_soon_as_they_are_cancelled(calls: int) -> None:
     """LSODA, DOP853 and CVODE: within one evaluation of the forces."""
     asked = itertools.count()
-    found = measure(FAN_RIG, ["models"], cancelled=lambda: next(asked) > calls)
+    found = measure(FAN_RIG, ["motion"], cancelled=lambda: next(asked) > calls)
     assert found.count == 0
     assert next(asked) <= calls + 3
 
@@ -185,6 +164,5 @@ def test_refusals() -> None:
         motion_experiment(FAN_RIG.replace(shaft_speed=0.0))
     with pytest.raises(ValueError, match="static state"):
         motion_problem(FAN_RIG.replace(fy=0.0))
-    for experiment in (angles_experiment, statics_experiment):
-        with pytest.raises(ValueError, match="static state"):
-            experiment(FAN_RIG.replace(fy=0.0))
+    with pytest.raises(ValueError, match="static state"):
+        statics_experiment(FAN_RIG.replace(fy=0.0))

@@ -1,5 +1,6 @@
 """Files as programs, loggers and instruments lay them out, and what must come out of them."""
 
+import gzip
 import io
 import json
 import math
@@ -64,6 +65,11 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
         ("# acc [g]\n# fs = 12000 Hz", 12e3, None, "g"),
         ("# load = 500 N", None, None, None),
         ("# duration = 0.5 s", None, None, None),
+        ("# time resolution 1.25e-4 s", RATE, None, None),
+        ("# Δt = 125 µs", RATE, None, None),
+        ("# sample_rate_Hz 12000", 12e3, None, None),
+        ("Fs [Hz];12000", 12e3, None, None),
+        ("# level 1797 today", None, None, None),
         ("# temperature: 45 °C", None, None, None),
         ("# samples = 2000", None, None, None),
         ("Recorded on Monday beside the temperature sensor", None, None, None),
@@ -105,6 +111,8 @@ def test_two_rates_that_disagree_are_asked_about() -> None:
         (pd.DataFrame({"acc": SIGNAL[:, 0]}, index=DATES - DATES[0]).to_csv(), RATE),
         (pd.DataFrame(np.column_stack([TIME, SIGNAL[:, 0]])).to_csv(index=False), RATE),
         (FRAME.reset_index().to_csv(), RATE),
+        (pd.DataFrame({"when": DATES, "acc": SIGNAL[:, 0]}).to_csv(), RATE),
+        (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),  # an uptime, no days since 1970
         ("Unnamed: 0" + FRAME.to_csv(), RATE),
         (
             '"time" "acc"\n'
@@ -123,6 +131,8 @@ def test_two_rates_that_disagree_are_asked_about() -> None:
         "bare",
         "two",
         "again",
+        "counted",
+        "uptime",
         "R",
     ],
 )
@@ -151,7 +161,7 @@ def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -
     rate = made.contents.sample_rate
     assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
     assert f"if it is in {unit};" in rate.reason
-    with pytest.raises(ValueError, match="sample_rate is None"):
+    with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         made.recording([1], ["y"], "g")
     by_hand = read_recording(
         "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
@@ -332,9 +342,13 @@ def test_a_rate_above_columns_that_count(heading: str) -> None:
     check_one_signal(read(f"{heading}\n" + "\n".join(lines)))
 
 
-def test_lists_of_numbers_are_columns() -> None:
+def test_lists_and_records_of_json_are_columns() -> None:
     check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
+    check_one_signal(read(f"[{' '.join(map(str, SIGNAL[:, 0]))}]"), None)
     check_one_signal(read(json.dumps(FRAME.to_numpy().tolist()), "a.json"))
+    for lines in (False, True):
+        check_one_signal(read(FRAME.to_json(orient="records", lines=lines, double_precision=9)))
+    check_one_signal(read(json.dumps({"fs": RATE, "acc": SIGNAL[:, 0].tolist()}), "a.json"))
 
 
 def matlab(**variables: Any) -> bytes:
@@ -408,8 +422,9 @@ def tdms() -> bytes:
     nptdms = pytest.importorskip("nptdms")
     buffer = io.BytesIO()
     said = {"wf_increment": 1.0 / RATE, "unit_string": "g"}
+    slow = nptdms.ChannelObject("Slow", "t", np.arange(20.0), {"wf_increment": 0.1})
     with nptdms.TdmsWriter(buffer) as writer:
-        writer.write_segment([nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
+        writer.write_segment([slow, nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
     return buffer.getvalue()
 
 
@@ -462,6 +477,8 @@ def test_arrays_of_numpy_are_read() -> None:
     check_one_signal(read(numpy_file(np.save, SIGNAL[:, 0]), "a.npy"), None)
     check_one_signal(read(numpy_file(np.save, np.column_stack([TIME, SIGNAL[:, 0]]).T), "a.npy"))
     several = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, unit="g")
+    beside = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, about=cells({}))
+    check_one_signal(read(beside, "a.npz"))
     for name in ("a.npz", "upload"):
         check_one_signal(read(several, name))
     with pytest.raises(ValueError, match="damaged or unknown part"):
@@ -480,6 +497,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
     assert table.files_inside("a.csv", text) == ["a.csv"]
     check_one_signal(read(two, "rig.zip/a.csv"))
+    check_one_signal(read(zipped(a_csv=text, README=b"of the rig"), "rig.zip"))
     check_one_signal(read(two, "rig.zip/b.npy"), None)
     with pytest.raises(ValueError, match="unpack it"):
         read(zipped(a_zip=two), "rig.zip")
@@ -487,13 +505,23 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
         read(two[:2000], "rig.zip")
 
 
+def matlab_table() -> bytes:
+    """As version 7.3 keeps one: numbers that point into a part of its own."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        file["T"] = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
+        file["T"].attrs["MATLAB_object_decode"] = 3
+    return buffer.getvalue()
+
+
 @pytest.mark.parametrize(
     ("content", "told"),
     [
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
         (b"Octave-1-L\x00", "save -v7"),
+        (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
-        (json.dumps({"a": [1, 2]}).encode(), "a table of numbers"),
+        (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
     ],
 )
 def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
@@ -510,6 +538,198 @@ def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
     ):
         with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
             read(mark + bytes(100))
+
+
+# -- habits that were read wrongly ----------------------------------------------------------------
+
+
+def lines(write: Any, heading: str = "Time,acc [g]") -> str:
+    """A row for each time and acceleration, as `write` writes it."""
+    rows = [write(t, a) for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    return "\n".join([*([heading] if heading else []), *rows])
+
+
+def of_a_clock(begin: float, hours: int = 12) -> Any:
+    def write(t: float, a: float) -> str:
+        minute, second = divmod(begin * 60.0 + t, 60.0)
+        hour = int(minute // 60)
+        half = f" {'AP'[hour >= 12]}M" if hours == 12 else ""
+        return f"{(hour - 1) % 12 + 1}:{int(minute % 60):02d}:{second:09.6f}{half},{a:.4f}"
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        lines(of_a_clock(12 * 60 + 59.999)),  # to 1:00 PM
+        lines(of_a_clock(11 * 60 + 59.999)),
+        lines(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"),
+        lines(lambda t, a: f'"{t + 1.0:.6f}","{a:.4f}"', '"Time (s)","Acceleration, vertical (g)"'),
+        lines(lambda t, a: f'"{t:.6f}","{a:.4f}"'.replace(".", ","), '"Time (s)","Acc (g)"'),
+        lines(lambda t, a: f'"{1e3 * t + 2e3:,.3f}","{a:,.4f}"', "Time (ms),Acc (g)"),
+        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:,.4f}", "Time (ms);Acc (g)"),
+        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".translate({44: 46, 46: 44}),
+              "Zeit (ms);Acc (g)"),
+        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".replace(",", "'"), "Time (ms);Acc (g)"),
+        lines(lambda t, a: f"{t:.6f} {a:.4f}".replace(".", ","), ""),
+        lines(lambda t, a: f"{t:.6E}  {a:.6E}".replace("E", "D"), ""),
+        lines(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"),
+        lines(lambda t, a: f"{t:.6f},{a:.4f}", "Time,Acc\nfloat64,float64\ns,g"),
+        lines(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"),
+        lines(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"),
+        ("Time [s]\tAcc [g]\n" + lines(lambda t, a: f"{t:.6f}\t{a:.4f}", "")).encode("utf-16-le"),
+        ("Time [s]\tAcc [g]\n" + lines(lambda t, a: f"{t:.6f}\t{a:.4f}", "")).encode("utf-16-be"),
+        gzip.compress(FRAME.to_csv().encode()),
+    ],
+)  # fmt: skip
+def test_numbers_and_times_as_spreadsheets_and_programs_write_them(content: Any) -> None:
+    check_one_signal(read(content))
+
+
+@pytest.mark.parametrize("heading", ["Time,Acc", "Time [s],Acc [g]"])
+def test_headings_that_come_again_leave_no_gap_where_times_go_on(heading: str) -> None:
+    pages = [rows(TIME[i : i + 500], SIGNAL[i : i + 500, 0], heading=heading) for i in (0, 500)]
+    contents = read(b"\n".join(pages)).contents
+    assert (contents.sampling.first, contents.sampling.last) == (0, 1000)
+    anew = [rows(TIME[:500], SIGNAL[i : i + 500, 0], heading=heading) for i in (0, 500)]
+    assert "jump once" in read(b"\n".join(anew)).contents.sampling.trouble
+
+
+@pytest.mark.parametrize("share", [0.002, 0.2])
+def test_words_in_place_of_numbers_are_missing_numbers(share: float) -> None:
+    there = rows(TIME, SIGNAL[:, 0], heading="time,acc [g]").decode().splitlines()
+    for index in range(1501, 1501 + round(share * N)):
+        there[index] = there[index].partition(",")[0] + ",OVER"
+    made = read("\n".join(there))
+    assert made.contents.sampling.last == N  # its time is there
+    assert len(made.recording([1], ["y"]).acceleration) == 1500
+    coded = [f"{i:.6f},{int(4096 * abs(a)):04X}" for i, a in enumerate(SIGNAL[:, 0])]
+    with pytest.raises(ValueError, match="allowed: numbers"):
+        read("\n".join(coded))
+
+
+@pytest.mark.parametrize(
+    "remark",
+    ["Sample Rate\t8000", '"Sample rate","8000 Hz"', "fs 8000", "fs = 8000", "Fs,8000,8000",
+     "Sample interval 1.25E-4 s", "# fs = 8000\n# block 0", "fs,8000\nunit,g"],
+)  # fmt: skip
+def test_a_remark_above_two_columns_names_none_of_them(remark: str) -> None:
+    made = read(f"{remark}\n".encode() + rows(SIGNAL, heading="x,y"))
+    assert made.contents.choice.columns == {"x": 0, "y": 1}
+    assert (made.contents.sample_rate.value, made.contents.sample_rate.stated) == (RATE, True)
+    bare = read(f"{remark}\n".encode() + rows(SIGNAL))
+    assert bare.names == ("column 1", "column 2")
+    assert "Which is at this bearing?" in bare.contents.choice.question
+
+
+@pytest.mark.parametrize(
+    ("remark", "turns"),
+    [("rotational speed 185.6 rad/s", 1772.3), ("Running speed: 1772 CPM", 1772.0),
+     ("Nominal speed 1800 rpm", None), ("# Fmax: 20000 Hz", None)],
+)  # fmt: skip
+def test_speeds_and_frequencies_in_remarks(remark: str, turns: float | None) -> None:
+    contents = read(f"{remark}\n".encode() + rows(SIGNAL[:, 0])).contents
+    assert contents.sample_rate is None
+    speed = contents.shaft_speed
+    assert (
+        speed is None if turns is None else speed.value == pytest.approx(turns * math.pi / 30, 1e-4)
+    )
+
+
+@pytest.mark.parametrize(
+    ("column", "heading", "told"),
+    [
+        (np.arange(N) * 4.0, "Frequency [Hz],Amplitude [g]", "spectrum"),
+        (np.arange(N) * 4.0, "f,Amplitude [g]", "spectrum"),
+        (TIME, "Frequency [Hz],t1 [s],acc [g]", ""),
+    ],
+)
+def test_a_spectrum_is_no_signal_over_time(column: Any, heading: str, told: str) -> None:
+    several = [np.full(N, 50.0), column] if "t1" in heading else [column]
+    contents = read(rows(*several, SIGNAL[:, 0], heading=heading)).contents
+    assert told in contents.choice.question
+    assert contents.shaft_speed is None  # nor is that of a converter the shaft's
+    assert bool(contents.choice.columns) != bool(told)
+
+
+def test_a_trend_of_single_values_has_no_sample_rate() -> None:
+    days = "\n".join(f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
+        pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True))  # fmt: skip
+    contents = read("Date,RMS [mm/s]\n" + days).contents
+    assert contents.sample_rate is None
+    assert "a trend" in contents.sampling.trouble
+
+
+def test_rows_of_several_sensors_are_not_one_signal() -> None:
+    mixed = "\n".join(f"{i // 2 / RATE:.6f},{'DE' if i % 2 else 'FE'},{a:.4f}" for i, a in
+                      enumerate(SIGNAL.ravel()))  # fmt: skip
+    with pytest.raises(ValueError, match=r"row to row \(FE, DE\).*columns or files of their own"):
+        read("t,place,acc\n" + mixed)
+
+
+def test_two_columns_of_times_that_differ_are_asked_about() -> None:
+    made = read(rows(TIME, SIGNAL[:, 0], 2.0 * TIME, SIGNAL[:, 1], heading="t1 [s],a,t2 [s],b"))
+    assert not made.contents.sample_rate.stated
+    assert "“t2 [s]” says 4000 Hz" in made.contents.sample_rate.reason
+
+
+def test_a_column_with_one_number_is_a_fact() -> None:
+    once = "\n".join(f"{a:.4f},{1772 if i == 0 else ''},8000" for i, a in enumerate(SIGNAL[:, 0]))
+    made = read("acc,RPM,fs\n" + once)
+    check_one_signal(made)
+    assert made.contents.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    short = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.full(30, 1772.0)), "a.mat").contents
+    assert short.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    ramp = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.arange(30.0)), "a.mat").contents
+    assert ramp.shaft_speed is None  # thirty is how many, not how fast
+
+
+@pytest.mark.parametrize(
+    ("heading", "found"),
+    [
+        ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
+        ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
+        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}),
+    ],
+)  # fmt: skip
+def test_directions_and_places_in_headings(heading: str, found: dict) -> None:
+    contents = read(rows(TIME, SIGNAL, heading=heading)).contents
+    assert contents.choice.columns == found
+    assert not contents.unit.stated  # V is no volt there
+
+
+def test_the_sensitivity_that_a_file_names_is_used() -> None:
+    volts = b"# Sensitivity: 100 mV/g\n" + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
+    got = read_recording("a.csv", volts).acceleration[:, 0]
+    np.testing.assert_allclose(got, SIGNAL[:, 0] * 0.0980665, atol=1e-9)
+    two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
+    with pytest.raises(ValueError, match="sensitivity"):
+        read_recording("a.csv", two)
+
+
+def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
+    table = np.zeros(N, dtype=[("t", "f8"), ("acc", "f8")])
+    table["t"], table["acc"] = TIME, SIGNAL[:, 0]
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        file["rig"] = table
+    for content in (buffer.getvalue(), numpy_file(np.save, table)):
+        check_one_signal(read(content))
+    made = read(matlab(acc=SIGNAL.T[:, None, :], fs=RATE), "a.mat")
+    np.testing.assert_array_equal(made.columns, SIGNAL)
+
+
+def test_what_hdf5_says_of_times_and_places() -> None:
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        file["time"], file["ch1"], file["ch2"] = 1e3 * TIME, SIGNAL[:, 0], SIGNAL[:, 1]
+        for name, word, said in (("time", "units", "ms"), ("ch1", "location", "DE"),
+                                 ("ch2", "location", "FE")):  # fmt: skip
+            file[name].attrs[word] = said
+    contents = read(buffer.getvalue(), "a.h5").contents
+    assert (contents.sample_rate.value, contents.sample_rate.stated) == (pytest.approx(RATE), True)
+    assert (contents.choice.options, contents.unit.stated) == ((0, 1), False)
 
 
 # -- said by hand ----------------------------------------------------------------------------------
@@ -556,14 +776,24 @@ def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
     assert got.sample_rate == pytest.approx(RATE)
 
 
+def test_a_typed_rate_that_nothing_shows_is_said() -> None:
+    alone = rows(SIGNAL[:, 0])
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
+    assert "Nothing in the file shows whether it was" in got.notes[0]
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
+    assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
+    timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [
         ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
-        ({"columns": {"signal": 1}}, "unit is None"),
+        ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
         ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
         ({"columns": {"signal": "d"}}, "one of a, b, c"),
-        ({"columns": {"speed": 1}}, "speed_unit is None"),
+        ({"columns": {"speed": 1}}, "speed_unit is missing"),
         ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
         ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],

@@ -76,7 +76,7 @@ def test_a_file_without_a_rate_asks_for_it():
     table = read_table("rig.csv", text(SIGNAL))
     rate = table.contents.sample_rate
     assert rate is None or not rate.stated
-    with pytest.raises(ValueError, match="sample_rate is None"):
+    with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         table.recording([0], ["y"], "g")
     assert table.recording([0], ["y"], "g", sample_rate=500.0).sample_rate == 500.0
 
@@ -129,7 +129,7 @@ def test_matlab(options):
     assert table.names == ("vertical", "horizontal")
     assert table.scalars == {"fs": RATE, "rpm": 420.0}
     if "format" not in options:
-        assert table.texts == {"words": "remark", "short": "9 × 2 numbers, not used"}
+        assert table.texts == {"words": "remark", "short": "not used: 9 × 2 numbers"}
     got = table.recording(["vertical", "horizontal"], ["y", "x"], "m/s²")
     assert got.sample_rate == RATE
     assert got.shaft_speed == pytest.approx(2.0 * np.pi * 7.0)
@@ -265,8 +265,8 @@ def test_huge_files_are_refused_before_they_are_read(monkeypatch):
         (["z"], ["y"], "g", "column is 'z'"),
         ([True, 1], ["x"], "g", "columns"),
         ([1, 1], ["x", "y"], "g", "different ones, one a direction"),
-        ([1], ["y"], None, "unit is None; allowed: one of m/s², g"),
-        ([1], ["y"], "mV", "sensitivity is nan"),
+        ([1], ["y"], None, r"unit is missing: pass unit=..., one of m/s², g"),
+        ([1], ["y"], "mV", r"sensitivity is missing: pass sensitivity=..., that of the sensor"),
     ],
 )
 def test_tables_refuse_what_they_do_not_have(columns, directions, unit, told):

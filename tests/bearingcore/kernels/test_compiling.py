@@ -1,7 +1,5 @@
 """Machine code on disk is of the sources of now, whatever file a callee stands in."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

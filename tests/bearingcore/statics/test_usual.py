@@ -1,7 +1,5 @@
 """Usual scenes: sound, at rest under their load, as hard as machines load their bearings."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

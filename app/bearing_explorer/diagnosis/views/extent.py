@@ -71,7 +71,6 @@ class SpallExtent(LookView, MeasuredView):
         "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
         "frequency band that shows both best. Faint: other bands."
     )
-    without_size = True
     finds_speed = True
     in_report = True
     computes = True
@@ -190,7 +189,7 @@ class SpallExtent(LookView, MeasuredView):
         answer = self.answer()
         if answer is None:
             if self.measured is None:
-                return self.why_nothing
+                return ""
             return BUSY if self.measured.bearing is not None else WITHOUT_BEARING
         if isinstance(answer, str):
             return answer

@@ -1,4 +1,4 @@
-"""Envelope spectrum of a measured signal, and of the simulation."""
+"""Envelope spectrum of a measured signal."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured, Simulated
+from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
 from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
     AXIS,
     FIRST_LOOK,
     LINES,
-    MODEL,
     SCALE,
     FrequencyView,
     Shown,
@@ -40,8 +39,7 @@ class MeasuredEnvelope(FrequencyView):
     prefix = "measured_envelope"
     title = "Envelope spectrum"
     about = (
-        "Rates at which impacts repeat. Dark: measured. Coloured: the scene. It is simulated once "
-        "you switch it on, and scaled to the measured root mean square. Each impact makes the "
+        "Rates at which impacts repeat. Each impact makes the "
         "machine ring, and the envelope rises: lines at BPFO point to the outer race, at BPFI "
         "to the inner race, at twice BSF to a ball. The band is that of the diagnosis, or, "
         "without one, where the kurtogram is highest; you can give another. A click puts a "
@@ -61,7 +59,6 @@ class MeasuredEnvelope(FrequencyView):
         _edge("high", "to (Hz)", "The upper end of the band"),
         AXIS,
         LINES,
-        MODEL,
     ]
 
     def shown(self, model: Model, measured: Measured) -> Shown:
@@ -75,10 +72,7 @@ class MeasuredEnvelope(FrequencyView):
             top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
         top = min(top, 0.8 * nyquist)
         spectrum = measured.envelope(direction, band, top)
-        shown = Shown(direction, top, spectrum, None, measured.envelope_resolution(top), band=band)
-        return self.with_model(
-            shown, lambda: Simulated(model, measured).envelope(direction, band, top)
-        )
+        return Shown(direction, top, spectrum, measured.envelope_resolution(top), band)
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
         """The demodulation band [Hz] as chosen; ends that are not given are found."""
@@ -119,8 +113,7 @@ class MeasuredEnvelope(FrequencyView):
             f"{shown.band[1]:.0f} Hz, {self.band(measured, shown.direction).reason}. "
         )
         sets = [] if turning is None else of_rows(turning)
-        words += telling(shown, sets, *shown_unit(measured))
-        return words + self.words_on_model(model, measured, shown)
+        return words + telling(shown, sets, *shown_unit(measured))
 
 
 _PLACES = {

@@ -56,7 +56,6 @@ class MeasuredIndicators(LookView, MeasuredView):
         "misalignment and looseness. Its zones are those of ISO 20816-3, for machines above 15 kW "
         "and sensors on the bearing's housing."
     )
-    without_size = True
     look_fields = (MACHINE,)
     first_look: ClassVar[dict[str, Any]] = {"machine": ""}
 

@@ -43,7 +43,6 @@ class MeasuredKurtogram(MeasuredView):
         "takes the band whose envelope shows the bearing's lines best, which need not be the most "
         "impulsive one."
     )
-    without_size = True
 
     def build(self, packed: PackedSource) -> Any:
         plot = style.make_figure(

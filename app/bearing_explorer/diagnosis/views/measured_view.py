@@ -52,9 +52,6 @@ class Demodulation:
 
 NOTHING = "There is no signal yet: choose a file or simulate one above."
 WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
-WITHOUT_SPEED = "This needs the shaft speed: give it in step 2."
-WITHOUT_SIZE = "Choose the unit above to see this."
-WITHOUT_SENSITIVITY = "Enter the sensitivity of the sensor above to see this."
 
 
 class MeasuredView(View[Model]):
@@ -68,8 +65,6 @@ class MeasuredView(View[Model]):
     in_report = False
     needs = frozenset()
     hidden: Any = None
-    #: whether it can be drawn of a signal of unknown unit
-    without_size: ClassVar[bool] = False
     #: whether what it computes looks for a speed that is not known
     finds_speed: ClassVar[bool] = False
     #: whether its card comes with a signal
@@ -92,11 +87,8 @@ class MeasuredView(View[Model]):
 
     @property
     def measured(self) -> Measured | None:
-        """The signal that is drawn, if there is one that can be."""
-        measured = None if self.measurement is None else self.measurement.measured
-        if measured is not None and not (measured.in_si or self.without_size):
-            return None
-        return measured
+        """The signal that is drawn, if there is one."""
+        return None if self.measurement is None else self.measurement.measured
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
         measured = self.measured
@@ -108,7 +100,7 @@ class MeasuredView(View[Model]):
 
     def sentence(self, model: Model) -> str:
         measured = self.measured
-        return self.why_nothing if measured is None else self.words_of(model, measured)
+        return "" if measured is None else self.words_of(model, measured)
 
     def words_of(self, model: Model, measured: Measured) -> str:
         """`View.sentence` of the signal."""
@@ -121,15 +113,6 @@ class MeasuredView(View[Model]):
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         """`View.table` of the signal."""
         raise NotImplementedError
-
-    @property
-    def why_nothing(self) -> str:
-        """The sentence while nothing is drawn."""
-        there = None if self.measurement is None else self.measurement.measured
-        if there is None:
-            return ""
-        knows_unit = there.origin is not None and there.origin.unit != ""
-        return WITHOUT_SENSITIVITY if knows_unit else WITHOUT_SIZE
 
     @property
     def shaft_speed(self) -> float | None:
@@ -175,7 +158,7 @@ class MeasuredView(View[Model]):
         """Lines of Python that read the file and make what is drawn."""
         measured, model = self.measured, self._results
         if measured is None or model is None:
-            return f"# {self.why_nothing or NOTHING}\n"
+            return f"# {NOTHING}\n"
         return lines_of(self, model)
 
     def scene_drawn(self, model: Model) -> Scene:
@@ -205,13 +188,13 @@ class MeasuredView(View[Model]):
 
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
-        there = self.measurement is not None and self.measurement.measured is not None
+        there = self.measured is not None
         self.panel.visible = there or not self.waits
         if there:
             self.bring()
         if self.hidden is not None:
-            self.hidden.visible = self.measured is not None
-        self._caption.put(nothing=self.measured is None)
+            self.hidden.visible = there
+        self._caption.put(nothing=not there)
         # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 

@@ -18,7 +18,7 @@ from bearing_explorer.diagnosis.views.measured_view import (
 )
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import curve, draw, names_over, uprights
+from bearing_explorer.kit.plots.layers import curve, draw
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.thinned import least_and_greatest
@@ -41,14 +41,7 @@ PASSES = 4.0
 CLOSE = 0.05
 """[s] of the close view, where ball passes are not known."""
 
-_EDGE_WORDS = "return row.named ? (row.exit ? 'leaves' : 'enters') : ''"
 BALL_PASSES = f"{PASSES:.0f} ball passes"
-EVENTS = (
-    uprights("measurement_events", "time", style.INK, 1.0, 0.55),
-    names_over("measurement_events", _EDGE_WORDS, "time", "row", style.INK, ("exit", "named"),
-               x_offset=3),
-)  # fmt: skip
-"""When balls enter and leave, in the close view."""
 
 
 class MeasuredSignal(MeasuredView):
@@ -60,7 +53,6 @@ class MeasuredSignal(MeasuredView):
         "The vibration a sensor on the housing measures. Nothing of the scene counts for it unless "
         "you say so: which bearing it was, and how fast the shaft turned, is asked with the answer."
     )
-    without_size = True
     waits = False
 
     def build(self, packed: PackedSource) -> Any:
@@ -69,7 +61,6 @@ class MeasuredSignal(MeasuredView):
         plots = [self._plot(packed, "all"), self._plot(packed, "close")]
         self._axes = [plot.yaxis[0] for plot in plots]
         self._close_title = plots[1].title
-        draw(plots[1], packed, EVENTS)
         self.hidden = row(*plots, visible=False, stylesheets=[style.WRAPPED])
         return stack(self.form, self.hidden)
 
@@ -129,33 +120,11 @@ class MeasuredSignal(MeasuredView):
         signal = measured.recording.acceleration
         whole = drawn(measured, 0, len(signal))
         part = drawn(measured, first, last)
-        events = self._events(measured, first / rate, last / rate)
-        return {
-            "measurement_all": whole,
-            "measurement_close": part,
-            "measurement_events": events,
-        }, {
+        return {"measurement_all": whole, "measurement_close": part}, {
             "measurement_all_time": (0.0, measured.recording.duration),
             "measurement_all_size": self._all.fit(*(whole[dof] for dof in SHOWN)),
             "measurement_close_time": (first / rate, last / rate),
             "measurement_close_size": with_head(self._close, [part[dof] for dof in SHOWN]),
-        }
-
-    def _events(self, measured: Measured, begin: float, end: float) -> dict[str, np.ndarray]:
-        """When balls enter and leave between two times [s], once the signal is sized."""
-        sized = self.measurement.sized if self.measurement is not None else None
-        if sized is None or sized.measured is not measured:
-            return self._empty["measurement_events"]
-        entries, exits = sized.sizing.event_times(sized.sizing.best)
-        times = np.concatenate([entries, exits])
-        leaves = np.concatenate([np.zeros(entries.size), np.ones(exits.size)])
-        kept = (times >= begin) & (times <= end)
-        return {
-            "time": times[kept],
-            "exit": leaves[kept],
-            "row": np.where(leaves[kept] > 0.0, 0.85, 0.94),
-            # a name at the right end would be cut off by the frame
-            "named": (times[kept] < end - 0.11 * (end - begin)).astype(float),
         }
 
     def words_of(self, model: Model, measured: Measured) -> str:

@@ -16,9 +16,9 @@ from bokeh.plotting import figure
 from bearing_explorer.diagnosis.series import Series, SeriesRecordings
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
-from bearing_explorer.diagnosis.views.measured_job_view import MeasuredJobView, SceneNow
 from bearing_explorer.diagnosis.views.measured_view import (
     NOTHING,
+    MeasuredView,
     named_columns,
     shown_unit,
 )
@@ -37,9 +37,10 @@ from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
-from bearingcore import Trend, trend
+from bearingcore import Scene, Trend, trend
 from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
 
@@ -96,7 +97,19 @@ class FoundTrend:
     measured: Measured
 
 
-class TrendOfFiles(MeasuredJobView[FoundTrend]):
+@dataclass(frozen=True)
+class SceneNow:
+    """The scene with which a signal is compared, as it is when a job begins."""
+
+    give: Callable[[], Scene]
+
+    @property
+    def scene(self) -> Scene:
+        """That scene."""
+        return self.give()
+
+
+class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"
@@ -108,7 +121,6 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
         "they are more than noise, all in the band of the last file; one there need not be the "
         "bearing's. An extent is there where a damaged race is named."
     )
-    without_size = True
     finds_speed = True
     start = "Compute the trend"
     bounds = "Takes up to some seconds a file."
@@ -137,6 +149,12 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
 
     # The job
 
+    def editor_on_page(self, parts: Any) -> SceneNow:
+        return SceneNow(parts.scene_now)
+
+    def editor_of(self, model: Model) -> SceneNow:
+        return SceneNow(lambda: model.scene)
+
     def fields(self) -> list[FieldSpec]:
         return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
 
@@ -146,7 +164,7 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
     def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
-            raise ValueError(self.why_nothing or NOTHING)
+            raise ValueError(NOTHING)
         series, machine = measurement.series, measured.machine
         text = given.get("baseline", "").strip() or "1"
         number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
@@ -276,7 +294,7 @@ class TrendOfFiles(MeasuredJobView[FoundTrend]):
     def sentence(self, model: Model) -> str:
         measured, found = self.measured, self.found
         if measured is None or self.measurement is None:
-            return self.why_nothing
+            return ""
         if found is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."

@@ -15,6 +15,7 @@ from bearing_explorer.diagnosis.form import (
     DIRECTIONS,
     ROLES,
     USUAL_SENSITIVITY,
+    places_of,
     roles_and_units,
     with_role,
 )
@@ -25,12 +26,12 @@ from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.messages import UploadBegins, UploadPiece
-from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, entry, row, select
 from bearingcore.common import number
-from bearingcore.files import UNITS
+from bearingcore.files import PLACES, UNITS
 
 LABELS = {
     "columns": "Columns",
@@ -44,7 +45,6 @@ FORMATS = (
     f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
     "become a trend; parts of one signal can be joined."
 )
-_MACHINE_WORDS = {"same": "as the scene says", "different": "a little different"}
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 
 
@@ -104,27 +104,15 @@ class MeasurementForm(pn.Column):
             name: "none" if math.isinf(level) else f"{level:.0f} dB"
             for name, level in sorted(NOISES.items(), key=lambda item: item[0] != "20")
         }
-        pits = {
-            name: "the scene's" if length is None else f"pit of {name} mm, balls with mass"
-            for name, length in PITS.items()
-        }
-        machines = {name: _MACHINE_WORDS[name] for name in MACHINES}
-        lists = [
-            select(label, list(options.items()), css_classes=["beside", kind])
-            for label, kind, options in (
-                ("Noise below the signal", "noise", noises),
-                ("Machine", "machine", machines),
-                ("Defect", "pit", pits),
-            )
-        ]
+        noise = select("Noise below the signal", list(noises.items()), css_classes=["beside"])
 
         def simulate() -> None:
             if self._measurement is not None:
-                self._measurement.simulate(*(chosen.value for chosen in lists))
+                self._measurement.simulate(noise.value)
 
         note = "Uses the current scene; the true size is shown for comparison."
         return pn.Column(
-            row(button("Simulate a signal", simulate, css_classes=["simulate"]), *lists),
+            row(button("Simulate a signal", simulate, css_classes=["simulate"]), noise),
             _text(note, css_classes=["note"]),
             **_WIDE,
         )
@@ -213,19 +201,22 @@ class MeasurementForm(pn.Column):
         if self._measurement is not None:
             self._measurement.cancel()
 
-    def _role(self, index: int, role: str, unit: str) -> None:
-        """Take another role or unit of a column."""
+    def _role(self, index: int, role: str, unit: str, place: str) -> None:
+        """Take another role, unit or place of a column."""
         if self._fields is not None:
-            roles, units = roles_with_units(self._shown)
-            if index < len(roles):
-                self._fields.values.update(with_role(roles, units, index, role, unit))
+            now = columns_as_said(self._shown)
+            if index < len(now[0]):
+                self._fields.values.update(with_role(*now, index, role, unit, place))
                 self._answer(False)
 
     def _make_fields(self) -> Fields:
         fields = Fields(lambda _: self._answer(False))
         fields.values |= {"columns": "", "unit": ""}
         self._table = ColumnTable(
-            self._role, roles=[list(role) for role in ROLES], signals=[*DIRECTIONS]
+            self._role,
+            roles=[list(role) for role in ROLES],
+            signals=[*DIRECTIONS],
+            places=[["", "place not said"], *([place, place] for place in PLACES)],
         )
         for name in LABELS:
             if name not in ("columns", "unit"):
@@ -249,7 +240,7 @@ class MeasurementForm(pn.Column):
             for name in ("columns", "unit")
         }
         self._table.units = units(state)
-        self._table.show(asdict(state.columns), *roles_with_units(state), marks)
+        self._table.show(asdict(state.columns), *columns_as_said(state), marks)
         fields.put({name: values[name] for name in fields.widgets})
         for name, widget in fields.widgets.items():
             on = {"refused": name in state.refused, "open": name in state.open}
@@ -278,10 +269,12 @@ def units(state: MeasurementState) -> list[list[str]]:
     return [["", words], *known]
 
 
-def roles_with_units(state: MeasurementState) -> tuple[list[str], list[str]]:
-    """The role of each column, and the unit that it has or would have as a signal."""
+def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str], list[str]]:
+    """The role of each column, and the unit and place that it has or would have as a signal."""
     assert state.columns is not None
-    roles, given = roles_and_units(state.values["columns"])
+    text = state.values["columns"]
+    roles, given = roles_and_units(text)
     one = state.values["unit"]
     several = state.columns.headed if one == AS_HEADED else [one] * len(roles)
-    return roles, [own or other for own, other in zip(given, several, strict=False)]
+    own = [own or other for own, other in zip(given, several, strict=False)]
+    return roles, own, places_of(text, state.columns.places)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cache
 
 from bearing_explorer.kit.assets import asset_path
-from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import words_of
 from bearingcore import Scene, presets
@@ -24,10 +23,7 @@ EVERYTHING = "everything"
 TRIALS = {
     EVERYTHING: "Everything",
     "motion": "Motion: steps and methods",
-    "balls": "Motion: mass of balls",
-    "models": "Models",
     "statics": "Statics: solvers",
-    "angles": "Cage angles",
     STABILITY: "Stability: steps",
     ORBITS: "Stability: orbit over speed",
 }
@@ -58,8 +54,6 @@ def preset_like(scene: Scene) -> str:
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Measure and show it point by point. Runs in a job's thread."""
     names = MEASURED if name == EVERYTHING else (name,)
-    if "balls" in names:
-        compiling.need(compiling.BALLS_WITH_MASS)
     started = time.perf_counter()
     found = measure(
         scene,

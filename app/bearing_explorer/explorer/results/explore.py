@@ -26,7 +26,6 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common import cached_property, number
-from bearingcore.diagnosis import extent_error
 from bearingcore.sweep import (
     LIFE,
     MASS,
@@ -57,12 +56,6 @@ SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRI
 BUDGET = 120.0
 """[s] that a map may take."""
 
-LOWEST_BAND, NARROWEST_BAND = 100.0, 1.1
-"""[Hz] at which a band begins at the lowest, and how many times its beginning its end is at least:
-a few lines of a spectrum."""
-
-_SIZING = "sizing"
-_SECONDS = {**SECONDS, _SIZING: 0.6}
 _QUICK = (STATICS, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
@@ -76,9 +69,7 @@ NOT_COMPUTED = "not computed"
 class MapOutput:
     """Something that can be mapped.
 
-    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, empty where it is none of them; `mode`
-    the mode that it is of. `unit_si`: how much one `unit` is in SI. `band` [Hz] is that of powers
-    where it can be chosen, None where it cannot.
+    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, `mode` the mode that it is of.
     """
 
     name: str
@@ -86,37 +77,15 @@ class MapOutput:
     label: str
     unit: str
     needs: str
-    in_sweep: str = ""
+    in_sweep: str
     mode: str = ""
-    unit_si: float = 1.0
-    band: tuple[float, float] | None = None
-
-    @property
-    def settings(self) -> Settings:
-        """Settings of the sweep that computes it."""
-        if self.band is None:
-            return _SETTINGS
-        return dataclasses.replace(_SETTINGS, band_low=self.band[0], band_high=self.band[1])
 
     @property
     def fineness(self) -> dict[str, float]:
         """Settings that say how finely each point is computed, by their names with units."""
-        if not self.in_sweep:
-            return {}
         if self.needs in _QUICK:
-            return {"cage_angles_a_period": self.settings.cage_angles}
-        return {"motion_s": self.settings.duration, "sample_rate_hz": self.settings.sample_rate}
-
-    def in_band(self, low: float, high: float) -> MapOutput:
-        """The same between two frequencies [Hz]; ValueError with a sentence for others."""
-        most = 0.5 * _SETTINGS.sample_rate
-        if not LOWEST_BAND <= low < high <= most or high < NARROWEST_BAND * low:
-            raise ValueError(
-                f"A band lies between {LOWEST_BAND / 1e3:g} and {number(most / 1e3, 4)} kHz, and "
-                f"its upper end is at least {NARROWEST_BAND:g} times its lower end."
-            )
-        label = f"{self.label}, {number(low / 1e3, 4)} to {number(high / 1e3, 4)} kHz"
-        return dataclasses.replace(self, label=label, band=(low, high))
+            return {"cage_angles_a_period": _SETTINGS.cage_angles}
+        return {"motion_s": _SETTINGS.duration, "sample_rate_hz": _SETTINGS.sample_rate}
 
     @property
     def column(self) -> str:
@@ -134,27 +103,17 @@ def _all_outputs() -> dict[str, MapOutput]:
         for mode in mode_labels(DOF_NAMES) if output.per_mode else ("",):
             label = output.label.format(mode_symbol(mode)) if mode else output.label
             key = f"{name}:{mode}" if mode else name
-            band = (_SETTINGS.band_low, _SETTINGS.band_high) if output.needs == MASS else None
-            made.append(
-                MapOutput(key, output.group, label, unit, output.needs, name, mode, band=band)
-            )
-    made.append(
-        MapOutput(
-            "extent_error",
-            "Size from the signal",
-            "error of the extent from a simulated signal",
-            "°",
-            _SIZING,
-            unit_si=math.radians(1.0),
-        )
-    )
+            if output.needs == MASS:
+                low, high = 1e-3 * _SETTINGS.band_low, 1e-3 * _SETTINGS.band_high
+                label = f"{label}, {number(low, 4)} to {number(high, 4)} kHz"
+            made.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
     groups = list(dict.fromkeys(output.group for output in made))
     made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
     return {output.name: output for output in made}
 
 
 MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
-"""All that can be mapped, by name, in sorted groups: every output of a sweep, and the sizing."""
+"""All that can be mapped, by name, in sorted groups: every output of a sweep."""
 
 
 @dataclass(frozen=True)
@@ -188,10 +147,10 @@ class Question:
 
     @cached_property
     def grid(self) -> Grid:
-        """The finest scenes; ValueError where none can be. Not for what a sweep cannot give."""
+        """The finest scenes; ValueError where none can be."""
         sides, name = dict([self.x.in_si, self.y.in_si]), self.output.in_sweep
         try:
-            return Grid.of(self.scene, sides, [name], self.output.settings)
+            return Grid.of(self.scene, sides, [name], _SETTINGS)
         except StillDirectionError as error:
             dof = OUTPUTS[name].dof
             way = "tilt about" if dof.startswith("r") else "move along"
@@ -287,7 +246,7 @@ class Survey:
     @property
     def seconds(self) -> float:
         """Cost of a scene [s]: measured where something was computed, or else guessed."""
-        guess = _SECONDS[self.question.output.needs]
+        guess = SECONDS[self.question.output.needs]
         return self.spent / self._computed if self._computed >= 6 else guess
 
     def affordable(self, stride: int) -> bool:
@@ -346,14 +305,10 @@ class Survey:
 
     @property
     def _in_rows(self) -> bool:
-        return bool(self.question.output.in_sweep) and self.question.grid.in_rows
+        return self.question.grid.in_rows
 
     def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output
-        if not output.in_sweep:
-            for j, i in itertools.product(rows, columns):
-                self._put(j, i, *self._size(j, i))
-            return
         grid = self.question.grid
         x, y = grid.axes
         axes = (Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
@@ -364,7 +319,7 @@ class Survey:
         elif output.mode:
             found = np.full(status.shape, math.nan)
         for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
-            value = float(found[a, b]) / output.unit_si
+            value = float(found[a, b])
             why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
             self._put(j, i, value, why)
 
@@ -384,15 +339,6 @@ class Survey:
             except ValueError as error:
                 return sentence_of(error)
         return status.sentence
-
-    def _size(self, row: int, column: int) -> tuple[float, str]:
-        """Error of a sizing, or why there is none."""
-        try:
-            found = extent_error(self._scene(row, column))
-        except ValueError as error:
-            return math.nan, sentence_of(error)
-        missed = found.error / self.question.output.unit_si
-        return missed, "" if math.isfinite(missed) else found.sizing.sentence
 
 
 @cached

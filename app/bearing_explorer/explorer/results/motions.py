@@ -175,19 +175,14 @@ def excerpt(scene: Scene, how: Marching) -> Excerpt:
 
 
 @cached
-def spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
-    """Spectrum of the housing's acceleration along each direction, from rest on."""
-    return _spectra_of(motion(scene, how).motion, 0.0)
-
-
-@cached
 def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
-    """The same of the settled motion; empty where it did not stay finite."""
+    """Spectrum of the housing's acceleration along each direction, once the motion has settled.
+
+    Empty where it did not stay finite.
+    """
     found, since = motion(scene, how)
-    return _spectra_of(found, since) if found.completed else {}
-
-
-def _spectra_of(found: Motion, since: float) -> dict[str, Spectrum]:
+    if not found.completed:
+        return {}
     frequency, density = found.spectrum(since=since)
     return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(found.dofs)}
 

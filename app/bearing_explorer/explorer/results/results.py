@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import bearingcore as core
 from bearing_explorer.explorer.results import endurance, motions, statics
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.chain import Chain, chain
@@ -335,7 +334,7 @@ class Results:
         """Whether any of these attributes is computed more finely once the slider rests."""
         if shown & OVER_STRETCH or self.is_coarse(shown):
             return True
-        if not shown & {"orbit", "orbit_spectra"}:
+        if "orbit" not in shown:
             return False
         try:
             return self.orbit is not None and self.orbit.status is OrbitStatus.NOT_CONVERGED
@@ -392,14 +391,11 @@ class Results:
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)
-    def spectra(self) -> dict[str, Spectrum]:
-        """Spectrum of the housing's acceleration along each direction, by its name."""
-        return motions.spectra(self.scene, self.marching)
-
-    @cached_property
-    @of_kind(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
-        """The same of the settled motion; empty where it did not stay finite."""
+        """Spectrum of the housing's acceleration along each direction, once the motion has settled.
+
+        Empty where it did not stay finite.
+        """
         return motions.late_spectra(self.scene, self.marching)
 
     @cached_property
@@ -431,18 +427,6 @@ class Results:
         if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
             return found
         return motions.orbit(*key, give_up=self._give_up)
-
-    @cached_property
-    @of_kind(SLOW)
-    def orbit_spectra(self) -> dict[str, Spectrum]:
-        """Spectrum of a record as long as the second half of the motion; empty without an orbit."""
-        if self.orbit is None or not self.orbit.multipliers.size:
-            return {}
-        duration = 0.5 * self.settings.duration
-        frequency, density = self.orbit.spectrum(self.settings.sample_rate, duration=duration)
-        return {
-            dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(self.orbit.dofs)
-        }
 
     @cached_property
     def contact_damping(self) -> float:

@@ -15,9 +15,9 @@ from bearingcore.scene import DOF_SYMBOLS
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
 
-ORBITS = frozenset({"orbit", "orbit_spectra"})
+ORBITS = frozenset({"orbit"})
 """Attributes of the results that are of the steady orbit."""
-MOTIONS = frozenset({"motion", "excerpt", "spectra", "late_spectra"})
+MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
 """Attributes that are of a simulated motion."""
 
 BALLS = frozenset({"ball_mass"})

@@ -11,9 +11,9 @@ The rules of version 1, which later versions go on reading:
 
 - `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
   out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
-- A number is in the unit of its name, or in SI with ``SI`` behind it where no number in that unit
-  stands for the very same scene. ``none`` is an optional number left open. Whatever is written is
-  read back to the last bit.
+- A number is in the unit of its name, or in SI with ``SI`` behind it where that is shorter or no
+  number in that unit stands for the very same scene. ``none`` is an optional number left open.
+  Whatever is written is read back to the last bit.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
@@ -78,13 +78,16 @@ _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
 """Links that name no tab are of days when this one came first."""
-FORMER_TABS = {
+OTHER_NAMES_OF_TABS = {
     "sizing": "diagnosis",
     "ball-mass": "vibration",
     "orbits": "over-speed",
     "speed-run": "over-speed",
+    "frequencies": "modes",
+    "machine": "bearing",
+    "more": "explore",
 }
-"""Former names of tabs, in links that people have."""
+"""Former names of tabs, in links that people have, and what is written on them."""
 
 _DOFS_OF_WORD = {"auto": None, "free": TILT_FREE, "held": TILT_HELD}
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
@@ -184,7 +187,7 @@ def opened(text: str, editor: SceneEditor) -> Place:
     except ValueError as error:
         why = sentence_of(error)
         if found := _TAB.search(text[:LONGEST_TEXT]):
-            tab = FORMER_TABS.get(found[1], found[1])
+            tab = OTHER_NAMES_OF_TABS.get(found[1], found[1])
         note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
@@ -279,13 +282,12 @@ def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
 
 
 def number_text(field: Field, value: float | None) -> str:
-    """A number in SI as the address has it; `_number` makes the very same of it."""
+    """The shortest text of a number in SI of which `_number` makes the very same."""
     if value is None:
         return "none"
-    shown = field_values.in_shown_unit(field, value)
-    if field_values.in_si(field, shown) == value:
-        return _short(shown)
-    return _short(value) + "SI"
+    shown = (float(f"{value / field.factor:.{digits}g}") for digits in (12, 15, 16, 17))
+    exact = [_short(one) for one in shown if field_values.in_si(field, one) == value]
+    return min([*exact, _short(value) + "SI"], key=len)
 
 
 def rows_text(rows: tuple[Row, ...]) -> str:
@@ -387,7 +389,7 @@ def _read(given: dict[str, str]) -> Place:
     if said == TILT_HELD:
         own_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
-    tab = FORMER_TABS.get(tab, tab)[:40]
+    tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
 

@@ -18,6 +18,7 @@ A lesson is a text file in Markdown with a head in TOML::
     ask = "Which ball carries most?"
     choose = ["the first", "the lowest", "all the same"]
     right = 2                          # counted from 1
+    hint = "Where is it pressed?"      # after a first wrong one; may be left out
     veil = ["load-distribution"]       # figures that have the answer; if left out, all of `watch`
     +++
     ## Question
@@ -63,12 +64,12 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from msgspec import Meta
 from msgspec.structs import fields
 
-from bearing_explorer.explorer.state.address import FORMER_TABS
+from bearing_explorer.explorer.state.address import OTHER_NAMES_OF_TABS
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
 from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
 from bearing_explorer.kit.assets import asset_path
-from bearing_explorer.kit.simulated_signals import MACHINES, NOISES, PITS
+from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import presets
 from bearingcore.statics import TERM_SYMBOLS
 
@@ -132,8 +133,9 @@ class Prediction(msgspec.Struct, frozen=True):
     """A question before the answer is shown, as the head of a lesson has it.
 
     Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
-    number of `unit`, right from `right` − `within` to `right` + `within`. Figures on `veil` have
-    the answer and are veiled until then; None: all that the lesson marks.
+    number of `unit`, right from `right` − `within` to `right` + `within`. A first wrong
+    prediction is answered by the `hint`, if there is one, and may be made again. Figures on `veil`
+    have the answer and are veiled until then; None: all that the lesson marks.
     """
 
     ask: Text
@@ -141,6 +143,7 @@ class Prediction(msgspec.Struct, frozen=True):
     choose: Annotated[tuple[Text, ...], Meta(min_length=2, max_length=6)] = ()
     unit: Annotated[str, Meta(max_length=20)] = ""
     within: Annotated[float, Meta(ge=0.0, le=1e12)] = 0.0
+    hint: Annotated[str, Meta(max_length=200)] = ""
     veil: tuple[str, ...] | None = None
 
 
@@ -339,7 +342,7 @@ class _Checks:
         self.tabs = dict(tabs)
         self.head = head = self._decoded()
         head.title = " ".join(head.title.split())
-        head.tab = FORMER_TABS.get(head.tab, head.tab)
+        head.tab = OTHER_NAMES_OF_TABS.get(head.tab, head.tab)
         self._on_list("tab", [head.tab], list(self.tabs), "a tab")
         self._on_list("preset", [head.preset], list(presets), "a preset")
         self._on_list("drag", head.drag, DRAGGED, "a control of the page")
@@ -526,23 +529,19 @@ def _set(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
 def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     """The message of a button that simulates a measurement."""
     changes = dict(parse_qsl(rest, keep_blank_values=True))
-    wish = {}
-    for name, known, usual in (
-        ("noise", list(NOISES), "20"),
-        ("machine", list(MACHINES), MACHINES[0]),
-        ("pit", list(PITS), "scene"),
-    ):
-        wish[name] = word = changes.pop(name, usual)
-        if word not in known:
-            raise LessonError(line, f"{name} is “{word[:40]}”; {_near(word, known)}")
+    noise = changes.pop("noise", "20")
+    if noise not in NOISES:
+        raise LessonError(line, f"noise is “{noise[:40]}”; {_near(noise, list(NOISES))}")
+    for former in ("machine", "pit"):  # options of former days
+        changes.pop(former, None)
     scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
     shown = {"show": "diagnosis"} if "diagnosis" in checks.tabs else {}
-    return {**scene, **shown, "simulate": wish}
+    return {**scene, **shown, "simulate": {"noise": noise}}
 
 
 def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     """The message of a button that opens a tab."""
-    name = FORMER_TABS.get(unquote(rest), unquote(rest))
+    name = OTHER_NAMES_OF_TABS.get(unquote(rest), unquote(rest))
     if name not in checks.tabs:
         raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(checks.tabs))}")
     return {"show": name}

@@ -696,7 +696,8 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
         "defect": "no defect",
         "load": " and ".join(f"{number(load)} N {where}" for load, where in loads if load),
         "shaft_speed": f"{number(scene.shaft_speed * 30.0 / math.pi, 4)} turns a minute",
-        "support": f"a rotor of {number(scene.support.inner_mass)} kg in the fan rig's housing",
+        "support": f"a rotor and a housing of {number(scene.support.inner_mass)} kg each, on "
+        f"springs of {number(1e-6 * scene.support.stiffness_y)} N/µm",
     }
     came = [words[part] for part in _USUAL if part not in kept]
     stays = [name for part, name in _USUAL.items() if part in kept]

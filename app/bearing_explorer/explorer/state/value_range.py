@@ -31,15 +31,20 @@ SWEEPABLE: Mapping[str, Field] = {
 
 @dataclass(frozen=True)
 class Sweep:
-    """Evenly spaced values of one field, in its shown unit."""
+    """Evenly spaced values of one field, in its shown unit and with the sign it is read with."""
 
     field: Field
     values: NDArray[np.float64]
 
     @property
+    def own_values(self) -> NDArray[np.float64]:
+        """The values with the sign of the field."""
+        return self.field.read_sign * self.values
+
+    @property
     def in_si(self) -> tuple[str, NDArray[np.float64]]:
         """The field of the scene and its values [SI], as the core takes them."""
-        return self.field.name, np.array([in_si(self.field, v) for v in self.values])
+        return self.field.name, np.array([in_si(self.field, v) for v in self.own_values])
 
     def every(self, stride: int) -> Sweep:
         """The same with every `stride`-th value, first and last among them, where that is even."""
@@ -54,25 +59,34 @@ def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Ran
     if name not in SWEEPABLE:
         raise ValueError("There is no such quantity.")
     field = SWEEPABLE[name]
-    low, high = (read(name, text, limits) for text in (first, last))
+    sign = field.read_sign
+    ends = (text.strip() if sign > 0.0 else _turned(text.strip()) for text in (first, last))
+    low, high = (sign * read(name, text, limits) for text in ends)
     if math.isnan(low) or math.isnan(high) or not low < high:
-        raise ValueError(f"{field.label}: “to” must be greater than “from”.")
+        raise ValueError(f"{field.read_label}: “to” must be greater than “from”.")
     if name == "shaft_speed_hz" and low == 0.0:
         raise ValueError("The shaft must turn: begin above 0 Hz.")
     if field.whole:
         step = max(1, math.ceil((high - low) / (count - 1)))
         values = np.arange(math.ceil(low), high + 0.5, step)
         if values.size < 2:
-            raise ValueError(f"{field.label}: two whole numbers at least.")
+            raise ValueError(f"{field.read_label}: two whole numbers at least.")
         return Sweep(field, values)
     return Sweep(field, np.linspace(low, high, count))
+
+
+def _turned(text: str) -> str:
+    """The text of a number with the other sign."""
+    return text[1:] if text[:1] in ("-", "−") else text and f"-{text.removeprefix('+')}"
 
 
 def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
     """Where a sweep goes unless it is said: as far as the slider, or where it shows most."""
     low, high = limits[name].least, limits[name].most
-    first, last = SWEEPABLE[name].sweep_range or (low, high)
-    return (first, last) if low <= first and last <= high else (low, high)
+    field = SWEEPABLE[name]
+    first, last = field.sweep_range or (low, high)
+    first, last = (first, last) if low <= first and last <= high else (low, high)
+    return (first, last) if field.read_sign > 0.0 else (-last, -first)
 
 
 def focused(scene: Scene, selected: int) -> Scene:
@@ -85,8 +99,8 @@ def focused(scene: Scene, selected: int) -> Scene:
 
 
 def value_of(scene: Scene, field: Field) -> float:
-    """The number of a field in its shown unit, of the first defect where it is one's."""
-    return in_shown_unit(field, number_of(scene, field))
+    """The number of a field as it is read, of the first defect where it is one's."""
+    return field.read_sign * in_shown_unit(field, number_of(scene, field))
 
 
 def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:
@@ -96,9 +110,3 @@ def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool
         return scene.replace(**first) == other.replace(**first)
     except ValueError:
         return False
-
-
-def table_of_places(x: Sweep, y: Sweep) -> dict[str, NDArray[np.float64]]:
-    """Both values at each point of a map, row by row, by the keys of the fields."""
-    up, across = np.meshgrid(y.values, x.values, indexing="ij")
-    return {x.field.key: across.ravel(), y.field.key: up.ravel()}

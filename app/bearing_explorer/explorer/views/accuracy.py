@@ -5,14 +5,22 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Mapping
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
+import panel as pn
 from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
 from bokeh.plotting import figure
 
-from bearing_explorer.explorer.results.accuracy import TRIALS, Found, compute, preset_like, shipped
+from bearing_explorer.explorer.results.accuracy import (
+    EVERYTHING,
+    TRIALS,
+    Found,
+    compute,
+    preset_like,
+    shipped,
+)
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
@@ -28,18 +36,13 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import SessionParts, figures_in
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
-    ANGLE_ERRORS,
-    BALL_ERRORS,
-    EXACT,
     FIXED_STEP,
-    FULL,
     HARD_CASES,
-    MODEL_ERRORS,
     MOTION_ERRORS,
-    SETTLED,
     STATIC_ERRORS,
     VERDICTS,
     Experiment,
@@ -61,25 +64,18 @@ class Chart(NamedTuple):
 
 CHARTS = {
     "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
-    "Models": (
-        Chart("models", FULL, "Fewer directions, against all five"),
-        Chart("models", EXACT, "Models of edges, against the exact edge"),
-        Chart("balls", "", "Massless balls, and steps of heavy ones, against heavy balls"),
-        Chart("models", SETTLED, "Periodic orbit and time integration, against the settled motion"),
-    ),
     "Statics": (
         Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
         *(Chart("statics", case, f"The same, {case}") for case in HARD_CASES),
-        Chart("angles", "", "Cage angles of curves, against 16 001 and those of edges"),
     ),
 }
-"""The charts by the heading above them: each has one reference."""
+"""The charts by what they are of: each has one reference."""
+STEPS_AND_ORBITS = "Stability"
+SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
+"""Subjects to choose from, of which the page shows one."""
 ERRORS = {
     "motion": MOTION_ERRORS,
-    "balls": BALL_ERRORS,
-    "models": MODEL_ERRORS,
     "statics": STATIC_ERRORS,
-    "angles": ANGLE_ERRORS,
 }
 """Errors that can be drawn, by experiment."""
 
@@ -116,8 +112,7 @@ class Accuracy(SceneJobView[Found]):
         "Run time against error, one reference to a chart. Low is exact, left is cheap. Grey line: "
         "points that no other beats in both. Dashed: an error of 0.1 dB or 1 %. Ring: in use. "
         "Crosses on the upper edge failed; point at one for the reason. Dotted: the order of "
-        "convergence that theory gives. Letters at the points: steps a second, tolerance, or "
-        "number of cage angles."
+        "convergence that theory gives. Letters at the points: steps a second, or tolerance."
     )
     start = "Measure on this machine"
     bounds = (
@@ -132,31 +127,44 @@ class Accuracy(SceneJobView[Found]):
         return False
 
     def build(self, packed: PackedSource) -> Any:
-        self._cost = Fields(lambda _: self._redraw())
-        self._cost.add("cost", select("Cost as", COSTS))
+        self._chosen = Fields(lambda _: self._redraw())
+        self._chosen.add("charts", select("Charts of", [[name, name] for name in SECTIONS]))
+        self._chosen.add("cost", select("Cost as", COSTS))
         self._origin, self._foot = prose("", REST), prose()
-        self._charts: list[tuple[Chart, WorkPrecision]] = []
-        sections: list[Any] = []
-        for heading, charts in CHARTS.items():
-            made = [
+        self._charts = {
+            heading: [
                 (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw, one.wide))
                 for one in charts
             ]
-            self._charts += made
-            parts = [chart.panel for _, chart in made]
-            sections += [
-                prose(f"<h3>{heading}</h3>"),
-                stack(*parts, stylesheets=[_grid(360)]),
-            ]
+            for heading, charts in CHARTS.items()
+        }
         self._stability = Stability()
+        self._sections = {
+            heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
+            for heading, made in self._charts.items()
+        }
+        self._sections[STEPS_AND_ORBITS] = self._stability.panel
+        self._place = stack(*self._sections.values(), margin=(14, 0, 0, 0))
         return [
             self.job,
-            row(self._cost.widgets["cost"], self._origin),
-            *sections,
-            prose("<h3>Stability</h3>"),
-            self._stability.panel,
+            row(*self._chosen.widgets.values(), self._origin),
+            self._place,
             self._foot,
         ]
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self._turn_to(self._chosen.values["charts"])
+
+    def _turn_to(self, heading: str) -> None:
+        """Leave the browser one section alone: it takes long to build them all."""
+        section = self._sections[heading]
+        if list(self._place) != [section]:
+            self._place.objects = [section]
+            panes = section.select(pn.pane.Bokeh)
+            self._caption.put(
+                figures=[plot.id for pane in panes for plot in figures_in(pane.object)]
+            )
 
     # The job
 
@@ -172,6 +180,16 @@ class Accuracy(SceneJobView[Found]):
         if name not in TRIALS:
             raise ValueError("There is no such experiment.")
         return lambda job: compute(job, scene, name)
+
+    def begin(self, given: Mapping[str, str]) -> None:
+        super().begin(given)
+        measured = given["experiment"]
+        drawn = (
+            name for name, charts in CHARTS.items() for c in charts if c.experiment == measured
+        )
+        if measured != EVERYTHING:
+            self._chosen.put({"charts": next(drawn, STEPS_AND_ORBITS)})
+            self._redraw()
 
     # The picture
 
@@ -197,7 +215,7 @@ class Accuracy(SceneJobView[Found]):
             if found.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
-            words += " Balls are massless in all charts but that of their mass."
+            words += " Balls are massless in all charts."
         return words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
@@ -218,6 +236,8 @@ class Accuracy(SceneJobView[Found]):
         return scene is not None and presets.get(preset_like(scene)) == scene
 
     def _redraw(self) -> None:
+        if self.parts is not None:
+            self._turn_to(self._chosen.values["charts"])
         if self._results is not None:
             self._show(self._results)
 
@@ -229,8 +249,8 @@ class Accuracy(SceneJobView[Found]):
             **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
-        cost, steps = self._cost.values["cost"], results.settings.step_rate
-        for one, chart in self._charts:
+        cost, steps = self._chosen.values["cost"], results.settings.step_rate
+        for one, chart in chain.from_iterable(self._charts.values()):
             part, pale = _part(own, one), _part(base, one)
             if part is not None and not self._same:
                 pale = None  # of another scene

@@ -34,7 +34,7 @@ OWN_STEPS = "the program's own steps"
 
 
 class OtherModels(SceneJobView[Alternatives]):
-    """Errors and run times with fewer directions, other balls, orbits, steps and cage angles."""
+    """Errors and run times with fewer directions, other edges, balls, orbits, steps and angles."""
 
     name = "alternatives"
     title = "Would a simpler model do here?"

@@ -51,7 +51,7 @@ NO_VALUE = "#C9CED4"
 
 _LOAD_WORDS = """
 const {kind, value, angle} = row
-if (short) {
+if (narrow) {
   if (kind == 0) return value > 0 ? `${si(value, 'N')} at ${rounded(angle, 3)}°` : 'No radial load'
   if (kind == 1) return `${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
   if (kind == 4) return `Depth × ${value >= 1 ? value : rounded(value, 2)}`
@@ -109,7 +109,7 @@ def layers(
 ) -> list[Layer]:
     """From the lowest to the highest; `colors` of loads, and of the numbers on these colours.
 
-    `short`: whether words about the load are short, as in a small drawing.
+    `short`: whether words about the load are short, as they are in any narrow drawing.
     """
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = Glyph(
@@ -168,10 +168,11 @@ def layers(
             f"{prefix}_load_words",
             0.0,
             1.0,
-            f"const short = {str(short).lower()}{_LOAD_WORDS}",
+            _LOAD_WORDS,
             ("kind", "value", "angle", "down"),
             x_share=True,
             y_share=True,
+            fitting=math.inf if short else style.NARROW,
             look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
         ),
         words("row_words", _ROW_WORDS, ("row", "place"), _UNDER_A_ROW),

@@ -7,7 +7,7 @@ refines it level by level.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,28 +29,27 @@ from bearing_explorer.explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
     focused,
-    table_of_places,
+    sweep,
+    usual_range,
     value_of,
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView, editor_of
-from bearing_explorer.explorer.widgets.plane_form import plane_fields, plane_fills, plane_sweeps
 from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
+from bearingcore.fields import Range
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
-_WITH_BAND = [output.name for output in MAP_OUTPUTS.values() if output.band is not None]
-_BAND = ("band_from", "band_to")
-_FIRST_BAND = [f"{edge / 1e3:g}" for edge in MAP_OUTPUTS["mass_share"].band or ()]
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
 _FADED = 0.35
+SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
+"""Sides of a map."""
 
 
 @dataclass(frozen=True)
@@ -69,14 +68,13 @@ class MapRequest:
 
 
 class ExplorePlane(SceneJobView[Plane]):
-    """A map of one output over two quantities, with lines across it and a histogram."""
+    """A map of one output over two quantities, with lines across it."""
 
     name = "explore"
     title = "Explore a plane"
     about = (
         "Any output over any two quantities. All else is as the sliders are set. Point at the "
-        "map to move the curves, click to go there; select values in the histogram to find them "
-        "on it. Hatched: no answer. Ring: this scene."
+        "map to move the curves, click to go there. Hatched: no answer. Ring: this scene."
     )
     start = "Compute the map"
     noun = "map"
@@ -104,18 +102,15 @@ class ExplorePlane(SceneJobView[Plane]):
         outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
         return [
             {"name": "output", "label": "What to draw", "options": outputs},
-            *plane_fields(headings=True),
+            *plane_fields(),
             {"name": "grid", "label": "Fineness", "options": _GRIDS},
-            {"name": "band_from", "label": "Band from (kHz)", "only": {"output": _WITH_BAND}},
-            {"name": "band_to", "label": "to (kHz)", "only": {"output": _WITH_BAND}},
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
         fills = plane_fills(editor.limits)
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
-        values |= dict(zip(_BAND, _FIRST_BAND, strict=True))
         # loads that point down, as weights do: without a load there is nothing to map
-        values["y_to"] = f"{0.05 * editor.limits['fy_n'].least:g}".replace("-", "−")
+        values["y_from"] = f"{-0.05 * editor.limits['fy_n'].least:g}"
         if self._request is None:
             self._request = self.request_of(values, editor)
         return values, fills
@@ -128,13 +123,6 @@ class ExplorePlane(SceneJobView[Plane]):
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
         x, y = plane_sweeps(given, SIZES[1], editor.limits)
         output = MAP_OUTPUTS[given["output"]]
-        if output.band is not None:
-            ends = zip(_BAND, ("beginning", "end"), strict=True)
-            low, high = (
-                number_of(given.get(name, ""), f"The {end} of the band", "kHz", 0.01, 100.0)
-                for name, end in ends
-            )
-            output = output.in_band(1e3 * low, 1e3 * high)
         return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
@@ -200,8 +188,10 @@ class ExplorePlane(SceneJobView[Plane]):
             self._refine(self._jobs, question, plane)
 
     def columns(self, found: Plane) -> dict[str, np.ndarray]:
+        up, across = np.meshgrid(found.y.own_values, found.x.own_values, indexing="ij")
         return {
-            **table_of_places(found.x, found.y),
+            found.x.field.key: across.ravel(),
+            found.y.field.key: up.ravel(),
             found.question.output.column: found.values.ravel(),
             "no_answer_because": found.reasons.ravel(),
             **{
@@ -243,6 +233,48 @@ class ExplorePlane(SceneJobView[Plane]):
             self._draw()
 
 
+def plane_fields() -> list[FieldSpec]:
+    """The fields of the form for both sides of a map."""
+    quantities = [
+        [q.key, f"{q.read_label} ({q.shown_unit})" if q.shown_unit else q.read_label, q.group]
+        for q in SWEEPABLE.values()
+    ]
+    fields: list[FieldSpec] = []
+    for side, words in SIDES.items():
+        fields += [
+            {"name": side, "label": words, "options": quantities},
+            {"name": f"{side}_from", "label": "from"},
+            {"name": f"{side}_to", "label": "to"},
+        ]
+    return fields
+
+
+def plane_fills(limits: Mapping[str, Range]) -> dict[str, dict[str, dict[str, str]]]:
+    """The fields of a side once a quantity is chosen there: side -> quantity -> fields."""
+    usual = {
+        name: [f"{v:g}".replace("-", "−") for v in usual_range(name, limits)] for name in SWEEPABLE
+    }
+    return {
+        side: {
+            name: {f"{side}_from": low, f"{side}_to": high} for name, (low, high) in usual.items()
+        }
+        for side in SIDES
+    }
+
+
+def plane_sweeps(
+    given: Mapping[str, str], counts: Sequence[int], limits: Mapping[str, Range]
+) -> tuple[Sweep, Sweep]:
+    """The sweeps to the right and upwards; ValueError with a sentence where there are none."""
+    if given["x"] == given["y"]:
+        raise ValueError("Choose two different quantities.")
+    x, y = (
+        sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], count, limits)
+        for side, count in zip(SIDES, counts, strict=True)
+    )
+    return x, y
+
+
 def field_of(plane: Plane) -> Field:
     """A map as the figures take it."""
     output = plane.question.output
@@ -278,7 +310,7 @@ def _place(plane: Plane, at: tuple[Any, ...]) -> str:
     prefixed = unit not in ("", "°")
     shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
     where = [
-        f"{sweep.field.label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
+        f"{sweep.field.read_label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
         for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
     ]
     return f"{shown} at {' and '.join(where)}"

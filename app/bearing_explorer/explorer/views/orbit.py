@@ -11,24 +11,14 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import of_orbit
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import Glyph, curve, draw, filled
-from bearing_explorer.kit.plots.levels import (
-    FREQUENCY,
-    HIGHEST,
-    SHOWN,
-    decibels,
-    density_axis,
-    drawn_levels,
-    seen_levels,
-)
+from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.form import stack
-from bearing_explorer.kit.widgets.status import StatusLine
-from bearingcore.common import count, scientific, table_of
+from bearingcore.common import table_of
 from bearingcore.dynamics import OrbitStatus
 from bearingcore.scene import MASSLESS
 
@@ -37,9 +27,6 @@ ORBIT_POINTS = 600
 MARCHED_POINTS = 3000
 MARCHED_PASSES = 8
 """Ball passes that are drawn of the motion integrated in time."""
-
-FAR_APART = 3.0
-"""[dB] between the spectra of orbit and marched motion; more is no matter of steps or windows."""
 
 _DOTS = {"size": 10, "fill_alpha": 0.85, "line_color": "white", "line_width": 1.0}
 MULTIPLIERS = [
@@ -51,12 +38,7 @@ PATHS = [
     *compared_curves.curves("orbit_path", *SHOWN),
     curve("orbit_path", "x", "y", style.DEFECTIVE, 1.4),
 ]
-SPECTRA = [
-    *(curve("orbit_marched_levels", "frequency", dof, style.HEALTHY, 4.0) for dof in SHOWN),
-    *compared_curves.curves("orbit_levels", "frequency", *SHOWN),
-    *(curve("orbit_levels", "frequency", dof, style.color_along(dof), 1.6) for dof in SHOWN),
-]
-"""Layers of the three figures, from the lowest to the highest."""
+"""Layers of the figures, from the lowest to the highest."""
 
 _LOST_LONG = {
     "-1": (
@@ -76,7 +58,7 @@ _LOST_LONG = {
 
 
 class SteadyOrbit(View):
-    """Multipliers, path of the inner ring, and spectrum of the periodic steady state."""
+    """Multipliers of the periodic steady state, and path of the inner ring."""
 
     name = "orbit"
     title = "Steady orbit"
@@ -84,25 +66,19 @@ class SteadyOrbit(View):
         "The motion that repeats with every ball pass. It is found by Newton's method, "
         "not by a long simulation. Its Floquet multipliers: factors by which a pass changes a "
         "small disturbance; inside the unit circle it dies out. Then the path of the inner "
-        "ring, and the spectrum of the housing, blue along x, orange along y. Grey: the motion "
-        "integrated in time from rest."
+        "ring. Grey: the motion integrated in time from rest."
     )
-    needs = frozenset({"orbit", "orbit_spectra", "motion", "late_spectra"})
+    needs = frozenset({"orbit", "motion"})
 
     def build(self, packed: PackedSource) -> Any:
         self._displacement = [StickyRange(-1.0, 1.0, least_span=0.02, room=ROOM) for _ in SHOWN]
-        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._multiplier_range = StickyRange(-1.2, 1.2, anchor="symmetric", least_span=2.4)
-        self.status = StatusLine()
-        self.status.stylesheets = [".line { padding: 2px 0 8px; font-family: var(--font); }"]
         # a row that wraps: Panel's own asks for the width of all its parts together
-        plots = stack(
+        return stack(
             self._multipliers(packed),
             self._path(packed),
-            self._spectrum(packed),
             stylesheets=[":host { flex-flow: row wrap; gap: 8px 16px; }"],
         )
-        return [self.status, plots]
 
     def _multipliers(self, packed: PackedSource) -> figure:
         plot = _square(
@@ -127,20 +103,6 @@ class SteadyOrbit(View):
         draw(plot, packed, PATHS)
         return plot
 
-    def _spectrum(self, packed: PackedSource) -> figure:
-        plot = style.make_figure(
-            FREQUENCY,
-            density_axis("S"),
-            Range1d(0.0, HIGHEST, syncable=False),
-            packed.range("orbit_level", -80.0, -20.0),
-            height=HEIGHT + 40,
-            sizing_mode="stretch_width",
-        )
-        # right of the squares where there is room, else as wide as the card
-        plot.stylesheets = [":host { flex: 1 1 430px !important; }"]
-        draw(plot, packed, SPECTRA)
-        return plot
-
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         orbit = results.orbit
         multipliers = orbit.multipliers if orbit is not None else np.zeros(0, complex)
@@ -154,39 +116,22 @@ class SteadyOrbit(View):
             results.compared_results,
             orbit_path,
         )
-        levels = compared_curves.sources(
-            "orbit_levels",
-            ("frequency", *SHOWN),
-            results.compared_results,
-            lambda other: drawn_levels(other.orbit_spectra, HIGHEST),
-        )
         x_range, y_range = (
             fit.fit(path[dof], np.append(marched[dof], compared_curves.numbers(paths, dof)))
             for fit, dof in zip(self._displacement, SHOWN, strict=True)
         )
-        found = drawn_levels(results.orbit_spectra, HIGHEST)
-        late = drawn_levels(results.late_spectra, HIGHEST)
         return {
             **paths,
-            **levels,
             "orbit_inside": _points(multipliers[~outside]),
             "orbit_outside": _points(multipliers[outside]),
             "orbit_path": path,
             "orbit_marched": marched,
-            "orbit_levels": found,
-            "orbit_marched_levels": late,
         }, {
             "orbit_multipliers": round_about,
             "orbit_multipliers_up": round_about,
             "orbit_x": x_range,
             "orbit_y": y_range,
-            "orbit_level": self._levels.fit(*seen_levels(3.0, found, late, *levels.values())),
         }
-
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        none = {"mood": "busy", "words": "Not computed", "details": []}  # the sentence says why
-        self.status.put(line=none if results is None else orbit_status(results))
 
     def sentence(self, results: Results) -> str:
         words = self._orbit_words(results)
@@ -232,50 +177,12 @@ class SteadyOrbit(View):
         if orbit.status is OrbitStatus.UNSTABLE:
             return f"{_LOST_LONG[orbit.through]}; disturbances grow {size} times per pass."
         percent = style.number(100.0 * orbit.largest_multiplier, 3)
-        text = f"Periodic with each ball pass; disturbances shrink to {percent} % per pass"
-        gap = level_gap(results)
-        if gap > FAR_APART:
-            text += (
-                ". The motion integrated in time, in grey, has not reached it: the spectra are up "
-                f"to {style.number(gap, 2)} dB apart"
-            )
-        elif math.isfinite(gap):
-            text += (
-                f". Its spectrum is within {style.number(gap, 2)} dB of that of the motion "
-                "integrated in time"
-            )
-        return text + "."
+        return f"Periodic with each ball pass; disturbances shrink to {percent} % per pass."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         orbit, path = results.orbit, orbit_path(results)
         table = {} if orbit is None else orbit.table().named()
-        table |= table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
-        for name, spectra in (("orbit", results.orbit_spectra), ("marched", results.late_spectra)):
-            for dof in SHOWN:
-                if dof in spectra:
-                    frequency, density = spectra[dof].table([dof]).named().items()
-                    if len(frequency[1]) > len(table.get(frequency[0], ())):
-                        table[frequency[0]] = frequency[1]  # each is known so far
-                    table[f"{name}_{density[0]}"] = density[1]
-        return table
-
-
-def orbit_status(results: Results) -> dict[str, Any]:
-    """The orbit's status in words and colour, with the effort of the search."""
-    orbit, (mood, words) = results.orbit, of_orbit(results)
-    if orbit is None or not orbit.multipliers.size:
-        return {"mood": mood, "words": words, "details": []}
-    passes = count(orbit.ball_passes, "ball pass", "ball passes")
-    return {
-        "mood": mood,
-        "words": words,
-        "details": [
-            f"largest multiplier |μ| = {style.number(orbit.largest_multiplier, 3)}",
-            f"period {style.with_prefix(orbit.period, 's')}: {passes}",
-            count(orbit.iterations, "Newton step"),
-            f"closure error {scientific(orbit.residual)}",
-        ],
-    }
+        return table | table_of(*((f"inner_{dof}", "µm", path[dof]) for dof in SHOWN)).named()
 
 
 def orbit_path(results: Results) -> dict[str, NDArray[np.float64]]:
@@ -302,24 +209,6 @@ def _along(dofs: tuple[str, ...], path: NDArray[np.float64]) -> dict[str, NDArra
     return {
         dof: 1e6 * path[:, dofs.index(dof)] if dof in dofs else np.zeros(len(path)) for dof in SHOWN
     }
-
-
-def level_gap(results: Results) -> float:
-    """Greatest difference [dB] of the two spectra where they are loud; NaN without both.
-
-    Loud: less than 40 dB below the loudest line.
-    """
-    gaps = []
-    for dof in SHOWN:
-        if dof in results.orbit_spectra and dof in results.late_spectra:
-            both = results.orbit_spectra[dof], results.late_spectra[dof]
-            known = min(len(one.frequency) for one in both)
-            frequency = both[0].frequency[:known]
-            found, marched = (one.density[:known] for one in both)
-            in_view = (frequency >= 100.0) & (frequency <= HIGHEST)
-            heard = in_view & (marched > 1e-4 * marched[in_view].max(initial=0.0))
-            gaps.append(np.abs(decibels(found[heard]) - decibels(marched[heard])).max(initial=0.0))
-    return float(max(gaps)) if gaps else math.nan
 
 
 def _points(numbers: NDArray[np.complex128]) -> dict[str, np.ndarray]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import math
+import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,12 +20,13 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
+    alike_but_for,
     focused,
     sweep,
     usual_range,
     value_of,
 )
-from bearing_explorer.explorer.views.swept_view import Swept, SweptView, compute_in_levels
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
@@ -45,7 +48,6 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
-from bearingcore.common import Progress
 from bearingcore.dynamics import SpeedRun, speed_run
 
 SPEED = "shaft_speed_hz"
@@ -53,6 +55,8 @@ COUNTS = (25, 49, 97, 193)
 """Numbers of speeds to choose from."""
 FIRST_COUNT = 25
 """Speeds of the first picture."""
+FAINT = 0.35
+"""Opacity of a run of another scene."""
 RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
@@ -118,7 +122,15 @@ SCENE: list[Layer] = [
 ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
 
 
-class SpeedRunSpectra(SweptView):
+@dataclass(frozen=True)
+class FoundRun:
+    """A run, and its speeds [Hz]."""
+
+    run: SpeedRun
+    speeds: Sweep
+
+
+class SpeedRunSpectra(SceneJobView[FoundRun]):
     """Power spectral density of the housing's acceleration over frequency and shaft speed."""
 
     name = "speed-run"
@@ -191,8 +203,8 @@ class SpeedRunSpectra(SweptView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         if (found := self.found) is None:
             return {}, {}
-        run, (speeds,) = found.result, found.sweeps
-        alpha = self.opacity(results, found)
+        run, speeds = found.run, found.speeds
+        alpha = FAINT if self._is_of_another(results, found) else 1.0
         seen = run.frequency <= top_frequency(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
@@ -219,26 +231,18 @@ class SpeedRunSpectra(SweptView):
             **level_ranges,
         }
 
-    def words_of(self, results: Results, found: Swept) -> str:
-        run, (speeds,) = found.result, found.sweeps
-        words = []
-        for dof in SHOWN:
-            level = levels_of(run, dof)
-            level[:, run.frequency < 100.0] = np.nan
-            if np.isfinite(level).any():
-                i, k = np.unravel_index(np.nanargmax(level), level.shape)
-                words.append(
-                    f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
-                    f"{style.number(speeds.values[i])} Hz"
-                )
-        text = f"Loudest {style.list_words(words)}." if words else "Nothing moves."
-        marched = int(np.sum(~run.from_orbit))
-        if marched:
-            text += (
-                f" At {marched} of {run.shaft_speed.size} speeds (triangles) no stable orbit was "
-                "found; their motion was integrated in time."
-            )
-        return text
+    def _is_of_another(self, results: Results, found: FoundRun) -> bool:
+        """Whether a run is of another scene than that on screen."""
+        scene = focused(results.scene, results.focus)
+        return not alike_but_for(scene, found.run.scene, (found.speeds,))
+
+    def sentence(self, results: Results) -> str:
+        if self.found is None:
+            return self.words_of_nothing
+        words = words_of(self.found)
+        if self._is_of_another(results, self.found):
+            return f"Faint, as the scene has changed since this was computed. Then: {words}"
+        return words
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -253,29 +257,67 @@ class SpeedRunSpectra(SweptView):
         with contextlib.suppress(ValueError):  # the button says why
             self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
-    def columns(self, found: Swept) -> dict[str, np.ndarray]:
-        run = found.result
+    def columns(self, found: FoundRun) -> dict[str, np.ndarray]:
+        run = found.run
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
-def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
-    """A coarse run and then the full one. Runs in a job's thread."""
-    n = speeds.values.size
-    levels = [(speeds,)]
-    if n > FIRST_COUNT:
-        levels.insert(0, (speeds.every((n - 1) // (FIRST_COUNT - 1)),))
+def words_of(found: FoundRun) -> str:
+    """Where the housing vibrates most, and how many motions were integrated in time."""
+    run, words = found.run, []
+    for dof in SHOWN:
+        level = levels_of(run, dof)
+        level[:, run.frequency < 100.0] = np.nan
+        if np.isfinite(level).any():
+            i, k = np.unravel_index(np.nanargmax(level), level.shape)
+            words.append(
+                f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
+                f"{style.number(found.speeds.values[i])} Hz"
+            )
+    text = f"Loudest {style.list_words(words)}." if words else "Nothing moves."
+    marched = int(np.sum(~run.from_orbit))
+    if marched:
+        text += (
+            f" At {marched} of {run.shaft_speed.size} speeds (triangles) no stable orbit was "
+            "found; their motion was integrated in time."
+        )
+    return text
 
-    def one_level(level: tuple[Sweep, ...], progress: Progress) -> SpeedRun:
-        return speed_run(
+
+def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
+    """A coarse run and then the full one, each shown. Runs in a job's thread.
+
+    Raises
+    ------
+    ValueError
+        where the first cannot be computed.
+    """
+    n = speeds.values.size
+    runs = [speeds] if n <= FIRST_COUNT else [speeds.every((n - 1) // (FIRST_COUNT - 1)), speeds]
+    whole = sum(one.values.size for one in runs)
+    started = time.perf_counter()
+    done, shown = 0, "Nothing is shown yet."
+    for one in runs:
+        size = one.values.size
+        run = speed_run(
             scene,
-            level[0].in_si[1],
+            one.in_si[1],
             resolution=RESOLUTION,
-            progress=progress,
+            progress=job.within(done / whole, (done + size) / whole),
             cancelled=job.cancelled,
         )
-
-    return compute_in_levels(job, levels, one_level, "speeds")
+        if run.cost and not done:
+            raise ValueError(run.cost)
+        if run.cost:
+            return f"{shown} Finer was not begun, {run.cost}."
+        if run.completed or not done:
+            job.show(FoundRun(run, one))
+            shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
+        if not run.completed:
+            break
+        done += size
+    return shown
 
 
 def top_frequency(run: SpeedRun) -> float:

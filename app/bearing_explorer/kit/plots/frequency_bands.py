@@ -18,9 +18,8 @@ BAND_SPAN = """
 const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
-BAND_WORDS = BAND_NAME + BAND_SPAN
 SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
-"""The same for `style.fitting_words`."""
+"""Name and span of a band, for `style.fitting_words`."""
 
 
 def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:

@@ -60,18 +60,21 @@ VALUE_FIELDS = {"$x": "x", "$y": "y", "$sx": "value"}
 class Side:
     """Quantity along a side of a grid.
 
-    `name`: of the quantity that a click sets; empty where it sets none.
+    `name`: of the quantity that a click sets, `sign` times what is read; empty where it sets none.
     """
 
     name: str
     words: str
     symbol: str
     unit: str
+    sign: float = 1.0
 
     @classmethod
     def of(cls, field: Field) -> Side:
         """The side for a field of the scene."""
-        return cls(field.key, field.signed_label, field.symbol.replace("_", ""), field.shown_unit)
+        minus = "−" if field.read_sign < 0.0 else ""
+        symbol = minus + field.symbol.replace("_", "")
+        return cls(field.key, field.read_label, symbol, field.shown_unit, field.read_sign)
 
     @property
     def quantity(self) -> style.AxisQuantity:
@@ -84,10 +87,10 @@ class Side:
         words = f"{self.words} {self.symbol}".strip()
         return f"{words} ({self.unit})" if self.unit else words
 
-    def for_browser(self) -> dict[str, str]:
+    def for_browser(self) -> dict[str, str | float]:
         """The side for the scripts."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
-        return {"name": self.name, "words": self.words, "unit": unit}
+        return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,6 @@
-"""A map over two quantities, with the lines across it and a histogram.
+"""A map over two quantities, with the lines across it.
 
-The lines follow the pointer, and values that are selected in the histogram stay bright on the map,
-without asking Python: so they do in a saved page too.
+The lines follow the pointer without asking Python: so they do in a saved page too.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import BoxSelectTool, ColumnDataSource, CustomJS, LinearColorMapper, Quad
+from bokeh.models import ColumnDataSource, LinearColorMapper
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -28,7 +27,7 @@ from bearing_explorer.kit.plots.heat_map import (
     scale_by,
     sections,
 )
-from bearing_explorer.kit.plots.layers import Glyph, draw
+from bearing_explorer.kit.plots.layers import draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
@@ -45,12 +44,9 @@ _HATCHED = {
     "hatch_scale": 8,
 }
 """Look of points without an answer."""
-BINS = 24
-HEIGHTS = {"map": 340, "up": 340, "across": 200, "histogram": 200}
+HEIGHTS = {"map": 340, "up": 340, "across": 200}
 """[px] of the figures."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
-_EVERYTHING = {"low": -1e300, "high": 1e300}
-"""Values that are selected while nothing is."""
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
 _NO_WORDS: dict[str, list[str]] = {"words": [], "unit": []}
 
@@ -59,8 +55,6 @@ const {words, unit} = said.data
 if (isNaN(cell[0])) return `no answer: ${reasons.data.text[cell[1]]}`
 return `${words[0]}: ${rounded(cell[0], 4)}${unit[0]}`
 """
-_SELECT = "if (cb_obj.final) veil.setv({low: cb_obj.geometry.x0, high: cb_obj.geometry.x1})"
-_FORGET = "veil.setv(all); counts.selected.indices = []"
 SIDE_BY_SIDE = """
 :host { display: grid !important; gap: 8px 16px;
         min-height: auto !important;
@@ -130,7 +124,7 @@ def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
 
 
 class PlaneFigures:
-    """The map, a line across it each way, and a histogram in which values can be selected.
+    """The map, and a line across it each way.
 
     Parameters
     ----------
@@ -148,22 +142,20 @@ class PlaneFigures:
         self._said = ColumnDataSource(_NO_WORDS)
         self._reasons = ColumnDataSource({"text": []})
         x, y = packed.range(f"{name}_x", 0.0, 1.0), packed.range(f"{name}_y", 0.0, 1.0)
-        value, values = (packed.range(f"{name}_{one}", 0.0, 1.0) for one in ("value", "values"))
-        points = packed.range(f"{name}_points", 0.0, 1.0)
-        self.map, self.up, self.across, self.histogram = (
+        value = packed.range(f"{name}_value", 0.0, 1.0)
+        self.map, self.up, self.across = (
             style.make_figure(
                 _NAMELESS, _NAMELESS, *ranges, height=height, name=f"{name}_{which}", title=""
             )
             for ranges, (which, height) in zip(
-                ((x, y), (y, value), (x, value), (values, points)), HEIGHTS.items(), strict=True
+                ((x, y), (y, value), (x, value)), HEIGHTS.items(), strict=True
             )
         )
-        self.plots = [self.map, self.up, self.across, self.histogram]
-        self.up.frame_align = self.histogram.frame_align = False  # they need no colour bar's room
+        self.plots = [self.map, self.up, self.across]
+        self.up.frame_align = False  # it needs no colour bar's room
         self._add_map(packed, sides)
         for line, sideways in ((self.across, True), (self.up, False)):
             self._add_line(line, sideways)
-        self._add_histogram(packed)
 
     def _add_map(self, packed: PackedSource, sides: Sequence[Side]) -> None:
         plot, name = self.map, self._name
@@ -176,14 +168,6 @@ class PlaneFigures:
         self._image = GridImage(
             plot, packed, f"{name}_cells", [self._colors, codes], sides, _SAY, _HATCHED, **known
         )
-        self._veil = LinearColorMapper(
-            palette=[CLEAR], low_color=style.PAPER, high_color=style.PAPER, nan_color=CLEAR,
-            syncable=False, **_EVERYTHING,
-        )  # fmt: skip
-        plot.image(
-            "image", "x", "y", "dw", "dh", source=self._image.source, level="image",
-            color_mapper=self._veil, global_alpha=0.8,
-        )  # fmt: skip
         draw(plot, packed, ring_at(f"{name}_mark"))
         self._mark = plot.renderers[-1].data_source
         self._bar = color_bar(self._colors, bar_line_color=style.STEEL_EDGE)
@@ -204,22 +188,6 @@ class PlaneFigures:
         for source in (self._mark, self._said, self._image.source):
             source.js_on_change("data", follow)
 
-    def _add_histogram(self, packed: PackedSource) -> None:
-        plot = self.histogram
-        plot.title.text = "Select values here to find them on the map"
-        plot.yaxis.axis_label = "Points"
-        look = {"fill_color": style.DEFECTIVE, "line_color": "white"}
-        quads = Glyph(Quad, f"{self._name}_counts", (*_BAR_SIDES, 0.0), look)
-        (drawn,) = draw(plot, packed, [quads])
-        select = BoxSelectTool(dimensions="width")
-        plot.add_tools(select)
-        plot.toolbar.active_drag = select
-        known = {"veil": self._veil, "all": _EVERYTHING, "counts": drawn.data_source}
-        plot.js_on_event("selectiongeometry", CustomJS(args=known, code=_SELECT))
-        forget = CustomJS(args=known, code=_FORGET)
-        plot.js_on_event("reset", forget)
-        self._said.js_on_change("data", forget)
-
     def write(self, field: Field) -> None:
         """Set the words of a field. On the event loop only."""
         unit = field.scaled[1]
@@ -237,7 +205,7 @@ class PlaneFigures:
             return
         self._said.data = said
         label = f"{field.words} ({unit})" if unit else field.words
-        self._bar.title = self.histogram.xaxis[0].axis_label = label
+        self._bar.title = label
         self.up.xaxis[0].axis_label, self.across.xaxis[0].axis_label = y.label, x.label
         self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = f"({unit})" if unit else ""
 
@@ -247,7 +215,6 @@ class PlaneFigures:
         """Sources and ranges for a field; the lines are drawn across it at the `mark`."""
         name, values = self._name, field.scaled[0]
         known = values[np.isfinite(values)]
-        counts, edges = np.histogram(known, BINS if known.size else 1)
         low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
         room = 0.06 * (high - low) or 0.06 * abs(high) or 1.0
         codes = _reasons_of(field)[1]
@@ -255,20 +222,16 @@ class PlaneFigures:
         sources: dict[str, dict[str, np.ndarray]] = {
             f"{name}_cells": self._image.columns(field.x, field.y, [values, codes], alpha),
             f"{name}_mark": {"x": x, "y": y},
-            f"{name}_counts": dict(zip(_BAR_SIDES, (edges[:-1], edges[1:], counts), strict=True)),
         }
         return sources, {
             f"{name}_x": ends(field.x[1]),
             f"{name}_y": ends(field.y[1]),
             f"{name}_value": (low - room, high + room),
-            f"{name}_values": (float(edges[0]), float(edges[-1])),
-            f"{name}_points": (0.0, 1.05 * float(counts.max()) or 1.0),
             f"{name}_colors": color_limits(values),
         }
 
 
 _NAMELESS = style.AxisQuantity("", "", "")
-_BAR_SIDES = ("left", "right", "top")
 
 
 def _spaced(unit: str) -> str:

@@ -36,13 +36,7 @@ DARK_COLORS = {
     "#8A5A00": "#E8B23F",  # names of the bearing's frequencies, as their lines
     "#94407A": "#E89BC7",
     "#1F6F9F": "#A9DBFB",
-    "#30363D": "#D3DAE1",  # kinds of the stability map
-    "#7B3294": "#B77FD0",
-    "#F0C419": "#F5D34F",
-    "#5C636B": "#A7B0BA",
-    "#DDE0E3": "#333D47",
-    "#8B929A": "#7A8591",
-    "#B9BEC4": "#525D69",
+    "#B9BEC4": "#525D69",  # no answer
     "#661100": "#B5524A",  # the third compared scene
 }
 """By the light colour, as upper-case hex."""

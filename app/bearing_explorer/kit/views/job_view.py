@@ -80,7 +80,7 @@ class JobForm(pn.Column):
         fields: list[FieldSpec],
         at_once: bool = False,
     ) -> None:
-        self._words, self._at_once, self._specs = words, at_once, fields
+        self._words, self._at_once = words, at_once
         #: {field: {its value: {other field: its value then}}}
         self.fills: Mapping[str, Any] = {}
         self._fields = fields_of_form = Fields(self._changed)
@@ -116,7 +116,6 @@ class JobForm(pn.Column):
         """Set the fields, and which values a choice brings with it."""
         self.fills = fills
         self._fields.put(values)
-        self._show_fields()
 
     @property
     def state(self) -> JobState:
@@ -136,15 +135,8 @@ class JobForm(pn.Column):
 
     def _changed(self, name: str) -> None:
         self._fields.put(self.fills.get(name, {}).get(self.values[name], {}))
-        self._show_fields()
         if self._at_once:
             self._start()
-
-    def _show_fields(self) -> None:
-        for spec in self._specs:
-            if only := spec.get("only"):
-                shown = all(self.values[other] in values for other, values in only.items())
-                self._fields.widgets[spec["name"]].visible = shown
 
 
 class JobView(View[C], Generic[C, Found, E]):

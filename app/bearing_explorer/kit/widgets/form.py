@@ -22,16 +22,15 @@ class FieldSpec(TypedDict, total=False):
     """A field of a form, or a choice above a figure.
 
     Without `options` text is typed into it. An option is [value, words] or [value, words, heading];
-    where `some` of several can be chosen, [value, words, colour]. `only` names other fields and the
-    values with which alone this one is shown; `hint` is the placeholder of a text field. `within`
-    is what a number may be: its words in a sentence, its unit, its least and greatest value.
+    where `some` of several can be chosen, [value, words, colour]. `hint` is the placeholder of a
+    text field. `within` is what a number may be: its words in a sentence, its unit, its least and
+    greatest value.
     """
 
     name: str
     label: str
     options: Sequence[Sequence[str]]
     some: bool
-    only: Mapping[str, Sequence[str]]
     hint: str
     within: tuple[str, str, float, float]
 

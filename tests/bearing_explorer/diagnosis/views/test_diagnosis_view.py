@@ -1,7 +1,5 @@
 """The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import re
@@ -44,7 +42,7 @@ TURN = 2.0 * math.pi
 
 @cache
 def heard(truth: str, noise_db: float = 20.0) -> Measured:
-    return simulated(SCENES[truth], noise_db, False, 1)
+    return simulated(SCENES[truth], noise_db, 1)
 
 
 @cache
@@ -105,7 +103,7 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
 def test_a_step_is_on_the_page_once_there_is_a_signal():
     form, *steps = next(one for one in SECTIONS if one.name == "diagnosis").views
     waiting = [kind for kind in steps if issubclass(kind, MeasuredView)]
-    assert len(waiting) == 9
+    assert len(waiting) == 8
     for kind in (form, *waiting):
         view = kind(PackedSource())
         view.measure(measuring(None))
@@ -290,7 +288,7 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 )
 def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
     scene = presets[preset].replace(extent=0.0)
-    measured = simulated(scene, noise_db, True, 3)
+    measured = simulated(scene, noise_db, 3)
     found = answered(Question.about(measured))
     assert found.fault == "none seen"
 
@@ -306,9 +304,9 @@ def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
     halves.diagnosis.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
         (wish, explorer.scene.defects[0].race)
     )
-    wish = {"noise": "20", "machine": "same"}
+    wish = {"noise": "20"}
     change = explorer.requests.change_lesson
     for junk in ("now", None, 3):
         take(change, LessonChange, {"mark": 1, "simulate": junk})
     take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
-    assert wishes == [(("20", "same", "scene"), "inner")]
+    assert wishes == [(("20",), "inner")]

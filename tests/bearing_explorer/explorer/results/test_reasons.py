@@ -1,7 +1,5 @@
 """Each reason is that of its scene, and what is named is what the core gives."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

@@ -53,7 +53,6 @@ def test_compared_scenes_have_results_of_their_own() -> None:
     ("view", "drawn", "compared"),
     [
         (SteadyOrbit, "orbit_path", "orbit_path_compared_0"),
-        (SteadyOrbit, "orbit_levels", "orbit_levels_compared_0"),
         (MassInTime, "mass_motion", "mass_motion_compared_0"),
     ],
 )

@@ -1,7 +1,5 @@
 """The status line and the sentences of the views say the same of a scene without an equilibrium."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

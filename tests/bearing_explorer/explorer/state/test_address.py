@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from bearing_explorer.explorer.state.address import (
     LONGEST_LINK,
+    OTHER_NAMES_OF_TABS,
     Place,
     leaves_out,
     opened,
@@ -22,6 +23,7 @@ from bearing_explorer.explorer.state.address import (
     write,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor, drawn
+from bearing_explorer.page import TABS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -179,6 +181,13 @@ def test_links_of_earlier_days_open(link: dict) -> None:
     if "roller_length" in kept["bearing"]:  # straight races had centres too in those days
         del kept["bearing"]["groove_center_distance"]
     same(editor.scene.to_data(), kept)
+
+
+@pytest.mark.parametrize(("former", "now"), OTHER_NAMES_OF_TABS.items())
+def test_a_former_name_of_a_tab_leads_to_where_its_views_are(former: str, now: str) -> None:
+    assert read(f"v=1&preset=fan-rig&tab={former}").tab == now
+    assert now in dict(TABS)
+    assert former not in dict(TABS)
 
 
 def same(found: object, kept: object) -> None:

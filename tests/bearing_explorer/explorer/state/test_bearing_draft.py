@@ -1,7 +1,5 @@
 """A bearing of one's own: dimensions that wait for each other, kinds, names, second units."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

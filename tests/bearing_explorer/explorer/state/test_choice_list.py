@@ -1,7 +1,5 @@
 """The table of choices: it says what the core knows, and what a scene has."""
 
-from __future__ import annotations
-
 import pytest
 from bearing_explorer.explorer.state.address import place_of, read, write
 from bearing_explorer.explorer.state.choice_list import (

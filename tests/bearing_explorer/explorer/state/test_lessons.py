@@ -1,7 +1,5 @@
 """Lessons: what they claim is what the core computes; what is wrong with a file is said."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -52,7 +50,7 @@ from bearingcore import (
 )
 from bearingcore.diagnosis import SLIP
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.experiments import motion_experiment
+from bearingcore.experiments.motions import motion_experiment
 from tests.helpers.contact_law import Balls, newton
 from tests.helpers.sessions import SceneSession
 
@@ -470,7 +468,7 @@ def lesson_of(path: Path) -> Lesson:
 def words_of(lesson: Lesson) -> str:
     parts = " ".join(f"{part.heading} {part.html}" for part in lesson.parts)
     asked = lesson.predict
-    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose])
+    prediction = "" if asked is None else " ".join([asked.ask, *asked.choose, asked.hint])
     return Words(f"{lesson.title} {prediction} {parts}").text
 
 
@@ -564,8 +562,8 @@ def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
         lesson.begin(editor)
         editor.choose(message["choose"])
         editor.set(message["typed"])
-        assert message["simulate"] == {"noise": "20", "machine": "same", "pit": "scene"}
-        made = simulated(editor.scene, 20.0, False, 1)
+        assert message["simulate"] == {"noise": "20"}
+        made = simulated(editor.scene, 20.0, 1)
         found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed)
     assert {truth: one.fault for truth, one in found.items()} == {
         "outer race": "outer race", "inner race": "inner race", "none": "none seen",

@@ -1,7 +1,5 @@
 """Displacement and stiffness on the page, recomputed without the solver."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

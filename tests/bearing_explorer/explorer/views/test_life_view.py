@@ -1,7 +1,5 @@
 """Life, pressure and film on the page: the core's numbers, and a sentence where there are none."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the mass of balls adds, in time, in frequency and by octave."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.ball_mass import BallMass

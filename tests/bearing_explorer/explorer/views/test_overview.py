@@ -1,7 +1,5 @@
 """The overview: what its sentence says is what the core gives, and only what matters is lively."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 

@@ -1,7 +1,5 @@
 """The paper's figures: what is printed against what comes out, their layout and their links."""
 
-from __future__ import annotations
-
 import pytest
 from bearing_explorer import figures
 from bearing_explorer.explorer.state.address import read

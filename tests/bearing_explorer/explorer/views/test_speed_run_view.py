@@ -1,7 +1,5 @@
 """The speed run on the page: what is drawn in is where it belongs."""
 
-from __future__ import annotations
-
 import time
 from functools import partial
 
@@ -14,11 +12,11 @@ from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep, sweep
 from bearing_explorer.explorer.views.speed_run import (
     COUNTS,
     SPEED,
+    FoundRun,
     SpeedRunSpectra,
     compute,
     levels_of,
 )
-from bearing_explorer.explorer.views.swept_view import Swept
 from bearing_explorer.kit.compute.jobs import JobState, Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -30,11 +28,11 @@ SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))
 
 
 @pytest.fixture(scope="module")
-def found() -> Swept:
-    return Swept(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), (SPEEDS,))
+def found() -> FoundRun:
+    return FoundRun(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
 
 
-def test_rows_are_speeds_and_columns_frequencies(found: Swept) -> None:
+def test_rows_are_speeds_and_columns_frequencies(found: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.found = found
     sources, ranges = view.data(Results(RIG))
@@ -42,19 +40,19 @@ def test_rows_are_speeds_and_columns_frequencies(found: Swept) -> None:
     n, m = int(packed[1]), int(packed[0])
     assert n == 3
     drawn = packed[9:].reshape(n, m)
-    np.testing.assert_allclose(drawn, levels_of(found.result, "y")[:, :m])
+    np.testing.assert_allclose(drawn, levels_of(found.run, "y")[:, :m])
     assert packed[2:6].tolist() == pytest.approx([-8.0, 16.0 * m, 15.0, 30.0])
     assert ranges["speed_run_speed"] == (15.0, 45.0)
     low, high = ranges["speed_run_level_y"]
-    loudest = np.nanmax(drawn[:, found.result.frequency[:m] >= 100.0])
+    loudest = np.nanmax(drawn[:, found.run.frequency[:m] >= 100.0])
     assert low < loudest <= high
     assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
 
 
-def test_marched_speeds_are_marked_and_told(found: Swept) -> None:
+def test_marched_speeds_are_marked_and_told(found: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.found = found
-    assert found.result.from_orbit.tolist() == [True, False, True]
+    assert found.run.from_orbit.tolist() == [True, False, True]
     results = Results(RIG)
     assert view.data(results)[0]["speed_run_marched"]["speed"].tolist() == [30.0]
     assert "At 1 of 3 speeds" in view.sentence(results)
@@ -80,10 +78,10 @@ def test_a_first_run_that_is_computed_is_not_called_missing() -> None:
 def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     job = Work()
     job.started = time.monotonic()
-    shown: list[Swept] = []
+    shown: list[FoundRun] = []
     job.show = shown.append  # type: ignore[method-assign]
     words = compute(job, RIG, sweep(SPEED, "30", "60", 49, limits_of(RIG)))
-    assert [one.sweeps[0].values.size for one in shown] == [25, 49]
+    assert [one.speeds.values.size for one in shown] == [25, 49]
     assert words.startswith("49 speeds after")
     view, editor = SpeedRunSpectra(PackedSource()), SceneEditor("fan-rig")
     with pytest.raises(ValueError, match=f"at most {COUNTS[-1]}"):

@@ -1,7 +1,5 @@
 """Results are computed once, whoever needs them, and no more bytes are kept than allowed."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator
 

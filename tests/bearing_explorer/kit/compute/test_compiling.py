@@ -1,7 +1,5 @@
 """Pages are open while kernels are compiled: what comes along is drawn, the rest comes later."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The newest inputs win, and what rests is drawn finely, unless newer inputs come."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Work in the background: progress, cancel, newest wins, and nothing left behind."""
 
-from __future__ import annotations
-
 import asyncio
 import threading
 import time

@@ -1,7 +1,5 @@
 """A map over two quantities: what it draws is what was computed, with names, units and colours."""
 
-from __future__ import annotations
-
 import math
 
 import holoviews as hv
@@ -27,14 +25,13 @@ FIELD = Field(
 )
 
 
-def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None:
+def test_a_plane_is_a_map_with_lines_across_it_and_reasons() -> None:
     plane = PlaneFigures(packed := PackedSource(), "plane", [X, Y])
     sources, ranges = plane.data(FIELD, (12.0, -110.0))
     assert packed.pack(sources, ranges).size > 6
     cells = sources["plane_cells"]["packed"][9:].reshape(2, 2, 3)
     np.testing.assert_array_equal(cells[0], FIELD.values / 1e6)
     assert cells[1, 1, 1] not in cells[1, 0]
-    assert sources["plane_counts"]["top"].sum() == 5
     assert ranges["plane_x"] == (5.0, 35.0)
     assert ranges["plane_y"] == (-250.0, -50.0)
     assert ranges["plane_colors"] == (1.0, 6.0)
@@ -43,7 +40,6 @@ def test_a_plane_is_a_map_with_lines_across_it_a_histogram_and_reasons() -> None
     assert labels == [
         ("Load, upwards Fy (N)", "(MN/m)"),
         ("Length of the defect Δφf (°)", "(MN/m)"),
-        ("kyy, mean (MN/m)", "Points"),
     ]
 
 

@@ -1,7 +1,5 @@
 """The private names of Bokeh and Panel: whether they are there, and what happens without them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import panel as pn

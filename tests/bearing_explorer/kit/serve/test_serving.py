@@ -1,7 +1,5 @@
 """Access, the messages a browser may send, and the answers it gets."""
 
-from __future__ import annotations
-
 import asyncio
 import logging
 import re

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from bearing_explorer.diagnosis.views.how_sure import extents, reliability
+from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 
 from bearingcore.diagnosis.part.probability import CALIBRATION
 from tests.benchmarks.scoreboard import CANNOT, FILE, fitted, left_out, stated, tables
@@ -49,5 +49,9 @@ def test_stated_probabilities_hold_also_without_the_machine_they_are_of() -> Non
 
 def test_the_page_counts_every_answer_and_every_extent() -> None:
     answered = [row for row in ROWS if row["verdict"] != CANNOT]
-    assert reliability()["count"].sum() == len(answered)
-    assert len(extents()["extent_deg"]) == tables(ROWS)["extents"].count("\n") - 1
+    count, right = stated(ROWS)
+    sizes = tables(ROWS)["extents"].count("\n") - 1
+    said = PartDiagnosis.about
+    assert f"Of {len(ROWS)} measured records of real machines {len(answered)} were" in said
+    assert f"of {count} answers stated with 90 % or more {right} were right" in said
+    assert f"{sizes} of {sizes} measured lengths" in said

@@ -136,24 +136,6 @@ def test_only_outer_races_can_be_told_by_hand():
         sized_by(noise, RIG, fault="inner race")
 
 
-def test_event_times_are_those_of_the_balls_in_the_recording():
-    """A signal that begins at cage angle 0: balls enter and leave as geometry says."""
-    scene = RIG.replace(extent=math.radians(38.6))
-    motion = simulate(scene, 1.2, RATE)
-    shares: list[float] = []
-    recording = Recording(motion.outer_acceleration, RATE)
-    sized = sized_by(recording, scene, fault="outer race", progress=shares.append)
-    assert shares[-1] == 1.0
-    entries, leaves = sized.event_times(sized.best)
-    cage, spacing = math.degrees(scene.cage_speed), 360.0 / 14.0
-    for times, edge in ((entries, 270.0 - 19.3), (leaves, 270.0 + 19.3)):
-        away = (cage * times - edge + 0.5 * spacing) % spacing - 0.5 * spacing
-        assert np.abs(away).max() < 0.25
-        assert np.diff(times) == pytest.approx(1.0 / sized.passes.frequency)
-        assert 0.0 <= times[0] < times[-1] <= 1.2
-        assert len(times) in (48, 49)
-
-
 @pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
     rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
@@ -169,23 +151,6 @@ def test_what_is_no_defect_s_signal_is_not_sized():
     assert not sized_by(still, rig, fault="outer race").conclusive
     moved = Recording(signal_of(rig), RATE)
     assert not sized_by(moved, elsewhere, fault="outer race").conclusive
-
-
-def test_progress_rises_and_may_end_the_work():
-    class Enough(Exception):  # noqa: N818
-        pass
-
-    shares: list[float] = []
-
-    def until_half(share: float) -> None:
-        shares.append(share)
-        if share >= 0.5:
-            raise Enough
-
-    recording = Recording(signal_of(RIG), RATE)
-    with pytest.raises(Enough):
-        sized_by(recording, RIG, progress=until_half)
-    assert shares == sorted(shares)
 
 
 @pytest.mark.parametrize(

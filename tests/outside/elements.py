@@ -67,8 +67,10 @@ class Rows:
         """(rows · count,), one row after the other."""
         return np.tile(cage + 2.0 * math.pi / self.count * np.arange(self.count), len(self.places))
 
-    def compression(self, q: Array, cage: complex | float) -> Array:
-        """δ (rows · count,) of every element, negative where there is a gap."""
+    def contacts(self, q: Array, cage: complex | float | Array) -> tuple[Array, Array]:
+        """δ (rows · count,) of every element, negative where there is a gap, and its derivative by
+        q (5, rows · count): of displacements (5, m, 1) at cage angles (m, 1), too.
+        """
         phi = self.angles(cage)
         z, s = (np.repeat(one, self.count) for one in (self.places, self.facing))
         c, n = np.cos(phi), np.sin(phi)
@@ -76,19 +78,42 @@ class Rows:
         axial = s * (q[2] + self.lever * (q[3] * n - q[4] * c)) + self.preload
         down = np.zeros(phi.shape, dtype=phi.dtype)
         if self.defect:
-            first = np.arange(phi.size) < self.count
+            first = np.arange(phi.shape[-1]) < self.count
             down = np.where(first, self.defect.drop(phi, 0.5 * self.element), 0.0)
         ca, sa = math.cos(self.angle), math.sin(self.angle)
         if math.isinf(self.apart):
-            return radial * ca + axial * sa - down
-        radial, axial = radial + (self.apart - down) * ca, axial + (self.apart - down) * sa
-        length = np.sqrt(radial**2 + axial**2) - self.apart
-        return np.where((radial * ca + axial * sa).real > 0.0, length, -1.0)
+            across, along, delta = ca, sa, radial * ca + axial * sa - down
+        else:
+            radial, axial = radial + (self.apart - down) * ca, axial + (self.apart - down) * sa
+            length = np.sqrt(radial**2 + axial**2)
+            across, along = radial / length, axial / length
+            ahead = (radial * ca + axial * sa).real > 0.0
+            delta = np.where(ahead, length - self.apart, -1.0)
+        turned = along * s * self.lever - across * z
+        return delta, np.stack(
+            [across * c, across * n, along * s + 0.0 * c, turned * n, -turned * c]
+        )
 
-    def load(self, q: Array, cage: complex | float) -> Array:
-        delta = self.compression(q, cage)
+    def compression(self, q: Array, cage: complex | float | Array) -> Array:
+        """δ (rows · count,) of every element, negative where there is a gap."""
+        return self.contacts(q, cage)[0]
+
+    def load(self, q: Array, cage: complex | float | Array) -> Array:
+        return self.pressed(self.compression(q, cage))
+
+    def pressed(self, delta: Array) -> Array:
         pressed = np.where(delta.real > 0.0, delta, 0.0)
         return np.where(delta.real > 0.0, self.law[0] * pressed ** self.law[1], 0.0)
+
+    def pushes(self, q: Array, cage: Array) -> Array:
+        """Force of all elements (5, m) at displacements (5, m) and cage angles (m,)."""
+        delta, directions = self.contacts(q[:, :, None], cage[:, None])
+        return (directions * self.pressed(delta)).sum(axis=-1)
+
+    def slopes(self, q: Array, cage: Array) -> Array:
+        """Stiffness (m, 5, 5): derivatives of `pushes` by complex steps."""
+        ways = [self.pushes(q + STEP * 1j * one[:, None], cage).imag for one in np.eye(5)]
+        return np.stack(ways, axis=2).swapaxes(0, 1) / STEP
 
     def directions(self, q: Array, cage: float) -> Array:
         """∂δ/∂q (5, rows · count)."""
@@ -134,6 +159,23 @@ class Rows:
         loads = [self.load(q, one) for q, one in zip(states, cage, strict=True)]
         stiffness = [self.stiffness(q, one) for q, one in zip(states, cage, strict=True)]
         return np.array(loads), np.array(stiffness)
+
+    def states(self, force: Array, cage: Array, free: list[int]) -> tuple[Array, Array, Array]:
+        """Displacement (5, m), loads (m, elements), stiffness (m, 5, 5) at all cage angles at once:
+        Newton's method from the state at the first.
+        """
+        q = np.repeat(self.rest(force, cage[0], free)[:, None], cage.size, axis=1)
+        size = np.array([1.0, 1.0, 1.0, 1.0 / self.lever, 1.0 / self.lever]) / np.abs(force).max()
+        for _ in range(40):
+            off = force[:, None] - self.pushes(q, cage)
+            slopes = self.slopes(q, cage)
+            missing = np.abs(off * size[:, None])[free].max()
+            if missing < 1e-11:
+                break
+            inside = slopes[:, free][:, :, free]
+            q[free] += np.linalg.solve(inside, off[free].T[:, :, None])[:, :, 0].T
+        assert missing < 1e-9
+        return q, self.load(q[:, :, None], cage[:, None]), slopes
 
     def stiffness(self, q: Array, cage: float) -> Array:
         """(5, 5): ∂(loads)/∂q, by differences of what complex steps give."""

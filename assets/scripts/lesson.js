@@ -156,7 +156,15 @@ export function render({ model }) {
       settled()
       announce("predicted")
     }
-    boxes.forEach((one, index) => one.addEventListener("change", () => settle(index)))
+    boxes.forEach((one, index) => {
+      one.addEventListener("change", () => settle(index))
+      one.addEventListener("keydown", (event) => {  // an arrow goes to a choice, and does not make it
+        const by = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key]
+        if (by || event.key === "Enter") event.preventDefault()
+        if (by) boxes.at((index + by) % boxes.length).focus()
+        else if (event.key === "Enter") one.click()
+      })
+    })
     const form = element("form", { class: "prediction" }, element("h3", {}, "Your prediction"),
       element("p", { class: "asked" }, question),
       element("div", { class: "choices" },

@@ -33,8 +33,6 @@ class March:
         [Hz] of the history.
     calls
         right-hand sides evaluated.
-    status
-        COMPLETED, or what ended it before.
     failure
         empty, or the reason why the motion is not complete, in the words of the method.
     """
@@ -42,7 +40,6 @@ class March:
     history: Array
     step_rate: float
     calls: int
-    status: MotionStatus = MotionStatus.COMPLETED
     failure: str = ""
 
 
@@ -102,7 +99,7 @@ def _runge_kutta(*, velocities: bool) -> Marcher:
         if done >= n_steps:
             return March(history, step_rate, 4 * n_steps)
         why = f"diverged after {done / step_rate:.2g} s"
-        return March(history, step_rate, 4 * n_steps, MotionStatus.DIVERGED, why)
+        return March(history, step_rate, 4 * n_steps, why)
 
     return march
 
@@ -130,15 +127,12 @@ def _of_scipy(name: str) -> Marcher:
             )
         except (_TooManyCallsError, ValueError, np.linalg.LinAlgError) as error:
             history = np.full((n + 1, 6, len(problem.dofs)), math.nan)
-            gave_up = isinstance(error, _TooManyCallsError)
-            status = MotionStatus.TOO_MANY_STEPS if gave_up else MotionStatus.DIVERGED
             why = str(error) or type(error).__name__
-            return March(history, sample_rate, limited.calls, status, why)
+            return March(history, sample_rate, limited.calls, why)
         history = history_of(problem, time[: answer.y.shape[1]], answer.y.T)
         if answer.success and len(history) == n + 1:
             return March(history, sample_rate, limited.calls)
-        vanished = MotionStatus.STEP_VANISHED
-        return March(history, sample_rate, limited.calls, vanished, str(answer.message))
+        return March(history, sample_rate, limited.calls, str(answer.message))
 
     return march
 
@@ -152,7 +146,7 @@ def _of_cvode(name: str) -> Marcher:
         n = intervals(sample_rate, duration)
         time = np.arange(n + 1) / sample_rate
         limited, scale = _Limited(problem), problem.scale
-        status, why = MotionStatus.COMPLETED, ""
+        why = ""
         try:
             states = by_cvode(
                 lambda t, y: limited.rate(t, y * scale) / scale,
@@ -163,12 +157,11 @@ def _of_cvode(name: str) -> Marcher:
             )
         except _TooManyCallsError as error:
             states = np.full((1, problem.start.size), math.nan)
-            status, why = MotionStatus.TOO_MANY_STEPS, str(error)
+            why = str(error)
         history = history_of(problem, time[: len(states)], states * scale)
         if not why and len(history) < n + 1:
-            status = MotionStatus.STEP_VANISHED
-            why = f"{status} after {time[len(history) - 1]:.2g} s"
-        return March(history, sample_rate, limited.calls, status, why)
+            why = f"{MotionStatus.STEP_VANISHED} after {time[len(history) - 1]:.2g} s"
+        return March(history, sample_rate, limited.calls, why)
 
     return march
 

@@ -225,14 +225,15 @@ def _by_scipy(
     problem: StaticProblem,
     tolerance: float,
     method: str,
-    warm: bool,
+    warm: bool = False,
     starts: Array | None = None,
 ) -> Solved:
     """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
 
-    They start from the guess, `warm` from the angle before, or from `starts` (m, 5) [m].
+    "trust-exact" is `minimize` on the energy. They start from the guess, `warm` from the angle
+    before, or from `starts` (m, 5) [m].
     """
-    from scipy.optimize import least_squares, root  # imported late: slow to import
+    from scipy.optimize import least_squares, minimize, root  # imported late: slow to import
 
     one = _OneByOne(problem)
     for k in range(len(problem.angles)):
@@ -246,25 +247,17 @@ def _by_scipy(
                 gtol=tight,
             )  # fmt: skip
             one.take(k, fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8))
+        elif method == "trust-exact":
+            found = minimize(
+                one.energy, start, args=(k,), jac=True, hess=one.jacobian,
+                method="trust-exact", options={"gtol": tolerance},
+            )  # fmt: skip
+            one.take(k, found.x, found.success)
         else:
             answer = root(  # type: ignore[call-overload]
                 one.unbalanced, start, args=(k,), jac=one.jacobian, method=method, tol=tolerance
             )
             one.take(k, answer.x, answer.success)
-    return one.solutions()
-
-
-def _by_minimize(problem: StaticProblem, tolerance: float) -> Solved:
-    """`scipy.optimize.minimize` (trust-exact) on the energy, angle by angle, from the guess."""
-    from scipy.optimize import minimize  # imported late: slow to import
-
-    one = _OneByOne(problem)
-    for k in range(len(problem.angles)):
-        answer = minimize(
-            one.energy, one.guess, args=(k,), jac=True, hess=one.jacobian,
-            method="trust-exact", options={"gtol": tolerance},
-        )  # fmt: skip
-        one.take(k, answer.x, answer.success)
     return one.solutions()
 
 
@@ -292,11 +285,11 @@ OWN = "compiled energy Newton"
 SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
     OWN: (_compiled, (kernels.RESIDUAL_AIM,)),
     f"{OWN}, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
-    "scipy hybr": (partial(_by_scipy, method="hybr", warm=False), _TOLERANCES),
+    "scipy hybr": (partial(_by_scipy, method="hybr"), _TOLERANCES),
     "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _TOLERANCES),
-    "scipy lm": (partial(_by_scipy, method="lm", warm=False), _TOLERANCES),
-    "scipy trust-exact on the energy": (_by_minimize, _TOLERANCES),
-    "scipy least squares": (partial(_by_scipy, method="least_squares", warm=False), _TOLERANCES),
+    "scipy lm": (partial(_by_scipy, method="lm"), _TOLERANCES),
+    "scipy trust-exact on the energy": (partial(_by_scipy, method="trust-exact"), _TOLERANCES),
+    "scipy least squares": (partial(_by_scipy, method="least_squares"), _TOLERANCES),
 }
 """Ways to solve, by name, with the tolerances at which each is measured."""
 
@@ -329,7 +322,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     exact, seconds, _ = least_time(
         lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
     )
-    other = _by_scipy(problem, 1e-12, "hybr", warm=False)
+    other = _by_scipy(problem, 1e-12, "hybr")
     # it calls answers solved that are none
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
     alone = int((exact.solved & ~other.solved).sum())

@@ -267,7 +267,7 @@ def percent(flags: Sequence[bool]) -> float:
 
 
 def print_table(answers: Sequence[Answer]) -> None:
-    """Each kind of signal, then what probabilities and deviations are worth."""
+    """Each kind of signal, and all together."""
     rows = {}
     for kind in [*dict.fromkeys(a.kind for a in answers), "all"]:
         group = [a for a in answers if kind in (a.kind, "all")]
@@ -283,22 +283,6 @@ def print_table(answers: Sequence[Answer]) -> None:
             "nine of ten": round(float(np.quantile(errors, 0.9)), 2),
         }
     print(pd.DataFrame.from_dict(rows, orient="index").to_string())
-    frame = pd.DataFrame({
-        "stated %": [100.0 * a.probability for a in answers],
-        "right k %": [100.0 * a.right_turns for a in answers],
-    })  # fmt: skip
-    classes = pd.cut(frame["stated %"], [0.0, 50.0, 70.0, 90.0, 99.0, 99.9, 100.1], right=False)
-    groups = frame.groupby(classes.rename("probability of the answer, %"), observed=True)
-    if classes.notna().any():
-        print(f"\n{groups.mean().round(2).assign(signals=groups.size()).to_string()}\n")
-    ratio = [
-        (a.extent - a.truth) / a.uncertainty for a in answers if a.conclusive and a.right_turns
-    ]
-    if len(ratio) > 1:
-        print(f"error over stated deviation, of those sized: spread {np.std(ratio):.2f}, median "
-              f"size {np.median(np.abs(ratio)):.2f} (a normal law: 1, 0.67)")  # fmt: skip
-    alone = [a.truth < math.degrees(SPACING) for a in answers]
-    print(f"right k from the time between entry and exit alone: {percent(alone)} %")
 
 
 def main() -> int:

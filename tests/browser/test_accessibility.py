@@ -160,6 +160,12 @@ def test_a_phone_has_room_for_figures_and_lessons(page: Page, explorer: Server) 
     main = page.locator("main").bounding_box()
     assert main is not None
     assert main["height"] > 380  # the figures have the larger part
+    controls = page.locator("#controls")
+    expect(controls).to_be_visible()
+    show(page, "accuracy")  # where the scene matters little it waits behind a button
+    expect(controls).to_be_hidden()
+    page.get_by_role("button", name="Scene", exact=True).click()
+    expect(controls).to_be_visible()
     page.get_by_role("button", name="Lessons").click()
     expect(page.locator(".lesson h2")).to_be_visible()
     settle(page)

@@ -15,8 +15,9 @@ from bearingcore.dynamics.ball_motion import (
     heaviest_load,
 )
 from bearingcore.dynamics.damping import packed_motion
+from bearingcore.kernels.balls.motion import lay_out, new_ball_steps, rates
+from bearingcore.kernels.compiling import compiled
 from bearingcore.scene import packing
-from tests.helpers.ball_rates import ball_motion_rates
 from tests.helpers.contact_law import TwoContacts
 
 RATE = 65536.0
@@ -65,6 +66,22 @@ def test_ever_lighter_balls_move_as_massless_ones() -> None:
     assert order == pytest.approx([1.0, 1.0], abs=0.15)
 
 
+def ball_motion_rates(times, states, start_angle, system):
+    """dy/dt (m, size) at times (m,) [s] and states (m, size) of a system in VELOCITIES."""
+    work = new_ball_steps(states.shape[1], 1, system.contacts.angle)
+    found = np.zeros(states.shape)
+    fill_rates(start_angle + system.rotor.cage_speed * times, states, system, found, work)
+    return found
+
+
+@compiled
+def fill_rates(angles, states, system, found, work):
+    """Body of `ball_motion_rates`."""
+    for i in range(angles.size):
+        lay_out(angles[i], 0.0, 1, system, work)
+        rates(states[i], 0.0, found[i], found[i], 0, system, work)
+
+
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL, presets["liew-lim"]], ids=lambda s: s.dofs)
 def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
     """At speed 0 nothing accelerates in the static state, balls' weight and all directions on."""
@@ -72,11 +89,11 @@ def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
     start = ball_start(packed_motion(scene), equilibrium(scene, [0.0]), 2)
     assert start is not None
     system = ball_system(packed_motion(scene), velocities=True)
-    rates = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
+    found = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
     rings = 4 * len(scene.active_dofs)
     force = np.linalg.norm(scene.load.vector[:3])
-    assert np.abs(rates[:rings]).max() < 1e-9 * force
-    assert np.abs(rates[rings:]).max() * scene.bearing.ball_mass < 1e-9 * force
+    assert np.abs(found[:rings]).max() < 1e-9 * force
+    assert np.abs(found[rings:]).max() * scene.bearing.ball_mass < 1e-9 * force
 
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])

@@ -70,6 +70,8 @@ def test_each_row_is_the_equilibrium_of_its_extent(name: str) -> None:
         found = maps.stiffness[:, i]
         np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
         if row.converged.any():
+            mean = row.loaded_balls[row.converged].mean()
+            assert maps.mean_loaded_balls[i] == pytest.approx(mean)
             diagonal = np.nanmax([row.term(f"k_{dof}{dof}") for dof in DOF_NAMES], axis=1)
             error = np.abs(found - expected) / np.sqrt(np.outer(diagonal, diagonal))[UPPER][:, None]
             # two balls that hold a ring of five directions leave all but one of them soft

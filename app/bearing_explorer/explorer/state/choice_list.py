@@ -201,7 +201,7 @@ LAW = Choice(
     (
         Option(
             "published",
-            "As in the paper (contacts can pull: not physical)",
+            "As in the paper (can pull: not physical)",
             "Viscous damping in every loaded contact (Eq. 18). As a ball leaves, it can pull.",
         ),
         Option(

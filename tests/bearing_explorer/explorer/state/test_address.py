@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 from bearing_explorer.explorer.state.address import (
-    FORMER_TABS,
     LONGEST_LINK,
+    OTHER_NAMES_OF_TABS,
     Place,
     leaves_out,
     opened,
@@ -183,7 +183,7 @@ def test_links_of_earlier_days_open(link: dict) -> None:
     same(editor.scene.to_data(), kept)
 
 
-@pytest.mark.parametrize(("former", "now"), FORMER_TABS.items())
+@pytest.mark.parametrize(("former", "now"), OTHER_NAMES_OF_TABS.items())
 def test_a_former_name_of_a_tab_leads_to_where_its_views_are(former: str, now: str) -> None:
     assert read(f"v=1&preset=fan-rig&tab={former}").tab == now
     assert now in dict(TABS)

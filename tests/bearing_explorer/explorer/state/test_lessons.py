@@ -50,7 +50,7 @@ from bearingcore import (
 )
 from bearingcore.diagnosis import SLIP
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.experiments import motion_experiment
+from bearingcore.experiments.motions import motion_experiment
 from tests.helpers.contact_law import Balls, newton
 from tests.helpers.sessions import SceneSession
 

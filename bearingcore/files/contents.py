@@ -26,7 +26,7 @@ from bearingcore.files.channels import (
     names_a_frequency,
 )
 from bearingcore.files.collections import Known, recognize
-from bearingcore.files.facts import Finding, Named
+from bearingcore.files.facts import STEADY, Finding, Named
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
@@ -37,9 +37,6 @@ USUAL_LEVEL = 5.0
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
-
-STEADY = 0.02
-"""Relative range of numbers that count as one."""
 
 GRAVITY_SHARE = 0.1
 """Relative difference to gravity up to which a mean is taken for it."""

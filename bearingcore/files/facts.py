@@ -74,6 +74,9 @@ class Named:
     unit: str | None = None
 
 
+STEADY = 0.02
+"""Relative range of numbers, such as a speed, that count as one."""
+
 MOST_REMARKS = 100
 
 _NUMBER = r"[-+]?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"

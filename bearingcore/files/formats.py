@@ -21,12 +21,10 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
+from bearingcore.files.facts import STEADY
 from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
-
-STEADY = 0.02
-"""Relative range of a few numbers, such as a speed, that count as one."""
 
 DEEPEST = 8
 """Structs, cells and groups inside one another."""

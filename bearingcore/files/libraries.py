@@ -29,7 +29,9 @@ MOST_UNPACKED = 2**28
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
 
-_DOCUMENT = re.compile(r"(?i)(^|/)(readme|licen[cs]e)[^/]*$|\.(md|pdf|docx?|html?|png|jpe?g)$")
+_DOCUMENT = re.compile(
+    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$|\.(md|pdf|docx?|html?|png|jpe?g)$"
+)
 """Files that come with the signals in a zip."""
 
 _TIME_RESPONSE = (0, 1)

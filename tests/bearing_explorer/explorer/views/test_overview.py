@@ -70,8 +70,10 @@ def test_a_change_of_bearing_is_one_cause_and_names_the_rotor_that_came_with_it(
         scenes.append(editor.scene)
         said = told(*reversed(scenes[-2:]))
         assert said.startswith("Another bearing: ")
-        masses = [f"{scene.support.inner_mass:.3g} kg" for scene in reversed(scenes[-2:])]
-        assert f"(frequencies go with √(k/m): the rotor is {' instead of '.join(masses)})" in said
+        assert "(frequencies go with √(k/m): the rotor is " in said
+        for part, mass in (("rotor", "inner_mass"), ("housing", "outer_mass")):
+            now, before = (f"{getattr(scene.support, mass):.3g} kg" for scene in scenes[:-3:-1])
+            assert f"the {part} is {now} instead of {before}" in said
     heavier = told(FAN_RIG.replace(inner_mass=9.0), FAN_RIG)
     assert heavier.startswith("Mass of the rotor")
     assert "instead of" not in heavier, "it is named once"

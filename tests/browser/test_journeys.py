@@ -91,7 +91,7 @@ TABS = {
     "Machine: Bearing": (1, 0, _outer_race, None),
     "Machine: Rotor and support": (2, 0, None, None),
     "Machine: Life": (1, 0, None, None),
-    "Diagnosis": (2, 0, lambda _: "No signal yet", None),
+    "Diagnosis": (1, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 1, None, None),
     "More: Explore": (1, 3, None, "Depth"),
     "More: Over speed": (2, 2, None, "Length of the defect"),

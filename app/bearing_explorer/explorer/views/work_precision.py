@@ -313,7 +313,8 @@ def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str
     slopes = {m: one.order(m, error) for m in one.methods if m in METHODS and METHODS[m].order}
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
-        parts.append(f"Order of convergence: {words}; 4 in theory while no force jumps")
+        theory = "4 in theory for smooth forces, 2 with kinks, 1 with jumps"
+        parts.append(f"Order of convergence: {words}; {theory}")
         if min(known.values()) < UNORDERED:
             parts.append(
                 "Below 1 the errors are at their floor, or a force jumps: shorter steps gain little"

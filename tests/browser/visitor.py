@@ -169,7 +169,7 @@ class Visitor:
     def look_over(self) -> None:
         """Scroll past all figures and back: those out of sight are painted last."""
         for canvas in self.main.locator("canvas:not(.bk-glyph)").locator("visible=true").all():
-            canvas.scroll_into_view_if_needed()
+            canvas.evaluate("one => one.scrollIntoView({block: 'nearest'})")
             self.page.wait_for_function(
                 "new Promise((done) => requestAnimationFrame(() => done(1)))"
             )

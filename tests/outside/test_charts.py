@@ -18,21 +18,9 @@ from tests.outside.witness import witness
 
 RATE = 65_536.0
 
-TO_BE_MADE_ANEW = ("3208", "7208-face-to-face")
-"""Charts measured before the levers of pairs were mended, off by up to 7 %; they wait for a quiet
-machine: `python -m tests.benchmarks.charts --ship --preset 3208 7208-face-to-face nu208`."""
-
-OF_ANOTHER_DAY = "nu208"
-"""Its chart of statics has errors of stiffness over terms that are zero (233.4 for 0.0080, 1.339):
-once it is made anew this goes."""
-
 every_preset = pytest.mark.parametrize(
     "preset",
-    [
-        pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig"))
-        for name in presets
-        if name not in TO_BE_MADE_ANEW
-    ],
+    [pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig")) for name in presets],
 )
 """One of them in the quick tests."""
 
@@ -114,7 +102,7 @@ def test_the_march_meets_the_stored_reference() -> None:
 @witness(
     "chart: motion",
     by="classical Runge-Kutta against SciPy's DOP853, both on equations written out in `march.py`",
-    compared="three points of 15 presets' charts: RK4 in velocities from 65,536 Hz on, L2 error",
+    compared="three points of 17 presets' charts: RK4 in velocities from 65,536 Hz on, L2 error",
     within=2e-3,
 )  # fmt: skip
 @every_preset
@@ -138,7 +126,7 @@ def test_points_of_the_motion_charts(preset: str) -> None:
 @witness(
     "chart: stability",
     by="the polynomial of RK4 at the eigenvalues of K, M and C of `elements.py`; RK4 of `march.py`",
-    compared="15 presets: highest frequency, least step rate by linear theory; RK4 in velocities "
+    compared="17 presets: highest frequency, least step rate by linear theory; RK4 in velocities "
     "diverges at the trials at which the chart says so, next to its limit",
     within=2e-3,
 )  # fmt: skip
@@ -186,7 +174,7 @@ def least_rate(values: np.ndarray) -> float:
 @witness(
     "chart: statics", "function: equilibrium",
     by="SciPy's solvers on the forces of `elements.py`, against Newton's method on them",
-    compared="15 presets: errors of hybr and least squares at three tolerances from 1e-2 on; loads "
+    compared="17 presets: errors of hybr and least squares at three tolerances from 1e-2 on; loads "
     "and stiffness of `equilibrium` at the chart's 31 angles to what it says",
     within=1e-2,
 )  # fmt: skip
@@ -245,8 +233,6 @@ def test_points_of_the_statics_charts(preset: str) -> None:
         slopes = rows.slopes(q, cage) / np.outer(units, units)
         found = errors(rows.load(q[:, :, None], cage[:, None]), slopes)
         for name, error in points.get((method, tolerance), {}).items():
-            if preset == OF_ANOTHER_DAY and name == "stiffness":
-                continue
             assert error == pytest.approx(found[name], rel=1e-2, abs=1e-9), (method, tolerance)
 
 
@@ -276,7 +262,7 @@ def test_orders_of_convergence_of_the_motion_charts(preset: str) -> None:
 @witness(
     "edge: exact", "edge: chord", "edge: published",
     by="SciPy's DOP853 on the equations of `march.py` with three edge models, 0.2 s from rest",
-    compared="levels of the housing's vibration with each edge model, 15 presets [dB]",
+    compared="levels of the housing's vibration with each edge model, 17 presets [dB]",
     within="0.05 dB",
 )  # fmt: skip
 @every_preset
@@ -291,7 +277,7 @@ def test_levels_of_edge_models(preset: str) -> None:
 @witness(
     "chart: orbits", "function: orbit", "output: floquet_multiplier_greatest",
     by="differences of one ball pass by SciPy's DOP853, Newton's method on its closing",
-    compared="largest multiplier at the highest stable speeds of 15 presets' charts",
+    compared="largest multiplier at the highest stable speeds of 17 presets' charts",
     within=1e-3,
 )  # fmt: skip
 @every_preset

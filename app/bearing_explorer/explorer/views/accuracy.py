@@ -255,7 +255,11 @@ class Accuracy(SceneJobView[Found]):
             if part is not None and not self._same:
                 pale = None  # of another scene
             chart.draw(part, pale, cost, steps, reasons.get(one.experiment, ""))
-        self._stability.draw(own, base, results.scene.shaft_speed)
+        speed, of = results.scene.shaft_speed, presets[preset]
+        if own is not None and own.orbits and self.found is not None:
+            of = self.found.scene
+        is_own = of.replace(shaft_speed=speed) == results.scene
+        self._stability.draw(own, base, speed if is_own else math.nan)
         self._foot.object = foot(own, base, self._shown(results))
 
 
@@ -336,7 +340,10 @@ class Stability:
         return plot
 
     def draw(self, own: Measurements | None, base: Measurements | None, speed: float) -> None:
-        """Show what was measured on this machine, or else what is shipped; speed [rad/s]."""
+        """Show what was measured on this machine, or else what is shipped.
+
+        `speed` [rad/s] of the shaft; NaN where what is drawn is of another scene.
+        """
         known = [found for found in (own, base) if found is not None]
         chart = next((found.stability for found in known if found.stability is not None), None)
         orbits = next((found.orbits for found in known if found.orbits), ())
@@ -367,7 +374,7 @@ class Stability:
 
     def _draw_orbits(self, orbits: tuple[OrbitAtSpeed, ...], speed: float) -> None:
         found = [one for one in orbits if one.multipliers]
-        self._now.location = speed / (2.0 * math.pi)
+        self._now.update(location=speed / (2.0 * math.pi), visible=math.isfinite(speed))
         losses = list(LOSS_COLORS)
         speeds = [one.shaft_speed / (2.0 * math.pi) for one in found]
         self._path.data = path = {"x": speeds, "y": [one.size for one in found]}

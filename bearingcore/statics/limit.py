@@ -65,6 +65,8 @@ def summary(found: Sequence[Limit]) -> str:
     open_ones = [one.sentence for one in found if math.isnan(one.value)]
     if not open_ones:
         return words
+    if len(open_ones) == len(found):
+        words = "No limit judged"
     causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
     known = all(any(why in one for why in causes) for one in open_ones)
     because = f": {', '.join(causes.values())}" if known else ""

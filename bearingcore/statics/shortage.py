@@ -95,9 +95,7 @@ def _thrust(scene: Scene, radial: float, thrust: float) -> str:
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:
-        words = (
-            f"more axial load: {with_prefix(thrust, 'N')} let the inner ring leave the outer one"
-        )
+        words = f"more axial load: with {with_prefix(thrust, 'N')} the inner ring leaves the outer"
     if radial == 0.0 or len(scene.bearing.all_rows) > 1:
         return words
     least = with_prefix(radial * math.tan(scene.bearing.contact_angle), "N")

@@ -49,7 +49,7 @@ LEVEL = ("x", "y", "z")
 OUT = {
     "free in all directions": (-4000.0, 4000.0, TILT_FREE, "tilts that are held"),
     "pressed out of its cup": (0.0, -500.0, TILT_FREE, "500 N press the inner ring out"),
-    "less thrust than F_r tan α": (-4000.0, 500.0, LEVEL, "more axial load: 500 N let the inner"),
+    "less thrust than F_r tan α": (-4000.0, 500.0, LEVEL, "more axial load: with 500 N the inner"),
     "both": (-4000.0, 500.0, TILT_FREE, "tilts that are held, and more axial load"),
 }
 """Loads that no lone cone carries: fy, fz [N], free directions, what is said to be missing."""

@@ -223,6 +223,7 @@ def test_limits_in_a_line_say_what_is_unchecked_and_why() -> None:
 
     assert summary([one(0.5)]) == "No limit exceeded"
     assert summary([one(2.0), one(0.5)]) == "1 limit exceeded"
+    assert summary([one(0.0, "nothing is carried")]) == "No limit judged (1 unchecked)"
     assert summary([one(0.5), one(0.0, NO_DRAWING), one(0.0, f"{NO_DRAWING}; so")]) == (
         "No limit exceeded (2 unchecked: groove radii unknown)"
     )

@@ -325,9 +325,10 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         resolved = rate >= SEPARATE * most.resolution and halves > 0
         if resolved and abs(most.frequency - 0.5 * halves * rate) <= most.resolution:
             hertz = style.with_prefix(rate, "Hz")
-            times = f"{style.number(0.5 * halves)} times {hertz}, as often as balls pass"
+            times = hertz if halves == 2 else f"{style.number(0.5 * halves)} times {hertz}"
+            within = f"within the {most.resolution:.0f} Hz between lines, as often as balls pass"
             why = "" if halves % 2 == 0 else ": the motion repeats only every second pass"
-            return f"{text} lies in no band of {dof}. It is {times}{why}."
+            return f"{text} lies in no band of {dof}. It is {times} {within}{why}."
     if inside:
         words = _lies(most, inside[0], bands)
         return f"{text} {words}: along {dof} the housing takes part in that swing."

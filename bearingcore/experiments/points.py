@@ -200,8 +200,17 @@ class Experiment:
         """Unit of an error: "dB", or "1" for a ratio."""
         return "dB" if "[dB]" in self.errors[error] else "1"
 
+    @staticmethod
+    def _unbounded(point: Point) -> str:
+        """End of the status where an error is infinite."""
+        endless = not point.failed and math.inf in point.errors.values()
+        return "; without vibration, so no error in dB" if endless else ""
+
     def table(self) -> ResultTable:
-        """A row a point: method, setting, errors, cost and status."""
+        """A row a point: method, setting, errors, cost and status.
+
+        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
+        """
         points = self.points
         return table_of(
             ("method", "", [p.method for p in points]),
@@ -210,19 +219,23 @@ class Experiment:
                 (
                     re.sub(r"\W+", "_", name).lower() + "_error",
                     self.unit(name),
-                    [p.errors.get(name, nan) for p in points],
+                    [_finite(p.errors.get(name, nan)) for p in points],
                     meaning,
                 )
                 for name, meaning in self.errors.items()
             ),
             ("time", "s", [p.seconds for p in points]),
             ("evaluations", "", [p.evaluations for p in points], self.evaluations),
-            ("status", "", [p.status for p in points]),
+            ("status", "", [p.status + self._unbounded(p) for p in points]),
             ("reference", "", [p.against for p in points]),
         )
 
 
 nan = math.nan
+
+
+def _finite(value: float) -> float:
+    return value if math.isfinite(value) else nan
 
 
 @dataclass(frozen=True)

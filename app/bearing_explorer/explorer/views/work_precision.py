@@ -37,6 +37,7 @@ ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
+BEYOND = "no vibration at all, so no error in dB"
 NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
@@ -256,7 +257,7 @@ class WorkPrecision:
                         at, p.errors[self.error] if placed else top / 2.0, color,
                         marker if placed else "x", alpha, label, method, p.setting,
                         style.with_prefix(p.seconds, "s"), p.evaluations,
-                        p.status, 8 if placed else 11,
+                        p.status if p.failed or placed else BEYOND, 8 if placed else 11,
                         alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
                     ))  # fmt: skip
         self._points.data = columns_of(_POINTS, rows)
@@ -321,6 +322,8 @@ def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str
             )
     failed = {point.method: point for point in one.points if point.failed}
     parts += [", ".join(filter(None, (m, p.setting, p.status))) for m, p in failed.items()]
+    endless = [p for p in one.points if p.errors.get(error) == math.inf]
+    parts += [f"{p.method}: {BEYOND}" for p in endless]
     (reference,) = one.references.values()
     apart = reference.agreement.get(error, math.nan)
     verdict = "agree" if reference.trusted else "do not agree, so small errors mean little"

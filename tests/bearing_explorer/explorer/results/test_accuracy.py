@@ -12,6 +12,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
 from bearing_explorer.explorer.views.work_precision import (
+    BEYOND,
     NOT_YET,
     legend,
     sentence,
@@ -50,6 +51,7 @@ EXPERIMENT = Experiment(
         point("RK4", 65536.0, 1e-4, 2e-3, settings={"step_rate": 65536.0}),
         point("scipy RK45", 65536.0, 1e-1, 2e-2),
         point("scipy RK45", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
+        point("scipy LSODA", 8192.0, math.inf, 1e-3),
     ),
 )
 
@@ -59,6 +61,7 @@ def test_words_name_the_reference_and_what_failed() -> None:
     assert "LSODA and DOP853 agree, 2·10⁻⁷ dB apart" in words
     assert "Fastest within 0.1 dB: RK4, 32768 (1 ms, 0.01 dB)" in words
     assert "scipy RK45, 8192, failed: diverged" in words
+    assert f"scipy LSODA: {BEYOND}" in words
     assert "<b>" not in legend(["<b>"])
 
 

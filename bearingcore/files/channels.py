@@ -36,19 +36,12 @@ _PHRASES = (
     ("driveend", "drive end"),
     ("fanend", "fan end"),
 )
-_NOT_SIGNALS = {"rpm", "tacho", "tachometer", "temperature", "temp", "current", "torque", "speed"}
-_NOT_SIGNALS |= {"load", "index", "sample", "samples", "row", "no", "tach", "pulse", "pulses"}
-_NOT_SIGNALS |= {"keyphasor", "keyphaser", "trigger", "encoder", "microphone", "mic", "temperatur"}
-_NOT_SIGNALS |= {
-    "drehzahl",
-    "strom",
-    "drehmoment",
-    "druck",
-    "pressure",
-    "power",
-    "humidity",
-    "flow",
-}
+_NOT_SIGNALS = {
+    "rpm", "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
+    "pulses", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
+    "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
+    "load", "index", "sample", "samples", "row", "no",
+}  # fmt: skip
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
     "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
@@ -131,11 +124,11 @@ def column_of(name: str) -> Column:
 def names_a_frequency(name: str) -> bool:
     """Whether a heading is that of frequencies, and not of those of a shaft."""
     words = words_of(name)
-    return bool(words & _FREQUENCIES) and not words & _TURNS
+    return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
 
 
-_FREQUENCIES = {"f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz"}
-_TURNS = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
+_OF_A_FREQUENCY = {"f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz"}
+_OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
 
 
 def place_in(name: str) -> str:

@@ -26,7 +26,7 @@ from bearingcore.files.channels import (
     names_a_frequency,
 )
 from bearingcore.files.collections import Known, recognize
-from bearingcore.files.facts import STEADY, Finding, Named
+from bearingcore.files.facts import Finding, Named, is_steady
 from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
@@ -419,7 +419,7 @@ def _speed(
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
             if mean > 0.0:
-                steady = float(np.ptp(speeds)) <= STEADY * mean
+                steady = is_steady(speeds)
                 words = f"the column “{column.name}”" + (
                     ""
                     if steady
@@ -434,7 +434,7 @@ def _constants(table: FileColumns) -> list[Named]:
     made = []
     for name, column in zip(table.names, table.columns.T, strict=True):
         values = column[np.isfinite(column)]
-        if values.size and 0.0 <= np.ptp(values) <= STEADY * values.mean():
+        if is_steady(values):
             made.append(Named(name, float(values.mean()), column_of(name).unit))
     return made
 

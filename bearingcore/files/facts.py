@@ -13,15 +13,18 @@ from dataclasses import dataclass
 from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bearingcore.files.units import (
     FORCES,
     SPEEDS,
-    STANDARD_GRAVITY,
     TIMES,
     VOLTAGES,
     unit_in,
     unit_named,
 )
+from bearingcore.units import STANDARD_GRAVITY
 
 T = TypeVar("T")
 
@@ -74,8 +77,13 @@ class Named:
     unit: str | None = None
 
 
-STEADY = 0.02
-"""Relative range of numbers, such as a speed, that count as one."""
+_STEADY = 0.02
+
+
+def is_steady(values: NDArray[np.float64]) -> bool:
+    """Whether numbers, such as those of a speed, vary so little that they count as one."""
+    return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
+
 
 MOST_REMARKS = 100
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
-from bearingcore.files.facts import STEADY
+from bearingcore.files.facts import is_steady
 from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
@@ -224,7 +224,7 @@ class Variables:
                 for name, value in scalars.items()
                 if not name.startswith(f"{variable}.")
             }
-            if np.ptp(part) <= STEADY * part.mean() and len(scalars) < MOST_SCALARS:
+            if is_steady(part) and len(scalars) < MOST_SCALARS:
                 scalars[variable] = float(part.mean())
             elif len(self.texts) < MOST_SCALARS:
                 self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"

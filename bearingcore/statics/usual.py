@@ -8,7 +8,7 @@ import math
 from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
-from bearingcore.scene.presets import FAN_RIG_SUPPORT
+from bearingcore.scene.presets import presets
 from bearingcore.scene.scene import Scene
 from bearingcore.scene.support import Support
 from bearingcore.statics.life import dynamic_load_rating
@@ -71,22 +71,19 @@ def scene_of(bearing: BearingLike) -> Scene:
     return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))
 
 
-RIG_DIAMETER = 0.045
-"""[m] pitch diameter of the fan rig's bearing."""
-
-
 def _rounded(value: float) -> float:
     return float(f"{value:.3g}")
 
 
 def _carrying(load: float, pitch_diameter: float) -> Support:
     """The fan rig's support with rings that weigh a load [N], for a bearing of this size [m]."""
-    length, mass = pitch_diameter / RIG_DIAMETER, _rounded(load / STANDARD_GRAVITY)
-    heavier = mass / FAN_RIG_SUPPORT.inner_mass
-    factors = {"mass": heavier, "stiffness": length, "damping": math.sqrt(heavier * length)}
-    factors["inertia"] = heavier
+    rig = presets["fan-rig"]
+    length = pitch_diameter / rig.bearing.pitch_diameter
+    heavier = _rounded(load / STANDARD_GRAVITY) / rig.support.inner_mass
+    damping = math.sqrt(heavier * length)
+    factors = {"mass": heavier, "inertia": heavier, "stiffness": length, "damping": damping}
     made = {}
-    for name, value in dataclasses.asdict(FAN_RIG_SUPPORT).items():
+    for name, value in dataclasses.asdict(rig.support).items():
         tilts = "inertia" in name or name.endswith(("_rx", "_ry"))
         factor = next(factor for part, factor in factors.items() if part in name)
         made[name] = value * factor * (length**2 if tilts else 1.0)

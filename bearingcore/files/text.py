@@ -245,9 +245,7 @@ class _Style:
             text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
         if not self.decimal_comma:
             return text
-        if re.search(
-            r"\.\d{3},\d", text
-        ):  # 1.234,5: wherever it is, such a point is no decimal one
+        if re.search(r"\.\d{3},\d", text):  # 1.234,5: no such point is a decimal one, anywhere
             text = re.sub(r"(?<=\d)\.(?=\d{3}(?!\d))", "", text)
         return text.replace(",", "" if re.search(r",\d{3}\.\d", text) else ".")
 
@@ -273,21 +271,8 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 
 
 MISSING = {
-    "",
-    "na",
-    "n/a",
-    "#n/a",
-    "null",
-    "none",
-    "-",
-    "--",
-    "---",
-    "...",
-    "<na>",
-    "nat",
-    "?",
-    "*",
-}
+    "", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "...", "<na>", "nat", "?", "*",
+}  # fmt: skip
 """Cells that hold no number, in lower case, apart from "nan" itself."""
 
 
@@ -628,9 +613,8 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
         return None
     for index in style.words:
         words = frame[index]
-        if (
-            words != words.shift()
-        ).mean() > MOST_CHANGES and 1 < words.nunique() <= MOST_SIGNALS_MIXED:
+        changes = float((words != words.shift()).mean())
+        if changes > MOST_CHANGES and 1 < words.nunique() <= MOST_SIGNALS_MIXED:
             raise checks.refuse(
                 f"column {index + 1}",
                 f"words that change from row to row ({', '.join(map(str, words.unique()[:4]))})",

@@ -59,8 +59,9 @@ _SENTENCES = {
     SweepStatus.SCENE_REFUSED: "such a scene is not possible",
     SweepStatus.COMPUTATION_REFUSED: (
         "this cannot be computed here: the shaft must turn, mass, stiffness and damping be known "
-        "in each direction that moves, for life and pressure the groove radii, and balls be "
-        "massless for orbits"
+        "in each direction that moves, for life and pressure the groove radii, for life a rating, "
+        "which hybrid and self-aligning bearings have from the catalogue, and balls be massless "
+        "for orbits"
     ),
     SweepStatus.NO_STATIC_START: "there is no static state to start from",
     SweepStatus.MOTION_DIVERGED: "the motion does not stay finite",

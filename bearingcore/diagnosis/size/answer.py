@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
-from bearingcore.diagnosis.size.pass_quality import PassQuality
+from bearingcore.diagnosis.size.matching import PassQuality
 from bearingcore.diagnosis.size.synthesis import Band
 from bearingcore.errors import Status
 from bearingcore.scene.scene import Scene

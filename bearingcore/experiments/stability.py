@@ -31,8 +31,6 @@ from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.signals.spectrum_difference import BAND
 from bearingcore.statics.positions import over_all_positions
 
-Array = NDArray[np.float64]
-
 LOST, WRONG, DIVERGED = "amplitude lost", "wrong", "diverged"
 VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
 """`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import scientific
 from bearingcore.experiments.points import (
     NOT_WATCHED,
@@ -32,8 +33,6 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 from bearingcore.statics.passes import drops_at, path_kinks
-
-Array = NDArray[np.float64]
 
 STATIC_ERRORS = {
     "stiffness": "greatest error of a stiffness term over the size of the term, or of its "

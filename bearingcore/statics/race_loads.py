@@ -48,17 +48,15 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.laminae import carried, strips
 from bearingcore.statics.status import StaticStatus
-
-Array = NDArray[np.float64]
 
 PANELS, PANELS_ON_AN_EDGE = 16, 6
 """Panels in a ball spacing, and between an edge and where a ball meets the floor: somewhere in

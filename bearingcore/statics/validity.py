@@ -47,6 +47,7 @@ from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import WITH_MASS, Scene
@@ -275,12 +276,7 @@ def _worst(found: Iterable[Limit]) -> Limit:
     return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
-def _shoulder_of(
-    bearing: Bearing,
-    loads: NDArray[np.float64],
-    angles: NDArray[np.float64],
-    height: float | None,
-) -> Limit:
+def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | None) -> Limit:
     """Contact angle of loaded balls, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
@@ -346,7 +342,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     return upper_limit(name, share, limit, "", fact, beyond, within)
 
 
-def _median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:
+def _median(values: Array, weights: Array) -> float:
     """Median of numbers (n,) with weights (n,); NaN of none."""
     if not values.size:
         return math.nan

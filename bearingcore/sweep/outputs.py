@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
@@ -48,8 +49,6 @@ from bearingcore.sweep.status import (
     STATUSES,
     SweepStatus,
 )
-
-Array = NDArray[np.float64]
 
 STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
 RECORD = "record"

@@ -20,15 +20,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.diagnosis.part.listened_signal import MOST_DROPPED
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.filter_bank import Band, split, squared_envelopes
 from bearingcore.signals.recording import Recording
-
-Array = NDArray[np.float64]
 
 HARMONICS = 100
 """Of the ball-pass frequency that a mean pass keeps: a hundredth of a ball pass is resolved."""

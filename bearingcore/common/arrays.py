@@ -13,3 +13,12 @@ def runs(which: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """First index of each run that is true, and the one after its last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]]).astype(np.int8)))
     return edges[::2], edges[1::2]
+
+
+def weighted_quantile(values: Array, weights: Array, share: float) -> float:
+    """Number below which a share of the weight of numbers (n,) lies, interpolated; NaN of none."""
+    if not values.size:
+        return np.nan
+    order = np.argsort(values)
+    reached = np.cumsum(weights[order]) - 0.5 * weights[order]
+    return float(np.interp(share * weights.sum(), reached, values[order]))

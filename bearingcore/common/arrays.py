@@ -22,3 +22,10 @@ def weighted_quantile(values: Array, weights: Array, share: float) -> float:
     order = np.argsort(values)
     reached = np.cumsum(weights[order]) - 0.5 * weights[order]
     return float(np.interp(share * weights.sum(), reached, values[order]))
+
+
+def summit(left: Array, middle: Array, right: Array) -> Array:
+    """Place of the top of a parabola through three neighbours, from the middle one: -1 to 1."""
+    bend = left - 2.0 * middle + right
+    shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, 1.0), 0.0)
+    return np.clip(shift, -1.0, 1.0)

@@ -173,7 +173,9 @@ class Motion:
         ValueError
             for balls without mass, which have no place of their own.
         """
-        place = self._with_mass()
+        place = self.ball_place
+        if place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
         full = np.zeros((len(place), 2, place.shape[2]))
         full[:, : place.shape[1]] = place
         return full
@@ -236,11 +238,6 @@ class Motion:
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
         return np.asarray(loads)
-
-    def _with_mass(self) -> Array:
-        if self.ball_place is None:
-            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
-        return self.ball_place
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""

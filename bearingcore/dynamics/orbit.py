@@ -280,7 +280,8 @@ def orbit(
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     packed = packed_motion(scene)
-    steps = _steps_in(packed, period, step_rate)
+    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
+    steps = max(math.ceil(period * rate), 8)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
         most = thousands(most_steps)
@@ -304,11 +305,6 @@ def orbit(
         if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
     return shooting.reported(found)
-
-
-def _steps_in(packed: PackedMotion, period: float, step_rate: float | None) -> int:
-    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
-    return max(math.ceil(period * rate), 8)
 
 
 def common_ball_passes(scene: Scene) -> int | None:

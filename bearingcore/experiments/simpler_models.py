@@ -159,7 +159,8 @@ class _Measure:
     def rows(self) -> Iterator[Alternative]:
         """One after the other."""
         for dofs in fewer_directions(self.scene):
-            yield self._curves_of_directions(dofs)
+            found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
+            yield self._curves(f"directions {' '.join(dofs)}", found, self.state, seconds)
         yield from (self._cage_angles(n) for n in (121, 1441))
         try:
             own, seconds = self._march(self.scene)
@@ -189,19 +190,24 @@ class _Measure:
         found = static_state(scene, default_cage_angles(scene, n))
         return found, time.thread_time() - began
 
-    def _curves_of_directions(self, dofs: tuple[str, ...]) -> Alternative:
-        found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
-        error = _curve_error(found, self.state)
-        name = f"directions {' '.join(dofs)}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds)
+    def _curves(
+        self, name: str, found: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
+    ) -> Alternative:
+        """Error over the swing that 99 % of the cage angles keep below."""
+        error = curve_errors(
+            found.cage_angles,
+            stiffness_curves(found),
+            expected.cage_angles,
+            stiffness_curves(expected),
+        )
+        greatest = float(np.quantile(error, 0.99)) if error.size else math.nan
+        return Alternative(name, CURVES, greatest, seconds, self.static_seconds, note)
 
     def _cage_angles(self, n: int) -> Alternative:
         found, seconds = self._static(self.scene, n)
         coarse, fine = sorted((self.state, found), key=lambda state: state.cage_angles.size)
-        error = _curve_error(coarse, fine)
-        name = f"{found.cage_angles.size} cage angles"
         note = f"drawn: {self.state.cage_angles.size}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds, note)
+        return self._curves(f"{found.cage_angles.size} cage angles", coarse, fine, seconds, note)
 
     # Motions
 
@@ -308,17 +314,6 @@ class _Measure:
         error = float(apart.max()) if np.isfinite(apart).all() else math.nan
         note = "no vibration at all: the rings are at rest at every cage angle"
         return Alternative("quasi-static", DISPLACEMENT, error, seconds, own_seconds, note)
-
-
-def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
-    """Error over the swing that 99 % of the cage angles keep below."""
-    error = curve_errors(
-        found.cage_angles,
-        stiffness_curves(found),
-        expected.cage_angles,
-        stiffness_curves(expected),
-    )
-    return float(np.quantile(error, 0.99)) if error.size else math.nan
 
 
 def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:

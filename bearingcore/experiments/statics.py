@@ -407,7 +407,8 @@ def statics_experiment(
     for k, (case, problem) in enumerate(problems.items()):
         report(k / len(problems))
         truths[case] = static_reference(problem)
-    _refuse_without(truths[""].known, scene)
+    if not truths[""].known.any():
+        raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
     for name in SOLVERS:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
             SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
@@ -437,12 +438,6 @@ def statics_experiment(
         watch,
         begin=0.1,
     )
-
-
-def _refuse_without(known: NDArray[np.bool_], scene: Scene) -> None:
-    """Raise ValueError where no cage angle has an equilibrium."""
-    if not known.any():
-        raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
 
 
 HARD_CASES = ("all balls just touching", "a ball at an edge", "clearance closed")

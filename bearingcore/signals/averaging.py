@@ -174,7 +174,9 @@ def average_passes(
     )
     if shaft is not None:
         signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
-    signal, sample_rate = _upsampled(signal, sample_rate, widest)
+    # with so many samples a cycle that a spline follows the signal
+    factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
+    signal, sample_rate = oversampled(signal, factor), factor * sample_rate
     # the filter rings at both ends of the signal: the passes there are left out
     n_passes = math.floor((len(signal) - 1) / sample_rate * frequency) - 2 * margin
     n = math.ceil(max(sample_rate, 4.0 * widest) / frequency)
@@ -255,12 +257,6 @@ def _coloured(mean: NDArray[np.complex128], power: Array, floor: Array) -> Array
         near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
         noise[index] = np.quantile(around[near], 0.2, axis=0)
     return np.asarray(np.minimum(np.maximum(noise, floor), power))
-
-
-def _upsampled(signal: Array, sample_rate: float, highest: float) -> tuple[Array, float]:
-    """The signal with so many samples a cycle that a spline follows it."""
-    factor = max(math.ceil(SAMPLES_A_CYCLE * highest / sample_rate), 1)
-    return oversampled(signal, factor), factor * sample_rate
 
 
 def _noise_density(signal: Array, sample_rate: float, lowest: float) -> Array:

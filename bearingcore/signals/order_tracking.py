@@ -18,7 +18,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common.arrays import Array
+from bearingcore.common.arrays import Array, summit
 
 NEIGHBOURS = 3.0
 """Pairs of passes over which their delay is smoothed (standard deviation of a Gaussian)."""
@@ -136,10 +136,8 @@ def _greatest(cross: NDArray[np.complex128], lag: Array) -> Array:
     likeness = (cross @ np.exp(1j * np.outer(order, lag))).real
     best = np.clip(likeness.argmax(axis=1), 1, len(lag) - 2)
     row = np.arange(len(cross))
-    left, middle, right = (likeness[row, best + k] for k in (-1, 0, 1))
-    bend = left - 2.0 * middle + right
-    shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, -1.0), 0.0)
-    return np.asarray(lag[best] + np.clip(shift, -1.0, 1.0) * (lag[1] - lag[0]))
+    shift = summit(*(likeness[row, best + k] for k in (-1, 0, 1)))
+    return np.asarray(lag[best] + shift * (lag[1] - lag[0]))
 
 
 def _smoothed(values: NDArray[np.complex128], width: float) -> NDArray[np.complex128]:

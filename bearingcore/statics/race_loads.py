@@ -43,7 +43,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from itertools import product
 from typing import NamedTuple
 
@@ -227,16 +226,11 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
             corners += np.arange(at, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
-    x, w = _gauss(POINTS)
+    x, w = np.polynomial.legendre.leggauss(POINTS)
     half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])
     places = middle[:, None] + half[:, None] * x
     weights = half[:, None] * w / period
     return places.ravel(), weights.ravel()
-
-
-@lru_cache(maxsize=8)
-def _gauss(n: int) -> tuple[Array, Array]:
-    return np.polynomial.legendre.leggauss(n)
 
 
 def _corners(defect: Defect, bearing: Bearing) -> list[float]:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.fft import irfft
 from numpy.typing import NDArray
 
-from bearingcore.common.arrays import Array
+from bearingcore.common.arrays import Array, summit
 from bearingcore.diagnosis.size.synthesis import Band
 from bearingcore.signals.averaging import BallPasses
 
@@ -182,10 +182,8 @@ class Target:
         padded[:, self.order] = cross.conj()
         likeness = irfft(padded, phases, axis=1)
         row, best = np.arange(len(cross)), likeness.argmax(axis=1)
-        left, middle, right = (likeness[row, (best + k) % phases] for k in (-1, 0, 1))
-        bend = left - 2.0 * middle + right
-        shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, 1.0), 0.0)
-        return np.asarray(2.0 * math.pi * (best + np.clip(shift, -1.0, 1.0)) / phases)
+        shift = summit(*(likeness[row, (best + k) % phases] for k in (-1, 0, 1)))
+        return np.asarray(2.0 * math.pi * (best + shift) / phases)
 
 
 def _smoothing(frequency: Array, band: Band) -> Array:

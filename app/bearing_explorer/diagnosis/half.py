@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from bearing_explorer.diagnosis.model import Inputs, Model
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
@@ -37,7 +37,7 @@ class DiagnosisOfSignal:
         self._scene, self._bearings = scene, bearings
         self._page: Page | None = None
 
-    kind_of_inputs = Inputs
+    kind_of_content = Model
 
     def join(self, page: Page) -> None:
         self._page = page
@@ -53,10 +53,10 @@ class DiagnosisOfSignal:
     def stop(self) -> None:
         self.measurement.stop()
 
-    def inputs(self) -> Inputs:
+    def content(self) -> Model:
         assert self._page is not None, "a half is joined to its session first"
         self.measurement.take_scene()
-        return Inputs(self._scene(), self._page.mark, at_work=self.measurement.at_work)
+        return Model(self._scene(), True, self.measurement.at_work, self._page.mark)
 
     # What the page connects with the scene's half
 

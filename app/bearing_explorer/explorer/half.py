@@ -6,9 +6,9 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from bearing_explorer.explorer.inputs import Inputs
 from bearing_explorer.explorer.requests import ForReport, Requests
 from bearing_explorer.explorer.results.endurance import LifeInputs
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.bookmarks import Bookmarks
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, Values
 from bearing_explorer.explorer.state.last_state import LastState
@@ -63,7 +63,7 @@ class Explorer:
         assert self._page is not None, "a half is joined to its session first"
         return self._page
 
-    kind_of_inputs = Inputs
+    kind_of_content = Results
 
     def join(self, page: Page) -> None:
         self._page = page
@@ -104,18 +104,19 @@ class Explorer:
         """The numbers of the controls."""
         return self.editor.values
 
-    def inputs(self) -> Inputs:
+    def content(self) -> Results:
         before = self._last_state.before
-        return Inputs(
+        return Results(
             self.scene,
             math.radians(self.values[CAGE_ANGLE]),
-            self.requests.mark,
-            self.editor.focus,
             self._settings,
+            self.editor.focus,
+            moving=True,
             compared=self.bookmarks.compared,
             before=None if before is None else Reference(before, BEFORE),
-            grey=self._grey,
+            grey_kind=self._grey,
             life_inputs=self._life_inputs,
+            mark=self.requests.mark,
         )
 
     # What its requests need of the session
@@ -128,7 +129,7 @@ class Explorer:
 
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""
-        results = dataclasses.replace(self.inputs(), rested=True).content()
+        results = self.content().at_rest()
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
         return ForReport(results, kinds, found)

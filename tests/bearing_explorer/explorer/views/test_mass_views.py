@@ -71,7 +71,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     packed = PackedSource()
     spectra = VibrationSpectra(packed)
     spectra.take_look({"axis": "logarithmic"})
-    results = Results(FAN_RIG, grey=OTHER_BALLS)
+    results = Results(FAN_RIG, grey_kind=OTHER_BALLS)
     sources, _ = spectra.data(results)
     band = sources["spectrum_wide_resonance"]
     assert band["high"][0] == pytest.approx(contact_resonance_band(FAN_RIG)[1])

@@ -99,7 +99,7 @@ class FileColumns:
                 f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
             )
         for name in ("scalars", "texts", "given"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
 
 
 @dataclass(frozen=True)

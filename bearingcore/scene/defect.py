@@ -74,23 +74,19 @@ class Defect:
     row: int | None = None
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: float) -> None:
-            object.__setattr__(self, name, value)
-
         # 360° typed as a decimal must not fail on the last digit of 2π
-        extent = checks.real_number(
-            "extent", self.extent, at_least=0.0, at_most=TWO_PI * (1.0 + 1e-9), unit="rad"
-        )
-        keep("extent", min(extent, TWO_PI))
-        keep("depth", checks.real_number("depth", self.depth, at_least=0.0, unit="m"))
-        keep("center", checks.real_number("center", self.center, unit="rad"))
+        most = TWO_PI * (1.0 + 1e-9)
+        checks.keep_number(self, "extent", at_least=0.0, at_most=most, unit="rad")
+        checks.keep(self, extent=min(self.extent, TWO_PI))
+        checks.keep_number(self, "depth", at_least=0.0, unit="m")
+        checks.keep_number(self, "center", unit="rad")
         checks.choice("race", self.race, RACES)
         checks.choice("edge", self.edge, EDGES)
         if not isinstance(self.floor, RoughFloor | MeasuredFloor | None):
             raise checks.refuse("floor", self.floor, "None, a RoughFloor or a MeasuredFloor")
         if self.row is not None:
             number = checks.whole_number("row", self.row, at_least=0, at_most=MOST_ROWS - 1)
-            object.__setattr__(self, "row", number)
+            checks.keep(self, row=number)
 
     @classmethod
     def none(cls) -> Self:

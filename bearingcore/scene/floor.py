@@ -50,12 +50,10 @@ class RoughFloor:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        height = checks.real_number("rms_height", self.rms_height, at_least=0.0, unit="m")
-        length = checks.real_number("correlation_length", self.correlation_length, at_least=1e-6)
+        checks.keep_number(self, "rms_height", at_least=0.0, unit="m")
+        checks.keep_number(self, "correlation_length", at_least=1e-6)
         seed = checks.whole_number("seed", self.seed, at_least=0, at_most=2**31 - 1)
-        object.__setattr__(self, "rms_height", height)
-        object.__setattr__(self, "correlation_length", length)
-        object.__setattr__(self, "seed", seed)
+        checks.keep(self, seed=seed)
 
     def check_length(self, length: float) -> None:
         """Raise ValueError where a floor of `length` [m] along the race takes too many samples."""
@@ -134,8 +132,7 @@ class MeasuredFloor:
             raise checks.refuse("floor places", "not rising from -1 to 1", "rising from -1 to 1")
         if not (np.all(np.isfinite(depths)) and np.all(depths >= 0.0) and np.all(depths <= 1.0)):
             raise checks.refuse("floor depths", "not all from 0 to 1", "0 to 1")
-        object.__setattr__(self, "places", tuple(places.tolist()))
-        object.__setattr__(self, "depths", tuple(depths.tolist()))
+        checks.keep(self, places=tuple(places.tolist()), depths=tuple(depths.tolist()))
 
     def surface(
         self, angle: NDArray[np.float64], extent: float, depth: float, radius: float

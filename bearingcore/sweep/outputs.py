@@ -280,24 +280,13 @@ class Settings:
     band_high: float = 10_000.0
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: float) -> None:
-            object.__setattr__(self, name, value)
-
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
-        keep("cage_angles", angles)
-        for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
-            value = checks.real_number(
-                name, getattr(self, name), above=0.0, at_most=most, unit=unit
-            )
-            keep(name, value)
-        keep("band_low", checks.real_number("band_low", self.band_low, above=0.0, unit="Hz"))
-        band_high = checks.real_number("band_high", self.band_high, above=self.band_low, unit="Hz")
-        keep("band_high", band_high)
-        if self.dynamic_load_rating is not None:
-            rating = checks.real_number(
-                "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
-            )
-            keep("dynamic_load_rating", rating)
+        checks.keep(self, cage_angles=angles)
+        checks.keep_number(self, "duration", above=0.0, at_most=60.0, unit="s")
+        checks.keep_number(self, "sample_rate", above=0.0, at_most=1e7, unit="Hz")
+        checks.keep_number(self, "band_low", above=0.0, unit="Hz")
+        checks.keep_number(self, "band_high", above=self.band_low, unit="Hz")
+        checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
 
     @property
     def record_time(self) -> Array:

@@ -76,6 +76,25 @@ class Match:
         )
 
 
+@dataclass(frozen=True)
+class PassQuality:
+    """Composition of a mean ball pass, in the band that is compared: whether it is evidence.
+
+    Attributes
+    ----------
+    noise_share
+        part of its power that is noise, mean over directions.
+    strongest
+        part of its power that the strongest harmonic carries.
+    harmonics
+        how many harmonics carry it: 1/Σ p², p the parts of the power.
+    """
+
+    noise_share: float
+    strongest: float
+    harmonics: float
+
+
 class Target:
     """A measured average, made ready to be compared with simulated ones.
 
@@ -106,6 +125,17 @@ class Target:
         self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
         self.log_power = np.log(power + self.floor)
 
+    @property
+    def quality(self) -> PassQuality:
+        """Noise and number of harmonics of the measured mean ball pass."""
+        part = (np.abs(self.harmonics) ** 2 / self.energy).mean(axis=1)
+        part = part / max(float(part.sum()), 1e-300)
+        return PassQuality(
+            noise_share=float(self.noise_share.mean()),
+            strongest=float(part.max(initial=0.0)),
+            harmonics=1.0 / max(float((part**2).sum()), 1e-300),
+        )
+
     def match(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d)."""
         simulated = harmonics[:, self.kept]
@@ -114,7 +144,13 @@ class Target:
         scale = 1.0 / np.sqrt(self.energy)
         relative = np.where(bad[:, None, None], 0.0, simulated) * scale
         measured = self.harmonics * scale
-        lag, gain = self._laid(relative, measured)
+        # lag [rad] and gain (m,) that fit best; harmonics count by their noise
+        cross = relative.conj() * self.weight * measured
+        lag = self._best_lag(cross.sum(axis=2))
+        back = np.exp(-1j * lag[:, None] * self.order)
+        agree = (back[:, None, :] @ cross)[:, 0].real.sum(axis=1)
+        energy = (self.weight * np.abs(relative) ** 2).sum(axis=(1, 2))
+        gain = np.maximum(agree, 0.0) / np.maximum(energy, 1e-300)
         turn = np.exp(1j * lag[:, None] * self.order)
         residual = measured - (gain[:, None] * turn)[:, :, None] * relative
         weighed = residual * np.sqrt(self.weight)
@@ -135,17 +171,6 @@ class Target:
             weighed,
             difference,
         )
-
-    def _laid(
-        self, relative: NDArray[np.complex128], measured: NDArray[np.complex128]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lag [rad] and gain (m,) that fit best; harmonics count by their noise."""
-        cross = relative.conj() * self.weight * measured
-        lag = self._best_lag(cross.sum(axis=2))
-        back = np.exp(-1j * lag[:, None] * self.order)
-        agree = (back[:, None, :] @ cross)[:, 0].real.sum(axis=1)
-        energy = (self.weight * np.abs(relative) ** 2).sum(axis=(1, 2))
-        return lag, np.maximum(agree, 0.0) / np.maximum(energy, 1e-300)
 
     def _best_lag(self, cross: NDArray[np.complex128]) -> NDArray[np.float64]:
         """Lag (m,) [rad] at which cross spectra (m, n) agree most, refined by a parabola."""

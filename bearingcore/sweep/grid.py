@@ -32,6 +32,7 @@ from bearingcore.sweep.outputs import (
     MOTION,
     ORBIT,
     OUTPUTS,
+    PRESSURE,
     RECORD,
     SAMPLE,
     SECONDS,
@@ -319,6 +320,8 @@ class Grid:
                 scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
+        if PRESSURE in self.needs:
+            scene.bearing.race_contact("inner")
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
         if set(self.needs) & {MOTION, ORBIT, MASS, RECORD} and scene.shaft_speed == 0.0:

@@ -31,6 +31,7 @@ from bearingcore.sweep import (
     MASS,
     MODES,
     OUTPUTS,
+    PRESSURE,
     SECONDS,
     STATICS,
     STATUSES,
@@ -56,7 +57,7 @@ SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRI
 BUDGET = 120.0
 """[s] that a map may take."""
 
-_QUICK = (STATICS, LIFE, MODES)
+_QUICK = (STATICS, PRESSURE, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows

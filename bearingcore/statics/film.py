@@ -49,6 +49,7 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.positions import over_all_positions
@@ -270,7 +271,7 @@ def film(
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
     if state is None:
-        state = over_all_positions(scene)
+        state = over_all_positions(scene, solve=static_state)
     elif state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
@@ -283,12 +284,12 @@ def _film_of(
 ) -> Film:
     """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
     eta, xi = oil
-    load, own = ball.load, scene.bearing.of_row(ball.row)
+    own = scene.bearing.of_row(ball.row)
     contacts = {race: own.race_contact(race) for race in RACES}
     u = rolling_speed(own, scene.shaft_speed)
     films = {}
     for race, contact in contacts.items():
-        h = math.nan
+        h, load = math.nan, ball.load_on(race)
         if load > 0.0:
             modulus = contact.modulus
             radius = rolling_radius(own, race)

@@ -266,7 +266,7 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
     half = 0.5 * defect.extent
     # with clearance the ring follows a ball that sinks until those beside the defect carry
     aside = math.cos(min(half + bearing.ball_spacing, FARTHEST_ASIDE))
-    followed = compression + 0.5 * max(bearing.diametral_play, 0.0) * (1.0 / aside - 1.0)
+    followed = compression + max(bearing.radial_clearance, 0.0) * (1.0 / aside - 1.0)
     sizes = (compression, followed) if followed > 2.0 * compression else (compression,)
     drops = {min(share * size, defect.depth) for share in SINKING for size in sizes}
     drops.add(defect.depth)

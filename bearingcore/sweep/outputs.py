@@ -25,6 +25,7 @@ from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.speed_runs import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.signals.recording import DIRECTIONS
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,
@@ -478,7 +479,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
 
 def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """Put the pressures on both races into `numbers`; say what became of them."""
-    state = over_all_positions(scene, settings.cage_angles)
+    state = over_all_positions(scene, settings.cage_angles, static_state)
     pressures = contact_pressures(scene, state)
     for contact in (pressures.inner, pressures.outer):
         numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)

@@ -176,7 +176,7 @@ def contents_of(table: FileColumns) -> FileContents:
         moving,
         "as given" if by_hand else known.why or ("as the headings say" if headed else ""),
         table.name,
-        known.place,
+        known.row.place,
     )
     if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
         choice = Choice(
@@ -196,7 +196,7 @@ def contents_of(table: FileColumns) -> FileContents:
         said,
         facts.bearing_frequencies_in(named),
         facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
-        known.collection,
+        known.row.name,
         known.bearing,
         known.orders,
     )
@@ -219,17 +219,18 @@ def _columns(
         for index, unit in zip(signals, said, strict=True):
             role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
             columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    if known.signals:
+    if known.row.signals:
         columns = [
-            column if re.fullmatch(known.signals, column.name) else Column(column.name, OTHER)
+            column if re.fullmatch(known.row.signals, column.name) else Column(column.name, OTHER)
             for column in columns
         ]
-    if known.places:
+    if known.row.places:
         columns = [
             dataclasses.replace(column, place=place)
-            for column, place in zip(columns, known.places, strict=True)
+            for column, place in zip(columns, known.row.places, strict=True)
         ]
-    for index, axis in enumerate(known.directions, len(columns) - len(known.directions)):
+    along = known.row.directions
+    for index, axis in enumerate(along, len(columns) - len(along)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):

@@ -51,7 +51,7 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.positions import state_of
 from bearingcore.statics.pressure import RACES, HeaviestBall, heaviest_balls
 
 TOUCHING, PARTED = 1.0, 3.0
@@ -269,10 +269,7 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
-    if state is None:
-        state = over_all_positions(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state)
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
     return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))

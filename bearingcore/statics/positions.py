@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
@@ -132,6 +133,16 @@ def over_all_positions(
         scene, found.cage_angles, shaft_angles=found.shaft_angles, most_contacts=most_contacts
     )
     return dataclasses.replace(state, weights=found.weights)
+
+
+def state_of(scene: Scene, state: Equilibrium | None) -> Equilibrium:
+    """A static equilibrium that is given for a scene, else that at all its positions.
+
+    ValueError for the equilibrium of another scene.
+    """
+    if state is not None and state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    return over_all_positions(scene) if state is None else state
 
 
 def equilibrium_over_all(

@@ -23,7 +23,7 @@ from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.positions import state_of
 
 RACES = ("inner", "outer")
 
@@ -162,10 +162,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         for a bearing without groove radii, or the equilibrium of another scene.
     """
     checks.instance("scene", scene, Scene)
-    if state is None:
-        state = over_all_positions(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state)
     found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     worst = max(
         found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)

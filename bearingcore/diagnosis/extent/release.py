@@ -17,6 +17,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -160,16 +161,18 @@ def plausible_offsets(
     else:
         typical, clearance_spread = clearance, CLEARANCE_SPREAD
     values, weights = [], []
-    for model, edge_weight in (EDGE_WEIGHTS if edge is None else {edge: 1.0}).items():
-        for deviation, weight in zip(_NORMAL, _WEIGHTS, strict=True):
-            force = middle * math.exp(spread * deviation)
-            for other, other_weight in zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True):
-                gap = max(typical * (1.0 + clearance_spread * other), 0.0)
-                offset = release_offset(bearing, race, force, gap, model)
-                if not math.isfinite(offset):
-                    continue
-                for share, share_weight in SEEN_SHARES.items():
-                    values.append(share * offset)
-                    weights.append(edge_weight * weight * other_weight * share_weight)
+    edges = EDGE_WEIGHTS if edge is None else {edge: 1.0}
+    for (model, edge_weight), (deviation, weight), (other, other_weight) in product(
+        edges.items(),
+        zip(_NORMAL, _WEIGHTS, strict=True),
+        zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True),
+    ):
+        force = middle * math.exp(spread * deviation)
+        gap = max(typical * (1.0 + clearance_spread * other), 0.0)
+        offset = release_offset(bearing, race, force, gap, model)
+        if math.isfinite(offset):
+            chance = edge_weight * weight * other_weight
+            values += [share * offset for share in SEEN_SHARES]
+            weights += [chance * share for share in SEEN_SHARES.values()]
     total = sum(weights)
     return Offsets(np.array(values), np.array(weights) / total if total else np.array(weights))

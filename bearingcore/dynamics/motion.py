@@ -195,11 +195,7 @@ class Motion:
 
         Of balls without mass both are the same.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        if self.ball_place is None:
-            loads = self._ball_loads(packed, start, stop)
-            return np.stack([loads, loads])
-        return self._race_loads(packed, self.ball_place, start, stop)
+        return np.stack(self._loads(None, start, stop))
 
     def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
@@ -207,37 +203,35 @@ class Motion:
         Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
         that a figure of contact forces needs.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        return self._ball_loads(packed, start, stop)
+        return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
         """The same motion with the loads of its balls."""
-        return replace(self, ball_load=self._ball_loads(packed, 0, None))
+        return replace(self, ball_load=self._loads(packed, 0, None)[1])
 
-    def _race_loads(self, packed: PackedScene, place: Array, start: int, stop: int | None) -> Array:
+    def _loads(
+        self, packed: PackedScene | None, start: int, stop: int | None
+    ) -> tuple[Array, Array]:
+        """Loads at both races; `packed` is the scene, where it is packed already."""
+        place, speed, rate = self.ball_place, self.scene.cage_speed, self.sample_rate
+        packed = packed or packing.pack(self.scene, self.dofs, balls=place is not None)
         first, last = slice(start, stop).indices(len(self.time))[:2]
-        turned = self.scene.cage_speed / self.sample_rate
-        begin = first * self.scene.cage_speed / self.sample_rate
-        return loads_of_races(packed, self.history[first:last], place[first:last], (begin, turned))
-
-    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> Array:
-        if self.ball_place is not None:
-            return self._race_loads(packed, self.ball_place, start, stop)[1]
-        samples = slice(start, stop).indices(len(self.time))[:2]
+        begin, turned = float(first * speed / rate), speed / rate
+        if place is not None:
+            rows = self.history[first:last], place[first:last]
+            at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
+            return at_inner, at_outer
         inner, outer = (
-            _sample(self.history, body, 0, self.sample_rate, self._history_rate, *samples)
+            _sample(self.history, body, 0, rate, self._history_rate, first, last)
             for body in ("inner", "outer")
         )
-        loads = kernels.elastic_loads(
-            inner - outer,
-            packed.load.active,
-            float(samples[0] * self.scene.cage_speed / self.sample_rate),
-            self.scene.cage_speed / self.sample_rate,
-            packed.contacts,
-            packed.path,
+        loads = np.asarray(
+            kernels.elastic_loads(
+                inner - outer, packed.load.active, begin, turned, packed.contacts, packed.path
+            )
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
-        return np.asarray(loads)
+        return loads, loads
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""

@@ -213,8 +213,8 @@ class Experiment:
         """
         points = self.points
         return table_of(
-            ("method", "", [p.method for p in points]),
-            ("setting", "", [p.setting for p in points]),
+            ("method", "", "method"),
+            ("setting", "", "setting"),
             *(
                 (
                     re.sub(r"\W+", "_", name).lower() + "_error",
@@ -224,10 +224,11 @@ class Experiment:
                 )
                 for name, meaning in self.errors.items()
             ),
-            ("time", "s", [p.seconds for p in points]),
-            ("evaluations", "", [p.evaluations for p in points], self.evaluations),
+            ("time", "s", "seconds"),
+            ("evaluations", "", "evaluations", self.evaluations),
             ("status", "", [p.status + self._unbounded(p) for p in points]),
-            ("reference", "", [p.against for p in points]),
+            ("reference", "", "against"),
+            of=points,
         )
 
 

@@ -114,13 +114,14 @@ class Alternatives:
         decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
         shares = [math.nan if of else error for error, of in zip(errors, spectral, strict=True)]
         return table_of(
-            ("model", "", [row.name for row in self.rows]),
-            ("error_of", "", [row.quantity for row in self.rows]),
+            ("model", "", "name"),
+            ("error_of", "", "quantity"),
             ("spectrum_error", "dB", decibels, "greatest, where the spectrum counts"),
             ("swing_error", "1", shares, "over the swing"),
-            ("time", "s", [row.seconds for row in self.rows], "of computing it"),
-            ("own_time", "s", [row.own_seconds for row in self.rows], "of the scene's own model"),
-            ("note", "", [row.note for row in self.rows]),
+            ("time", "s", "seconds", "of computing it"),
+            ("own_time", "s", "own_seconds", "of the scene's own model"),
+            ("note", "", "note"),
+            of=self.rows,
         )
 
 

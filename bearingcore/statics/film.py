@@ -136,25 +136,20 @@ class Film:
 
     def table(self) -> ResultTable:
         """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
-        races = (self.inner, self.outer)
         return table_of(
-            ("race", "", [film.race for film in races]),
+            ("race", "", "race"),
             (
                 "rolling_speed",
                 "m/s",
                 [self.rolling_speed] * 2,
                 "mean speed of both surfaces through the contact",
             ),
-            ("ball_load", "N", [film.load for film in races], "of the heaviest loaded ball"),
-            ("film_thickness", "m", [film.thickness for film in races], "where it is least"),
-            ("roughness", "m", [film.roughness for film in races], "of both surfaces together"),
-            (
-                "film_parameter",
-                "1",
-                [film.film_parameter for film in races],
-                "film thickness over roughness",
-            ),
-            ("sentence", "", [film.sentence for film in races]),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
+            ("film_thickness", "m", "thickness", "where it is least"),
+            ("roughness", "m", "roughness", "of both surfaces together"),
+            ("film_parameter", "1", "film_parameter", "film thickness over roughness"),
+            ("sentence", "", "sentence"),
+            of=(self.inner, self.outer),
         )
 
 

@@ -115,30 +115,25 @@ class ContactPressures:
 
     def table(self) -> ResultTable:
         """A row a race: load and place of the ball, semi-axes, pressure."""
-        races = (self.inner, self.outer)
         return table_of(
-            ("race", "", [contact.race for contact in races]),
-            ("ball_load", "N", [contact.load for contact in races], "of the heaviest loaded ball"),
+            ("race", "", "race"),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
             ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
             (
                 "semi_axis_across",
                 "m",
-                [contact.semi_axis_across for contact in races],
+                "semi_axis_across",
                 "of the contact ellipse, across the rolling",
             ),
             (
                 "semi_axis_along",
                 "m",
-                [contact.semi_axis_along for contact in races],
+                "semi_axis_along",
                 "of the contact ellipse, along the rolling",
             ),
-            (
-                "greatest_pressure",
-                "Pa",
-                [contact.greatest_pressure for contact in races],
-                "in the middle of the ellipse",
-            ),
+            ("greatest_pressure", "Pa", "greatest_pressure", "in the middle of the ellipse"),
             ("status", "", [self.reason or "known"] * 2),
+            of=(self.inner, self.outer),
         )
 
 

@@ -140,12 +140,13 @@ class Sizing:
         """A row a candidate: extent, probability, edges and misfits."""
         candidates = self.candidates
         return table_of(
-            ("extent", "rad", [c.extent for c in candidates]),
-            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
-            ("probability", "1", [c.probability for c in candidates]),
-            ("edge", "", [c.edge for c in candidates]),
+            ("extent", "rad", "extent"),
+            ("ball_spacings", "", "turns", "whole ball spacings in it"),
+            ("probability", "1", "probability"),
+            ("edge", "", "edge"),
             ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
             ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            of=candidates,
         )
 
     @property

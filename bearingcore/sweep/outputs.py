@@ -52,6 +52,8 @@ from bearingcore.sweep.status import (
 
 STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
 RECORD = "record"
+MOVING = frozenset({MOTION, ORBIT, MASS, RECORD})
+"""Computations of motions."""
 
 SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 5e-4, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
 SECONDS[RECORD] = 0.1

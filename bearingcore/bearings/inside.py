@@ -31,11 +31,13 @@ from numpy.typing import NDArray
 from bearingcore.bearings import ratings
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import percent
 from bearingcore.units import INCH
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
+
 
 BALL_SIZES: tuple[float, ...] = tuple(
     sorted(
@@ -234,7 +236,7 @@ def balls_from_ratings(
 
 
 def _misfit(
-    D: NDArray[np.float64],
+    D: Array,
     Z: NDArray[np.int_],
     pitch: float,
     dynamic_rating: float,
@@ -242,7 +244,7 @@ def _misfit(
     contact_angle: float,
     factor: float | None,
     self_aligning: bool,
-) -> NDArray[np.float64]:
+) -> Array:
     """Distance from a catalogue's numbers, in standard deviations."""
     cosine = math.cos(contact_angle)
     gamma = D * cosine / pitch

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number
 from bearingcore.files import facts
 from bearingcore.files.channels import (
@@ -80,7 +80,7 @@ class FileColumns:
     """
 
     names: tuple[str, ...]
-    columns: NDArray[np.float64] = field(repr=False)
+    columns: Array = field(repr=False)
     sample_rate: float | None = None
     scalars: Mapping[str, float] = field(default_factory=dict)
     name: str = ""
@@ -333,13 +333,13 @@ def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
     )
 
 
-def _counts(time: NDArray[np.float64], column: Column) -> bool:
+def _counts(time: Array, column: Column) -> bool:
     """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
     whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
     return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
 
 
-def _moves(signal: NDArray[np.float64]) -> bool:
+def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size > 0 and bool(np.ptp(finite) > 0.0)
 
@@ -384,7 +384,7 @@ def _unit(
     return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
 
 
-def _unit_by_level(signals: NDArray[np.float64], all_signals: NDArray[np.float64]) -> Finding[str]:
+def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
     """The unit in which signals are more like those of bearings; gravity may be on any of all."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
 from bearingcore.files.facts import is_steady
@@ -36,7 +37,7 @@ MOST_SCALARS = 200
 LONGEST_TEXT = 1000
 """[characters] of words that are kept."""
 
-Answer = tuple[dict[str, Any], NDArray[np.float64]]
+Answer = tuple[dict[str, Any], Array]
 
 
 def read(

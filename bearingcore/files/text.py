@@ -19,9 +19,9 @@ from itertools import islice
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
 from bearingcore.files.facts import named_in, names_a_fact, units_said
@@ -65,7 +65,7 @@ MOST_SIGNALS_MIXED = 32
 
 def read_text(
     name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], NDArray[np.float64]]:
+) -> tuple[dict[str, Any], Array]:
     """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
@@ -141,8 +141,8 @@ def _of_two_bytes(start: bytes) -> str:
 
 
 def _about(
-    columns: NDArray[np.float64], headings: list[str] | None, remarks: list[str], *more: list[Any]
-) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
+) -> tuple[dict[str, Any], Array]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
     kept = [line[:LONGEST_REMARK] for line in remarks]
     fields = {"names": names, "remarks": kept, "headed": headings is not None}
@@ -441,9 +441,7 @@ def _one_column(style: _Style, lines: Sequence[str], remarks: Sequence[str]) -> 
     return style
 
 
-def _headings(
-    remarks: Sequence[str], style: _Style, columns: NDArray[np.float64]
-) -> list[str] | None:
+def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
     """The names of the columns, out of the last line above them that fits; each with its unit.
 
     A line of units alone may be between the names and the numbers. Columns without a name are
@@ -537,7 +535,7 @@ def _unit_alone(cell: str) -> str | None:
 _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
 
 
-def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] | None:
+def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     """The cells of a heading, by any delimiter, if there are as many as columns.
 
     Names of columns of words, and of rows, need not be there.
@@ -577,14 +575,14 @@ def _is_a_value(cells: Sequence[str]) -> bool:
     return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
 
 
-def _counts_rows(column: NDArray[np.float64]) -> bool:
+def _counts_rows(column: Array) -> bool:
     return len(column) > 1 and column[0] in (0.0, 1.0) and bool(np.all(np.diff(column) == 1.0))
 
 
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(body: bytes, style: _Style, most_rows: int) -> NDArray[np.float64] | None:
+def _numbers(body: bytes, style: _Style, most_rows: int) -> Array | None:
     """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
     import pandas as pd
 
@@ -700,9 +698,7 @@ def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, l
     return b"".join(lines), [f"{number} numbers ({first}), which count as missing."]
 
 
-def _rows(
-    body: bytes, style: _Style, most_rows: int
-) -> tuple[NDArray[np.float64], list[str] | None] | None:
+def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:
     """Signals that are written in a row each, as columns with their names; None for others."""
     width = style.width
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))

@@ -20,11 +20,10 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.common.arrays import weighted_quantile
+from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
@@ -76,8 +75,8 @@ class Offsets:
         that add up to 1.
     """
 
-    values: NDArray[np.float64]
-    weights: NDArray[np.float64]
+    values: Array
+    weights: Array
 
     def quantile(self, share: float) -> float:
         """The offset [rad] below which a share of the weight lies, interpolated; NaN of none."""
@@ -125,9 +124,7 @@ def release_offset(
     return extent - (pressed - released)
 
 
-def _falls_to_zero(
-    place: NDArray[np.float64], compression: NDArray[np.float64], last: int, away: int
-) -> float:
+def _falls_to_zero(place: Array, compression: Array, last: int, away: int) -> float:
     """Where a compression reaches 0 between its `last` value and the next place, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     step = abs(compression[last] / slope) if slope else math.inf

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.matching import PassQuality
@@ -80,8 +78,8 @@ class Candidate:
     extent: float
     probability: float
     edge: str
-    waveform_misfit: NDArray[np.float64]
-    spectrum_misfit: NDArray[np.float64]
+    waveform_misfit: Array
+    spectrum_misfit: Array
     level: float
     scene: Scene = field(repr=False)
 

@@ -221,10 +221,7 @@ class Motion:
             rows = self.history[first:last], place[first:last]
             at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
             return at_inner, at_outer
-        inner, outer = (
-            _sample(self.history, body, 0, rate, self._history_rate, first, last)
-            for body in ("inner", "outer")
-        )
+        inner, outer = (self._scaled(body, 0, first, last) for body in ("inner", "outer"))
         loads = np.asarray(
             kernels.elastic_loads(
                 inner - outer, packed.load.active, begin, turned, packed.contacts, packed.path
@@ -265,10 +262,26 @@ class Motion:
         return scaled / packing.length_units(self.scene, self.dofs)
 
     def _sampled(self, body: str, derivative: int) -> Array:
-        """A quantity of one body at the sample times, between steps by quintic interpolation."""
-        rate = self._history_rate
-        scaled = _sample(self.history, body, derivative, self.sample_rate, rate, 0, len(self.time))
+        """A quantity of one body at the sample times."""
+        scaled = self._scaled(body, derivative, 0, len(self.time))
         return scaled / packing.length_units(self.scene, self.dofs)
+
+    def _scaled(self, body: str, derivative: int, start: int, stop: int) -> Array:
+        """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled.
+
+        Between steps by quintic interpolation.
+        """
+        history, rate = self.history, self._history_rate
+        a_step, a_sample = _ratio(self.sample_rate, rate)
+        first = 0 if body == "inner" else 3
+        n = max(stop - start, 0)
+        if a_step == 1:
+            rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
+            return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
+        out = np.empty((n, history.shape[2]))
+        weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
+        kernels.between_steps(history, first, weights, start, out)
+        return out
 
 
 def simulate(
@@ -480,25 +493,3 @@ def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
             f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
         )
     return (whole, 1) if sample_rate > step_rate else (1, whole)
-
-
-def _sample(
-    history: Array,
-    body: str,
-    derivative: int,
-    sample_rate: float,
-    step_rate: float,
-    start: int,
-    stop: int,
-) -> Array:
-    """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled."""
-    a_step, a_sample = _ratio(sample_rate, step_rate)
-    first = 0 if body == "inner" else 3
-    n = max(stop - start, 0)
-    if a_step == 1:
-        rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
-        return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
-    out = np.empty((n, history.shape[2]))
-    weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
-    kernels.between_steps(history, first, weights, start, out)
-    return out

@@ -296,30 +296,24 @@ def _film_of(
 def _race_film(
     race: str, load: float, k: float, h: float, sigma: float, *, element: str
 ) -> RaceFilm:
-    name = f"film, {race} race"
     ratio = h / sigma
-    if math.isnan(h):
-        why = (
-            "no cage angle has a static equilibrium"
-            if math.isnan(load)
-            else f"no {element} is loaded"
-        )
-        return RaceFilm(
-            race, load, k, h, sigma, ratio, "", f"{name.capitalize()}: not known, as {why}."
-        )
     if ratio < TOUCHING:
         kind, so = LUBRICATION[0], "their peaks carry the load and wear"
     elif ratio < PARTED:
         kind, so = LUBRICATION[1], "their peaks touch now and then"
     else:
         kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
-    if h == 0.0:
-        standing = f"The shaft is at rest and draws no oil between {element} and {race} race."
-        return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
-    sentence = (
-        f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
-        f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
-        f"({with_prefix(sigma, 'm')}): "
-        f"{kind} lubrication, {so}."
-    )
+    if math.isnan(h):
+        why = f"no {element} is loaded"
+        if math.isnan(load):
+            why = "no cage angle has a static equilibrium"
+        kind, sentence = "", f"Film, {race} race: not known, as {why}."
+    elif h == 0.0:
+        sentence = f"The shaft is at rest and draws no oil between {element} and {race} race."
+    else:
+        sentence = (
+            f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
+            f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
+            f"({with_prefix(sigma, 'm')}): {kind} lubrication, {so}."
+        )
     return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

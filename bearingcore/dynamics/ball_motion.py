@@ -149,19 +149,14 @@ def contact_resonance_band(scene: Scene) -> tuple[float, float]:
     return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
 
 
-def fastest_decay(packed: PackedMotion) -> float:
-    """The fastest decay [1/s] of a ball's motion between its contacts, 0 where it is undamped."""
-    races = _balls(packed).races
-    return float((races.damping.sum(axis=0) / races.mass).max())
-
-
 def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
     """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
 
     As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
-    decay, heaviest = fastest_decay(packed), heaviest_load(packed)
-    resonance = max(resonances(packed.scene, heaviest))
+    races = _balls(packed).races
+    decay = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s] the fastest
+    resonance = max(resonances(packed.scene, heaviest_load(packed)))
     needed = max(STEPS_A_CONTACT_CYCLE * resonance, decay / STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
 

@@ -219,7 +219,7 @@ class Experiment:
                 (
                     re.sub(r"\W+", "_", name).lower() + "_error",
                     self.unit(name),
-                    [_finite(p.errors.get(name, nan)) for p in points],
+                    [e if math.isfinite(e := p.errors.get(name, nan)) else nan for p in points],
                     meaning,
                 )
                 for name, meaning in self.errors.items()
@@ -233,10 +233,6 @@ class Experiment:
 
 
 nan = math.nan
-
-
-def _finite(value: float) -> float:
-    return value if math.isfinite(value) else nan
 
 
 @dataclass(frozen=True)

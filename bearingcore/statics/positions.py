@@ -159,11 +159,12 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     return positions_of(pack(scene), n)
 
 
-def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
-    return 24 * found.weights.size + floor_bytes(packed.scene.defects)
-
-
-@lru_cache_by_bytes(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+@lru_cache_by_bytes(
+    64,
+    16_000_000,
+    lambda found, packed, _: 24 * found.weights.size + floor_bytes(packed.scene.defects),
+    lambda packed, n: (packed.scene, n),
+)
 def positions_of(packed: PackedScene, n: int) -> Positions:
     """The positions of a scene that is packed.
 

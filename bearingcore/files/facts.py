@@ -14,8 +14,8 @@ from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.files.units import (
     FORCES,
     SPEEDS,
@@ -80,7 +80,7 @@ class Named:
 _STEADY = 0.02
 
 
-def is_steady(values: NDArray[np.float64]) -> bool:
+def is_steady(values: Array) -> bool:
     """Whether numbers, such as those of a speed, vary so little that they count as one."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 

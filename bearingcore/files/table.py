@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
@@ -151,11 +151,7 @@ class Table(FileColumns):
         return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
 
     def _to_acceleration(
-        self,
-        signal: NDArray[np.float64],
-        units: Sequence[str],
-        rate: float,
-        sensitivity: float | None,
+        self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
     ) -> list[str]:
         """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
         notes = []

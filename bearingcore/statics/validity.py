@@ -57,7 +57,7 @@ from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
 from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.statics.positions import over_all_positions, positions
+from bearingcore.statics.positions import over_all_positions, positions, state_of
 from bearingcore.statics.pressure import RACES, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
 from bearingcore.statics.tilts import free_tilts, held_tilts
@@ -147,10 +147,7 @@ def limits(
     checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
         checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
-    if state is None:
-        state = state_of_limits(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state_of_limits(scene) if state is None else state)
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.views.vibration_spectrum import (
     VibrationSpectra,
     loudest_words,

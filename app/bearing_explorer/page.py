@@ -80,7 +80,7 @@ class Halves:
         for section in SECTIONS:
             of_signal = signal and section in signal.SECTIONS
             half = self.diagnosis if of_signal else self.explorer
-            assert half is not None
+            assert isinstance(half, Half)
             halves[section] = half
         self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")
         if self.explorer is not None and self.diagnosis is not None:

@@ -10,13 +10,12 @@ from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Page, Section
+from bearing_explorer.kit.half import Half, Page, Section
 from bearing_explorer.kit.report_page import About
-from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
 
 
-class DiagnosisOfSignal:
+class DiagnosisOfSignal(Half):
     """The measurement of a session, and what its views draw of it.
 
     Parameters
@@ -38,14 +37,8 @@ class DiagnosisOfSignal:
     kind_of_content = Model
 
     def join(self, page: Page) -> None:
-        self.page, self.jobs, self.draw = page, page.jobs, page.draw
+        super().join(page)
         self.measurement = Measurement(self.scene_now, self._bearings, page.assign, page.draw)
-
-    def attach(self, view: View) -> None:
-        view.attach(self)
-
-    def tab_opened(self, name: str) -> None:
-        """Nothing of it depends on the tab."""
 
     def stop(self) -> None:
         self.measurement.stop()

@@ -18,12 +18,11 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Page, Section
-from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.half import Half, Section
 from bearingcore import Scene
 
 
-class Explorer:
+class Explorer(Half):
     """The scene of a session, the panels that change it, and what its views draw of it.
 
     Its views are attached to it: they read `editor`, send `requests`, and call its methods.
@@ -59,18 +58,9 @@ class Explorer:
 
     kind_of_content = Results
 
-    def join(self, page: Page) -> None:
-        self.page, self.jobs = page, page.jobs
-
-    def attach(self, view: View) -> None:
-        view.attach(self)
-
     def tab_opened(self, name: str) -> None:
         self.bookmarks.show(name)  # links always say which tab is open
         self.requests.show_links()
-
-    def stop(self) -> None:
-        """Nothing of it runs by itself."""
 
     @property
     def scene(self) -> Scene:
@@ -105,10 +95,9 @@ class Explorer:
     # What its requests need of the session
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
         self._last_state.follow(self.scene, self.bookmarks.moving)
         self.page.mark = self.requests.mark
-        self.page.draw()
+        super().draw()
 
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""

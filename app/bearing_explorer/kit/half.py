@@ -48,24 +48,32 @@ class Page(Protocol):
         """All views that have been on screen."""
 
 
-class Half(Protocol):
+class Half:
     """A half of the program. Its methods are called on the event loop of the session."""
 
     sections: tuple[Section, ...]
     """Its tabs."""
+    kind_of_content: type
+    """The type of its content, which another half's is not."""
+    page: Page
+    jobs: Jobs
+    """The background of the session."""
 
     def join(self, page: Page) -> None:
         """Become a half of this session, once, before anything else."""
-
-    @property
-    def kind_of_content(self) -> type:
-        """The type of its content, which another half's is not."""
+        self.page, self.jobs = page, page.jobs
 
     def content(self) -> Content:
         """The content of the next picture, while a slider moves."""
+        raise NotImplementedError
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
+        self.page.draw()
 
     def attach(self, view: View) -> None:
-        """Give a view of its tabs the parts of the session."""
+        """Give a view of its tabs this half of the session."""
+        view.attach(self)
 
     def tab_opened(self, name: str) -> None:
         """A tab of the page was opened, of whichever half."""

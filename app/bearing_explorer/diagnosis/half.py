@@ -32,20 +32,25 @@ class DiagnosisOfSignal(Half):
         self, sections: Sequence[Section], scene: Callable[[], Scene], bearings: BearingTable
     ) -> None:
         self.sections = tuple(sections)
-        self.scene_now, self._bearings = scene, bearings
+        self._scene, self._bearings = scene, bearings
 
     kind_of_content = Model
 
     def join(self, page: Page) -> None:
         super().join(page)
-        self.measurement = Measurement(self.scene_now, self._bearings, page.assign, page.draw)
+        self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene with which a signal is compared, as it is now."""
+        return self._scene()
 
     def stop(self) -> None:
         self.measurement.stop()
 
     def content(self) -> Model:
         self.measurement.take_scene()
-        return Model(self.scene_now(), True, self.measurement.at_work, self.page.mark)
+        return Model(self.scene, True, self.measurement.at_work, self.page.mark)
 
     # What the page connects with the scene's half
 
@@ -68,4 +73,4 @@ class DiagnosisOfSignal(Half):
         kinds = (view.look["machine"] for view in self.page.views_made()
                  if isinstance(view, MeasuredIndicators))  # fmt: skip
         kind = next(kinds, "")
-        return lambda: measured_report(Model(self.scene_now()), measurement, found, about, kind)
+        return lambda: measured_report(Model(self.scene), measurement, found, about, kind)

@@ -37,10 +37,10 @@ from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.job_view import JobView
+from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
-from bearingcore import Scene, Trend, trend
+from bearingcore import Trend, trend
 from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
 
@@ -97,19 +97,7 @@ class FoundTrend:
     measured: Measured
 
 
-@dataclass(frozen=True)
-class SceneNow:
-    """The scene with which a signal is compared, as it is when a job begins."""
-
-    give: Callable[[], Scene]
-
-    @property
-    def scene(self) -> Scene:
-        """That scene."""
-        return self.give()
-
-
-class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
+class TrendOfFiles(JobView["Model", FoundTrend, Editor], MeasuredView):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"
@@ -149,19 +137,13 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
 
     # The job
 
-    def editor_on_page(self, parts: Any) -> SceneNow:
-        return SceneNow(parts.scene_now)
-
-    def editor_of(self, model: Model) -> SceneNow:
-        return SceneNow(lambda: model.scene)
-
     def fields(self) -> list[FieldSpec]:
         return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
 
-    def form(self, editor: SceneNow) -> tuple[dict[str, str], dict[str, Any]]:
+    def form(self, editor: Editor) -> tuple[dict[str, str], dict[str, Any]]:
         return {"baseline": "1"}, {}
 
-    def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
+    def prepare(self, given: Mapping[str, str], editor: Editor) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
         if measured is None or measurement is None:
             raise ValueError(NOTHING)

@@ -31,6 +31,7 @@ from bearing_explorer.explorer.state.references import (
     Reference,
     grey_reference,
 )
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
@@ -157,6 +158,13 @@ class Results:
                 like=None if own_period else self,
             )
         return self._against[key]
+
+    @cached_property
+    def editor(self) -> SceneEditor:
+        """Controls with this scene, for forms outside of the page."""
+        editor = SceneEditor("fan-rig")
+        editor.take_scene(self.scene, selected=self.focus)
+        return editor
 
     @cached_property
     def compared_results(self) -> list[Results]:

@@ -173,20 +173,13 @@ class JobView(View[C], Generic[C, Found, E]):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self.employ(parts.jobs, self.editor_on_page(parts), parts.draw)
+        self._jobs, self._editor, self._draw = parts.jobs, self.editor_of(parts), parts.draw
+        self.job.fill(*self.form(self._editor))
 
-    def editor_on_page(self, parts: Any) -> E:
-        """The editor among the parts of the session."""
-        raise NotImplementedError
-
-    def editor_of(self, results: C) -> E:
-        """The editor as it is for what is drawn, outside of the page."""
-        raise NotImplementedError
-
-    def employ(self, jobs: Jobs, editor: E, draw: Callable[[], None]) -> None:
-        """Allow jobs, for the scene of `editor`; `draw` requests a drawing."""
-        self._jobs, self._editor, self._draw = jobs, editor, draw
-        self.job.fill(*self.form(editor))
+    def editor_of(self, owner: Any) -> E:
+        """Where the form finds the scene: of the half on the page, elsewhere of what is drawn."""
+        editor: E = owner
+        return editor
 
     @property
     def is_empty(self) -> bool:

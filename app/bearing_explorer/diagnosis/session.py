@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from bearing_explorer.diagnosis.form import fill
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
@@ -31,7 +31,6 @@ from bearingcore.files import files_inside
 log = logging.getLogger(__name__)
 
 
-@dataclass(eq=False, repr=False)
 class Measurement(SignalForm):
     """The measurement of one session: its files come in, or the scene is measured.
 
@@ -40,14 +39,11 @@ class Measurement(SignalForm):
 
     #: called with the first byte of the next piece of a file; the number `of` comes back with the
     #: piece, by which files are kept apart
-    want: Callable[[int, int], None] = field(
-        default_factory=lambda: lambda begin, of: None, init=False
-    )
+    want: Callable[[int, int], None] = staticmethod(lambda begin, of: None)
     #: called when the next of several files may come
-    more: Callable[[], None] = field(default_factory=lambda: lambda: None, init=False)
-    _upload: Upload | None = field(default=None, init=False)
-    _uploads: int = field(default=0, init=False)
-    _simulations: int = field(default=0, init=False)
+    more: Callable[[], None] = staticmethod(lambda: None)
+    _upload: Upload | None = None
+    _uploads = _simulations = 0
 
     def stop(self) -> None:
         super().stop()

@@ -70,8 +70,10 @@ class Halves:
 
     def __init__(self, address: str = "", lessons: Any = ()) -> None:
         bearings = BearingTable()
-        self.explorer = scene and scene.Explorer(
-            scene.SECTIONS, address=address, lessons=lessons, bearings=bearings
+        self.explorer = (
+            scene.Explorer(scene.SECTIONS, address=address, lessons=lessons, bearings=bearings)
+            if scene
+            else None
         )
         self.diagnosis = signal and signal.DiagnosisOfSignal(
             signal.SECTIONS, self._scene_of_signal, bearings
@@ -84,9 +86,9 @@ class Halves:
             halves[section] = half
         self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")
         if self.explorer is not None and self.diagnosis is not None:
-            self.explorer.requests.report_on_signal = self.diagnosis.report
-            self.explorer.requests.simulate = self.diagnosis.simulate
-            self.diagnosis.change_scene_by(self.explorer.requests.change_scene)
+            self.explorer.report_on_signal = self.diagnosis.report
+            self.explorer.simulate = self.diagnosis.simulate
+            self.diagnosis.change_scene_by(self.explorer.change_scene)
 
     def _scene_of_signal(self) -> Any:
         """The scene with which a signal is compared."""

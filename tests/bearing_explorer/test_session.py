@@ -93,12 +93,12 @@ def session(
 
 def changing(message: object) -> Callable[[SceneSession], None]:
     """The controls send a message, which is checked where it arrives."""
-    return lambda explorer: take(explorer.requests.change_scene, SceneChange, message)
+    return lambda explorer: take(explorer.change_scene, SceneChange, message)
 
 
 def linking(message: object) -> Callable[[SceneSession], None]:
     """The bar above the controls sends one."""
-    return lambda explorer: take(explorer.requests.change_links, LinksChange, message)
+    return lambda explorer: take(explorer.change_links, LinksChange, message)
 
 
 def showing(tab: str) -> Callable[[SceneSession], None]:
@@ -191,7 +191,7 @@ def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch)
 
     def ask_twice(explorer: SceneSession) -> None:
         for _ in range(2):
-            explorer.requests.change_links({"report": "http://localhost:5006/"})
+            explorer.change_links({"report": "http://localhost:5006/"})
 
     session(ask_twice)
     assert [list(news) for news in answers] == [["report"]]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from bearing_explorer.kit.views.base import View
-    from bearingcore import Limit, Scene
+from bearing_explorer.kit.views.base import View
+from bearingcore import Limit, Scene
 
 
 @dataclass(frozen=True)

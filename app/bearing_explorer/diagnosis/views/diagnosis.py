@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -17,7 +17,9 @@ from bearing_explorer.diagnosis.diagnoses import (
     answered,
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
@@ -28,15 +30,10 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Diagnosis, Recording
 from bearingcore.common import probability
 from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 FIELDS: list[FieldSpec] = [
     {

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, extent_of
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
 from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.kit.plots import style
@@ -18,13 +19,9 @@ from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Diagnosis, MeasuredExtent
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 HEIGHT = 236
 BANDS = 3

@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
+from bearingcore import Scene
+from bearingcore.common import ResultTable
+from bearingcore.diagnosis import EnvelopeLines
 from bearingcore.files import ACCELERATIONS, path_in
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.signal import Measured, Origin
-    from bearingcore import Scene
-    from bearingcore.common import ResultTable
-    from bearingcore.diagnosis import EnvelopeLines
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""

@@ -6,13 +6,14 @@ import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 from bokeh.models import Scatter
 from bokeh.plotting import figure
 
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.series import Series, SeriesRecordings
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
@@ -43,9 +44,6 @@ from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
 from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
 
 HEIGHT = 210
 COLORS = {
@@ -97,7 +95,7 @@ class FoundTrend:
     measured: Measured
 
 
-class TrendOfFiles(JobView["Model", FoundTrend, Editor], MeasuredView):
+class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import html
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -16,18 +16,16 @@ from bearing_explorer.explorer.results.endurance import (
     Endurance,
     LifeInputs,
 )
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row
+from bearingcore import Life
 from bearingcore.common import percent
 from bearingcore.statics import LEFT_OUT, hours_in_words, turns_in_words
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Life
 
 
 @dataclasses.dataclass(frozen=True)

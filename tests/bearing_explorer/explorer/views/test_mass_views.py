@@ -15,7 +15,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.scene.pits import pit
+from tests.helpers.simulated import pit
 
 FAN_RIG = presets["fan-rig"]
 MOTOR = presets["6205"]

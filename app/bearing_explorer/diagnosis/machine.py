@@ -262,7 +262,7 @@ def read_machine(
             name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
         elif name == BY_DESIGNATION:
             name = texts["designation"]
-            bearing = _of_designation(name, find)
+            bearing = find(name).bearing if name else None  # before it is typed
         elif name != NOT_KNOWN:
             bearing = find(name).bearing
     except ValueError as error:
@@ -279,11 +279,6 @@ def read_machine(
         speed, bearing, source, by, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES,
     )  # fmt: skip
-
-
-def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:
-    """The bearing of a designation that was typed; None before it is."""
-    return find(text).bearing if text else None
 
 
 def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:

@@ -186,10 +186,6 @@ class Session:
                 half.tab_opened(name)
             self.draw()
 
-    def _make(self, name: str) -> list[View]:
-        """The views of a section, which are in no document yet."""
-        return [view(self.packed) for view in self._sections[name].views]
-
     async def _open_tab(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first opened.
 
@@ -199,7 +195,8 @@ class Session:
         from each other have the last picture come a sixth later.
         """
         if name not in self._views:
-            self._views[name] = await in_turn(self._make, name)
+            kinds = self._sections[name].views
+            self._views[name] = await in_turn(lambda: [view(self.packed) for view in kinds])
             for view in self._views[name]:
                 self._halves[name].attach(view)
         new = not self._containers[name].objects

@@ -126,7 +126,7 @@ def test_a_slider_reaches_the_view_on_screen_and_no_other(news: list[dict]) -> N
 
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
     explorer = session(changing({"mark": 1, "typed": {"extent_deg": "33,5"}}))
-    assert explorer.values["extent_deg"] == 33.5
+    assert explorer.editor.values["extent_deg"] == 33.5
     assert len(news) == 1
     assert news[0]["state"]["values"] == {"extent_deg": 33.5}
     assert news[0]["state"]["mark"] == 1, "a hand that has moved on meanwhile passes over it"

@@ -11,8 +11,8 @@ from bearing_explorer.explorer.requests import Requests
 from bearing_explorer.explorer.results.endurance import LifeInputs
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.bookmarks import Bookmarks
-from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, Values
-from bearing_explorer.explorer.state.last_state import LastState
+from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
+from bearing_explorer.explorer.state.history import LastState
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Reference
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
@@ -71,16 +71,11 @@ class Explorer(Requests):
         """The same, the defect that the sliders move first."""
         return focused(self.editor.scene, self.editor.selected)
 
-    @property
-    def values(self) -> Values:
-        """The numbers of the controls."""
-        return self.editor.values
-
     def content(self) -> Results:
         before = self._last_state.before
         return Results(
             self.scene,
-            math.radians(self.values[CAGE_ANGLE]),
+            math.radians(self.editor.values[CAGE_ANGLE]),
             self._settings,
             self.editor.focus,
             moving=True,

@@ -22,7 +22,6 @@ from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.python_arguments import arguments
 from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
@@ -35,6 +34,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
+from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
 from bearingcore.dynamics import OrbitStatus, common_ball_passes
@@ -320,8 +320,26 @@ class Results:
         return status_of(self, seconds, needed)
 
     def arguments(self, view: View) -> dict[str, str]:
-        """Arguments with which lines of Python make a figure of these."""
-        return arguments(view, self)
+        """Arguments with which lines of Python make a figure of these, if not as usual."""
+        given: dict[str, str] = {}
+        if self.cage_angle:
+            given["cage_angle"] = short(self.cage_angle)
+        if self.focus:
+            given["focus"] = str(self.focus)
+        if self.compared and view.compares:
+            named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
+            given["compared"] = "{" + ", ".join(named) + "}"
+        if self.before is not None and "before" in view.needs:
+            given["before"] = scene_code(self.before.scene)
+        if self.grey_kind != HEALTHY and "reference" in view.needs:
+            given["grey"] = code_of(self.grey_kind)
+        for name, value, usual in (
+            ("settings", self.settings, Settings()),
+            ("endurance", self.life_inputs, LifeInputs()),
+        ):
+            if changed := changed_fields(value, usual):
+                given[name] = code_of(changed)
+        return given
 
     @property
     def _with_mass(self) -> Scene:

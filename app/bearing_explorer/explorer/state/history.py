@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections import deque
 from typing import Generic, TypeVar
 
+from bearingcore import Scene
+
 MOST_STEPS = 100
 
 State = TypeVar("State")
@@ -90,3 +92,22 @@ class History(Generic[State]):
         target.append(self._now)
         self._now = source.pop()
         return self._now
+
+
+class LastState:
+    """Remembers the scene before the last change. A drag is one change, from where it began."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._settled = scene
+        self._moving = False
+        #: the scene before the last change; None before the first
+        self.before: Scene | None = None
+
+    def follow(self, scene: Scene, moving: bool) -> None:
+        """Note the scene of now, and whether a drag is still `moving` it."""
+        if scene != self._settled and not self._moving:
+            self.before = self._settled
+            self._moving = True
+        if not moving:
+            self._settled = scene
+            self._moving = False

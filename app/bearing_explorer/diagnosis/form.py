@@ -22,8 +22,7 @@ import numpy as np
 from bearing_explorer.diagnosis import machine
 from bearing_explorer.diagnosis.machine import FormError, Machine, find_published
 from bearing_explorer.diagnosis.signal import Origin
-from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
 from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Bearing, CatalogueBearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span

@@ -21,10 +21,9 @@ from bearing_explorer.diagnosis.views.measured_view import (
 )
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import curve, draw
+from bearing_explorer.kit.plots.layers import curve, draw, least_and_greatest
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
-from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import row, stack

@@ -34,9 +34,8 @@ from bearing_explorer.kit.plots.layers import (
     sources_of,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short

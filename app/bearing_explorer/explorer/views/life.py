@@ -18,8 +18,8 @@ from bearing_explorer.explorer.results.endurance import (
 )
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row

@@ -22,9 +22,11 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.simulated_signals import NOISES
-from bearingcore import join_tables
+from bearingcore import Scene, join_tables
 from bearingcore.errors import FieldError
 from bearingcore.files import files_inside
 
@@ -226,3 +228,14 @@ class Measurement(SignalForm):
         )  # fmt: skip
         self._tell(words=self._summary(), **self._in_short({}))
         self._draw()
+
+
+def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
+    """A measurement outside of a session: of a signal that is there already, or of nothing."""
+
+    async def assign(change: Change) -> None:
+        change()
+
+    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
+    made.measured = measured
+    return made

@@ -101,8 +101,8 @@ class SpallExtent(LookView, MeasuredView):
     def question(self) -> ExtentQuestion | None:
         """The question; None before the damaged part of the bearing has been looked for."""
         measurement = self.measurement
-        about = None if measurement is None else measurement.question()
-        if measurement is None or about is None or measurement.diagnoses.of(about) is None:
+        about = measurement.question()
+        if about is None or measurement.diagnoses.of(about) is None:
             return None
         return self._question(about, measurement.state.load, measurement.diagnosis())
 
@@ -118,9 +118,7 @@ class SpallExtent(LookView, MeasuredView):
         if self._given is not None:
             return self._given
         question = self.question()
-        if question is None or self.measurement is None:
-            return None
-        return self.measurement.extents.of(question)
+        return None if question is None else self.measurement.extents.of(question)
 
     @property
     def found(self) -> MeasuredExtent | None:
@@ -134,8 +132,6 @@ class SpallExtent(LookView, MeasuredView):
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         super().choose(choices, model)
-        if self.measurement is None or self.measured is None:
-            return
         about = self.measurement.question()
         if about is not None:
             answer = extent_of(self._question(about))
@@ -175,7 +171,7 @@ class SpallExtent(LookView, MeasuredView):
 
     def _show(self) -> None:
         question, answer = self.question(), self.answer()
-        if question is not None and answer is None and self.measurement is not None:
+        if question is not None and answer is None:
             self.measurement.extents.want(question)
         self._seen.visible = isinstance(answer, MeasuredExtent)
         if isinstance(answer, MeasuredExtent):

@@ -142,7 +142,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     def prepare(self, given: Mapping[str, str], editor: Editor) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
-        if measured is None or measurement is None:
+        if measured is None:
             raise ValueError(NOTHING)
         series, machine = measurement.series, measured.machine
         text = given.get("baseline", "").strip() or "1"
@@ -181,7 +181,6 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         """Whether a result is complete, and of the files and answers that there are now."""
         return (
             found is not None
-            and self.measurement is not None
             and found.series is self.measurement.series
             and found.measured is self.measured
             and len(found.trend.points) == len(found.recordings.recordings)
@@ -190,7 +189,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
         measured, measurement = self.measured, self.measurement
-        if measured is None or measurement is None:
+        if measured is None:
             return
         several = len(measurement.series.tables) > 1 and measured.origin is not None
         self.hidden.visible = several or self.drawn
@@ -201,7 +200,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     def _begin_once(self, model: Model | None, now: tuple[Series, Measured]) -> None:
         """Begin without a click once the last file of a series is diagnosed."""
-        if model is None or self._began == now or self.measurement is None:
+        if model is None or self._began == now:
             return
         question = self.measurement.question()
         if question is None or self.measurement.diagnoses.of(question) is not None:
@@ -213,7 +212,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     @property
     def drawn(self) -> bool:
         found, measurement = self.found, self.measurement
-        if found is None or measurement is None or self.measured is None:
+        if found is None or self.measured is None:
             return False
         return found.series is measurement.series and self.measured.in_si == found.measured.in_si
 
@@ -272,7 +271,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     def sentence(self, model: Model) -> str:
         measured, found = self.measured, self.found
-        if measured is None or self.measurement is None:
+        if measured is None:
             return ""
         if found is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1

@@ -96,12 +96,9 @@ class BearingEditor(ControlView):
             words += " Estimated from the designation."
         return words[0].upper() + words[1:]
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            self.rows.put(
-                picture=bearing_picture(results.scene.bearing), facts=facts_of(results.scene)
-            )
+    def show(self, results: Results) -> None:
+        scene = results.scene
+        self.rows.put(picture=bearing_picture(scene.bearing), facts=facts_of(scene))
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table = table_of_fields(BEARING_GROUPS, values_of(results.scene))

@@ -46,10 +46,8 @@ class Displacement(View):
         self._numbers = facts_pane()
         return self._numbers
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            self._numbers.object = "".join(self.html(one) for one in _scenes(results))
+    def show(self, results: Results) -> None:
+        self._numbers.object = "".join(self.html(one) for one in _scenes(results))
 
     def html(self, named: tuple[str, Results]) -> str:
         """The table of a scene, under its name where it has one."""

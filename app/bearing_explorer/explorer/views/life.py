@@ -144,10 +144,7 @@ class LifeOfBearing(View):
         healthy = "Without the defect: " if results.scene.defects else ""
         return f"{healthy}{found.healthy.sentence}"
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is None:
-            return
+    def show(self, results: Results) -> None:
         self._answers.object = groups_html(groups_of(results))
         if not self._refusal.visible:
             self._fields.put(self._values())

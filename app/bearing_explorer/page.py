@@ -15,12 +15,11 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.half import Half, Section
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.fast import PLAIN
 from bearing_explorer.kit.serve.live import on_loop
 from bearing_explorer.kit.serve.template import PageTemplate
-from bearing_explorer.kit.session import Session
+from bearing_explorer.kit.session import Half, Section, Session
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.form import stack

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.messages import LinksChange, SceneChange
 from bearing_explorer.explorer.views.alternatives import OtherModels, takeable
-from bearing_explorer.kit.half import Section
 from bearing_explorer.kit.messages import take
+from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 
 from bearingcore import presets

@@ -10,8 +10,8 @@ from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Half, Page, Section
 from bearing_explorer.kit.report_page import About
+from bearing_explorer.kit.session import Half, Section, Session
 from bearingcore import Scene
 
 
@@ -36,7 +36,7 @@ class DiagnosisOfSignal(Half):
 
     kind_of_content = Model
 
-    def join(self, page: Page) -> None:
+    def join(self, page: Session) -> None:
         super().join(page)
         self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
 

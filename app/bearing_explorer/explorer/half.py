@@ -19,7 +19,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Section
+from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
 

@@ -26,8 +26,8 @@ from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.half import Half
 from bearing_explorer.kit.report_page import About, now
+from bearing_explorer.kit.session import Half
 from bearing_explorer.kit.views.base import View
 from bearingcore.bearings import MOST_BYTES
 

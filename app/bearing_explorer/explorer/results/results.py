@@ -34,6 +34,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
+from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
@@ -85,7 +86,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
+class Results(Content):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -139,7 +140,6 @@ class Results:
         return self.scene, self.settings, self.compared, self.grey_kind
 
     def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
-        """The same, as they are once the slider rests; `give_up` may end long searches."""
         return dataclasses.replace(self, moving=not rested, give_up=give_up)
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:

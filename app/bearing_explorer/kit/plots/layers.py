@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from bokeh import models
@@ -47,21 +47,6 @@ _PLACES: dict[type[models.Glyph], tuple[str, ...]] = {
     models.VStrip: ("x0", "x1"),
 }
 _OF_RENDERER = frozenset({"level", "x_range_name", "y_range_name"})
-
-
-class Layer(Protocol):
-    """One glyph of a figure, over one source."""
-
-    @property
-    def source(self) -> str:
-        """Name of the source."""
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
 
 
 @dataclass(frozen=True)
@@ -268,6 +253,9 @@ class Words:
         args = {"source": source, "plot": plot if below else None, "below": below, **known}
         return CustomJSExpr(args=args, code=code)
 
+
+Layer = Glyph | Words
+"""One glyph of a figure, over one source."""
 
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
 """Look of words that lie on lines."""

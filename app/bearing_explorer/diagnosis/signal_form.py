@@ -12,7 +12,6 @@ from bearing_explorer.diagnosis.form import (
     LIKELY,
     SIGNAL_FIELDS,
     SIZES,
-    FormResult,
     as_texts,
     bearings_of,
     columns_of,
@@ -249,10 +248,10 @@ class SignalForm(Findings):
         self._follow()  # the scene may have changed while the form was read
         self._draw()
 
-    def _measured(self, asked: FormResult, form: Mapping[str, str]) -> Measured:
-        origin = replace(asked.origin, parts=self._parts)
+    def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
+        assert asked.origin is not None, "it comes from a file"
         machine = replace(asked.machine, kept=self._kept_of(form))
-        return Measured(asked.recording, machine, origin=origin, in_si=asked.in_si)
+        return replace(asked, origin=replace(asked.origin, parts=self._parts), machine=machine)
 
     def _take_simulated_form(self, measured: Measured, speed: str) -> None:
         """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""

@@ -112,13 +112,13 @@ class Measurement(SignalForm):
             self._take_next(arrival, [(upload.name, str(error))])
             return
         if not upload.whole:
-            self.want(upload.length, self._uploads)
+            self.want(len(upload.content), self._uploads)
             return
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
         scene, find, kept = self._scene, self._bearings.find, self._given_machine
-        content, request = upload.content, self._latest
+        content, request = bytes(upload.content), self._latest
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:

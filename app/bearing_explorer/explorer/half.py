@@ -58,7 +58,7 @@ class Explorer(Requests):
     kind_of_content = Results
 
     def tab_opened(self, name: str) -> None:
-        self.bookmarks.show(name)  # links always say which tab is open
+        self.bookmarks.tab = name  # links always say which tab is open
         self.show_links()
 
     @property

@@ -23,7 +23,8 @@ class History(Generic[State]):
         self._now = now
         self._past: deque[State] = deque(maxlen=most)
         self._future: list[State] = []
-        self._moving = ""
+        #: name of the control being moved; empty between steps
+        self.moving = ""
 
     @property
     def can_undo(self) -> bool:
@@ -35,22 +36,17 @@ class History(Generic[State]):
         """Whether a step was undone that can be done again."""
         return bool(self._future)
 
-    @property
-    def moving(self) -> str:
-        """Name of the control being moved; empty between steps."""
-        return self._moving
-
     def moved(self, now: State, what: str) -> None:
         """Go on with the step that moves `what`, or begin it."""
-        if self._moving != what:
+        if self.moving != what:
             self.settle()
-        if now == self._now and not self._moving:
+        if now == self._now and not self.moving:
             self._now = now
             return
-        if not self._moving:
+        if not self.moving:
             self._past.append(self._now)
             self._future.clear()
-            self._moving = what
+            self.moving = what
         self._now = now
 
     def amend(self, now: State) -> None:
@@ -61,7 +57,7 @@ class History(Generic[State]):
         """The step that was being made is made."""
         if self._idle_move:
             self._past.pop()
-        self._moving = ""
+        self.moving = ""
 
     def step(self, now: State) -> None:
         """Make a step that needs no moving."""
@@ -82,7 +78,7 @@ class History(Generic[State]):
     @property
     def _idle_move(self) -> bool:
         """Whether a drag is back where it began."""
-        return bool(self._moving) and self._past[-1] == self._now
+        return bool(self.moving) and self._past[-1] == self._now
 
     def _go(
         self, source: deque[State] | list[State], target: deque[State] | list[State]

@@ -90,7 +90,8 @@ class JobForm(pn.Column):
         self._cancel = button("Cancel", cancel, css_classes=["cancel"], disabled=True)
         self._bar = pn.pane.HTML("", visible=False, margin=0, stylesheets=[_PROGRESS])
         self._sentence = Sentence(css_classes=["words"])
-        self._state = JobState("idle", 0.0, "")
+        #: of the job that is shown
+        self.state = JobState("idle", 0.0, "")
         below = (begin, self._cancel) if at_once else ()
         super().__init__(
             row(*widgets, *(() if at_once else (begin, self._cancel))),
@@ -117,14 +118,9 @@ class JobForm(pn.Column):
         self.fills = fills
         self._fields.put(values)
 
-    @property
-    def state(self) -> JobState:
-        """The state of the job that is shown."""
-        return self._state
-
     def show(self, state: JobState) -> None:
         """Show the state of the job."""
-        self._state = state
+        self.state = state
         self._bar.param.update(
             object=f'<progress aria-label="{self._words}" value="{state.part:.3f}"></progress>',
             visible=state.running,

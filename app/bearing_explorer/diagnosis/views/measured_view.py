@@ -49,7 +49,7 @@ class Demodulation:
 
 
 NO_MEASUREMENT = measurement_of(None, next(iter(presets.values())))
-"""What views draw outside of a session, where they are given none."""
+"""A measurement of nothing, for views that are given none."""
 NOTHING = "There is no signal yet: choose a file or simulate one above."
 WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
 

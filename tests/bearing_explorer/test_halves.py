@@ -58,8 +58,8 @@ async def main():
     assert session.shown == "overview"
     session.start()
     session.show_tab({"show": "load"})
-    take(halves.explorer.requests.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
-    halves.explorer.requests.simulate("20")  # of the other half: nothing comes
+    take(halves.explorer.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
+    halves.explorer.simulate("20")  # of the other half: nothing comes
     while session._drawn_mark < 4 or not session._loop.idle:
         await asyncio.sleep(0.05)
     [drawn] = [view for view in session.views_made() if view.name == "depth-profile"]

@@ -205,7 +205,8 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             return {}, {}
         run, speeds = found.run, found.speeds
         alpha = FAINT if self._is_of_another(results, found) else 1.0
-        seen = run.frequency <= top_frequency(run)
+        # more than usual where a band lies higher
+        seen = run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
         frequency = run.frequency[seen]
         top = float(frequency[-1])
         level_ranges = {}
@@ -318,11 +319,6 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
             break
         done += size
     return shown
-
-
-def top_frequency(run: SpeedRun) -> float:
-    """Highest frequency that is drawn [Hz]: more than usual where a band lies higher."""
-    return max(HIGHEST, 1.05 * highest(run.bands))
 
 
 def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:

@@ -173,13 +173,11 @@ class Stiffness(View):
         text = f"{'; '.join(parts)}. {why} {count} {carry}. Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""
-        super().say(results, sentence)
-        if results is not None:
-            words = _legend_words(results.scene)
-            if words != self._legend.data["text"]:
-                self._legend.data = {**self._legend.data, "text": words}
+        words = _legend_words(results.scene)
+        if words != self._legend.data["text"]:
+            self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""

@@ -127,6 +127,10 @@ class Explorer:
         self.page.mark = self.requests.mark
         self.page.draw()
 
+    def start_over(self) -> None:
+        """The scene counts as unchanged: a reset is no change with an effect of its own."""
+        self._last_state = LastState(self.scene)
+
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""
         results = self.content().at_rest()

@@ -59,6 +59,9 @@ class Owner(Protocol):
     def draw(self) -> None:
         """Bring what is on screen up to date."""
 
+    def start_over(self) -> None:
+        """The scene counts as unchanged."""
+
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""
 
@@ -132,6 +135,7 @@ class Requests:
         try:
             if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
+                self._owner.start_over()
                 self.show_controls(state=self.editor.state())
             if "choose" in message:
                 refused = self.editor.choose(message["choose"])

@@ -47,6 +47,7 @@ from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import WITH_MASS, Scene
@@ -275,12 +276,7 @@ def _worst(found: Iterable[Limit]) -> Limit:
     return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
-def _shoulder_of(
-    bearing: Bearing,
-    loads: NDArray[np.float64],
-    angles: NDArray[np.float64],
-    height: float | None,
-) -> Limit:
+def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | None) -> Limit:
     """Contact angle of loaded balls, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
@@ -329,7 +325,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     loads = state.ball_load[:, balls]
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     carried = _known(state) & np.isfinite(lightest)
-    load = _median(lightest[carried], state.shares[carried])
+    load = weighted_quantile(lightest[carried], state.shares[carried], 0.5)
     if not load > 0.0:
         return unknown(name, limit, "", "no ball is known to carry load")
     force = bearing.centrifugal_load(scene.shaft_speed)
@@ -344,15 +340,6 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     )
     within = f", less than the {percent(limit)} that matter."
     return upper_limit(name, share, limit, "", fact, beyond, within)
-
-
-def _median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:
-    """Median of numbers (n,) with weights (n,); NaN of none."""
-    if not values.size:
-        return math.nan
-    order = np.argsort(values)
-    below = np.cumsum(weights[order]) - 0.5 * weights[order]
-    return float(np.interp(0.5 * weights.sum(), below, values[order]))
 
 
 def _centrifugal_change(scene: Scene) -> Limit:

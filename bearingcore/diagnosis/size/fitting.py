@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -16,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.processors import processors
 from bearingcore.diagnosis.size.matching import (
     SPECTRUM_FLOOR,
     SPECTRUM_WEIGHT,
@@ -236,7 +236,8 @@ def guesses(search: Search) -> list[Guess]:
     Threads share the work, most of which holds no interpreter lock; nothing depends on which is
     done first, as everything is taken in its own order.
     """
-    with ThreadPoolExecutor(processors(), "size") as threads:
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    with ThreadPoolExecutor(usable, "size") as threads:
         return _refined(search, _library_scores(search, threads), threads)
 
 

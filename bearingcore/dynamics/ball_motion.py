@@ -169,7 +169,7 @@ def least_step_rate(packed: PackedMotion) -> float:
 
 
 def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
-    """As many as its resonance takes `a_cycle`, and as its fastest decay times a step is `decay`."""
+    """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
     races = _balls(packed).races
     fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
     resonance = max(resonances(packed.scene, heaviest_load(packed)))

@@ -124,6 +124,14 @@ def test_a_slider_reaches_the_view_on_screen_and_no_other(news: list[dict]) -> N
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
+def test_the_first_picture_of_a_change_has_the_limits_of_its_scene() -> None:
+    """A typed load may be far over them; those of a drag that goes on follow each second."""
+    explorer = session(rest=True)
+    moving = explorer.content
+    assert moving.moving
+    assert [explorer._limits_due(moving) for _ in range(3)] == [True, False, False]
+
+
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
     explorer = session(changing({"mark": 1, "typed": {"extent_deg": "33,5"}}))
     assert explorer.editor.values["extent_deg"] == 33.5

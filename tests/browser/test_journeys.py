@@ -784,6 +784,7 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
     visitor.steady()
     visitor.page.go_back()
     expect(title).to_have_text(second)
+    visitor.wait(lambda: "extent_deg=" not in visitor.page.url)  # with its own scene
     visitor.press("Close the lessons")
     visitor.press("Back to where I was")
     visitor.is_at("Machine: Bearing")

@@ -91,6 +91,9 @@ class Explorer(Requests):
         self.page.mark = self.mark
         super().draw()
 
+    def start_over(self) -> None:
+        self._last_state = LastState(self.scene)
+
     def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
         results = self.content().at_rest()
         kinds = [view for section in self.sections for view in section.views]

@@ -71,6 +71,10 @@ class Requests(Half):
         self.controls = Controls(self.change_scene, state=editor.state())
         self.panels: list[Rows] = [self.controls]
 
+    def start_over(self) -> None:
+        """The scene counts as unchanged: a reset is no change with an effect of its own."""
+        raise NotImplementedError
+
     def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
         """Results at rest, all views, and the findings of jobs by the name of the view."""
         raise NotImplementedError
@@ -107,6 +111,7 @@ class Requests(Half):
         try:
             if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
+                self.start_over()
                 self.show_controls(state=self.editor.state())
             if "choose" in message:
                 refused = self.editor.choose(message["choose"])

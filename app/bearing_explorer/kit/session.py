@@ -44,8 +44,9 @@ _PATIENCE = 0.25
 #: people share the interpreter, threads that wait for one another take half as long again
 _AT_ONCE = 0.025
 
-#: the limits of the model are checked when the slider rests; while it moves after so long [s], and
-#: where many share the machine, after so many pictures: they cost as much as two
+#: the limits of the model are checked when the slider rests and with the first picture of a change;
+#: while it moves after so long [s], and where many share the machine, after so many pictures: they
+#: cost as much as two
 _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
 
@@ -323,6 +324,8 @@ class Session:
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)
         self._refined = self._what_is_fine(content)
+        # the next change may be a typed number far from here
+        self._limits_at, self._pictures = -math.inf, _LIMITS_PICTURES
 
     def _limits_due(self, content: Content) -> bool:
         now = time.perf_counter()

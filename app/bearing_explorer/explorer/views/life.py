@@ -314,6 +314,10 @@ def _film(results: Results, found: Endurance) -> FactGroup:
     title = "Oil film"
     if found.film is None:
         return FactGroup(title, found.no_film, [])
+    pressed = found.pressures and (found.pressures.inner, found.pressures.outer)
+    allowed = results.scene.bearing.kind.static_pressure
+    if pressed and any(contact.greatest_pressure > allowed for contact in pressed):
+        return FactGroup(title, "Not known: the pressure is more than ISO 76 allows.", [])
     facts = []
     for film in (found.film.inner, found.film.outer):
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"

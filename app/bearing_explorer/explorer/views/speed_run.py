@@ -115,7 +115,7 @@ SCENE: list[Layer] = [
     ),
     *(
         Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
-        for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6))
+        for color, width in ((style.SHADE, 3.0), (style.LIGHT, 1.2))
     ),
 ]
 """Speeds whose motion was integrated in time, and the speed of this scene."""
@@ -315,6 +315,8 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
         if run.completed or not done:
             job.show(FoundRun(run, one))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
+            if size == FIRST_COUNT:
+                shown = f"A coarse picture: {shown} “Run up” computes as many as chosen."
         if not run.completed:
             break
         done += size

@@ -158,7 +158,8 @@ class Stiffness(View):
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
             least, most = ranges.least[term], ranges.greatest[term]
-            line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
+            span = prefixed_span(least, most, "N/m")
+            line = f"{name} {term} {'varies from' if ' to ' in span else 'is'} {span}"
             if results.reference_label and healthy.state.converged.any():
                 mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"

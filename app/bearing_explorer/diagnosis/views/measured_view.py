@@ -194,7 +194,8 @@ class MeasuredView(View[Model]):
             self.bring()
         if self.hidden is not None:
             self.hidden.visible = there
-        self._caption.put(nothing=not there)
+        file = self.measured is not None and self.measured.origin is not None
+        self._caption.put(nothing=not there, subject=self.measured.recording.name if file else "")
         # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 

@@ -134,6 +134,8 @@ class FileContents:
         that of the collection, by its name in the catalogue or its designation.
     orders
         BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
+    designation
+        of the bearing, as a line of the file has it: it may be that of none.
     """
 
     columns: tuple[Column, ...]
@@ -149,6 +151,7 @@ class FileContents:
     collection: str = ""
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
+    designation: Finding[str] | None = None
 
 
 def contents_of(table: FileColumns) -> FileContents:
@@ -199,6 +202,7 @@ def contents_of(table: FileColumns) -> FileContents:
         known.row.name,
         known.bearing,
         known.orders,
+        facts.designation_in([*table.remarks, *(f"{k}: {v}" for k, v in table.texts.items())]),
     )
 
 

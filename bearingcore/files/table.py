@@ -24,7 +24,15 @@ from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
 from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import SPEEDS, TIMES, UNITS, differentiated, kind_of, level_doubt
+from bearingcore.files.units import (
+    SPEEDS,
+    TIMES,
+    UNITS,
+    cut_off,
+    differentiated,
+    kind_of,
+    level_doubt,
+)
 from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
@@ -133,8 +141,9 @@ class Table(FileColumns):
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
         first, last, gaps = self._rows(picked)
-        notes = [*self.notes, *notes, gaps]
-        signal = self.columns[first:last, picked] * scale
+        signal = self.columns[first:last, picked]
+        cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
+        notes, signal = [*self.notes, *notes, gaps, *cut], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out

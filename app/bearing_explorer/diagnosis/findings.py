@@ -21,14 +21,14 @@ from bearing_explorer.diagnosis.diagnoses import (
     extent_of,
     listed_of,
 )
-from bearing_explorer.diagnosis.machine import of_scene
+from bearing_explorer.diagnosis.machine import FIELDS, of_scene
 from bearing_explorer.diagnosis.measurement_state import (
     CHANGED,
     NOT_YET,
     REFUSED,
     MeasurementState,
 )
-from bearing_explorer.diagnosis.model import NOT_TAKEN
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.executors import FILES, in_thread
@@ -147,8 +147,13 @@ class Findings:
             return "Reading the signal"
         if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
             return "Analysing the signal"
-        if self.state.bad:
-            return NOT_TAKEN
+        state = self.state
+        drawn = self._table is None or state.line
+        missing = not any(state.values.get(name) for name in state.refused)
+        if not drawn and missing and (state.refused or not state.bad):
+            return WANTED
+        if state.bad:  # what the form on the machine refuses stands in it
+            return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
         return "Searching the list of bearings" if self.listed.busy else ""
 
     def listed_question(self, about: Question) -> ListQuestion:

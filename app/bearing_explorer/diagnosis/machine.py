@@ -55,6 +55,12 @@ BEARING_SOURCES = {
 }  # fmt: skip
 """Where a bearing is from, in words."""
 
+OWN_FREQUENCIES = (
+    " Another bearing has other frequencies, however alike: choose “by its frequencies” and take "
+    "them from the maker's sheet."
+)
+"""What to do about a bearing that is not in the table."""
+
 find_published = BearingTable().find
 """The published bearing of a name, or the one of a designation."""
 
@@ -195,6 +201,13 @@ def _bearing(contents: FileContents) -> dict[str, str]:
             for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
         }
         return {"bearing": BY_FREQUENCIES, **texts}
+    named = contents.designation
+    if listed is None and named is not None:
+        try:
+            find_published(named.value)
+        except ValueError:  # a number of another thing, or a bearing that is not in the table
+            return {"bearing": NOT_KNOWN, **texts}
+        return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
 
 
@@ -267,12 +280,14 @@ def read_machine(
     except ValueError as error:
         if not {"speed", "shaft_speed"} & set(refused):  # which says it already
             field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
-            refused[field] = sentence_of(error)
+            refused[field] = sentence_of(error) + OWN_FREQUENCIES * (field == "designation")
     if refused:
         raise FormError(refused)
-    if by == GIVEN and all(texts[one] == first[one] for one in ("bearing", *FREQUENCIES)):
+    if by == GIVEN and all(texts[one] == first[one] for one in GROUPS["bearing"]):
         by = FILE
-        if not contents.frequencies:  # known from the collection the file seems to be of
+        if (
+            not contents.frequencies and not texts["designation"]
+        ):  # known from the collection the file seems to be of
             guessed.add("bearing")
     return Machine(
         speed, bearing, source, by, name, frozenset(guessed),
@@ -310,10 +325,16 @@ def read_speed(text: str) -> float:
     """[Hz], of a number with its unit, or of one in Hz so low that no rpm can be meant."""
     words, (least, most) = "The shaft speed", SPEEDS
     bare = text.lower()
-    per_minute = bare.endswith(("rpm", "/min", "u/min", "1/min"))
-    bare = re.sub(r"\s*(rpm|[u1]?/min|hz)$", "", bare)
+    bare = re.sub(r"\s*(rpm|[ur1]?/min|min(-|\^-|⁻|−)[1¹])$", " rpm", bare)
+    per_minute = bare.endswith(" rpm")
+    bare = bare.removesuffix(" rpm").removesuffix("hz").rstrip()
+    if per_minute and re.fullmatch(r"\d{1,3}[.,]\d{3}", bare):
+        raise ValueError(
+            f"{words} is {bare} rpm: is that {re.sub('[.,]', '', bare)} rpm? Type it without the "
+            "mark, or with another number of decimals."
+        )
     value = number_of(bare, words, "rpm" if per_minute else "Hz", 0.0, math.inf)
-    if bare == text.lower() and FASTEST_BARE < value <= most:
+    if bare == text.lower().strip() and FASTEST_BARE < value <= most:
         raise ValueError(
             f"A number alone is in Hz: {words.lower()} is {number(60.0 * value, 6)} rpm. Did you "
             f"mean {bare} rpm? Type it with its unit."

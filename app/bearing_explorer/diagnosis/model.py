@@ -8,8 +8,10 @@ from typing import Any
 from bearing_explorer.kit.views.content import Content
 from bearingcore import Scene
 
-NOT_TAKEN = "Not taken: see the top of Diagnosis"
-"""In the status line where a file or an answer is refused."""
+NOT_TAKEN = "Not taken: see step {}"
+"""In the status line where a file or an answer is refused: the step that says why."""
+WANTED = "An answer is missing: see step 1"
+"""In the status line while nothing can be drawn."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,7 @@ class Model(Content):
         """The status line: a signal has no equilibrium to converge."""
         details = [f"{1e3 * seconds:.1f} ms of computing"]
         resting = not self.moving
-        mood = "bad" if self.at_work == NOT_TAKEN else "busy" if self.at_work else "good"
+        refused = self.at_work in {NOT_TAKEN.format(step) for step in (1, 2)}
+        mood = "bad" if refused else "busy" if self.at_work else "good"
         words = self.at_work or "Ready"
         return {"mood": mood, "words": words, "details": details, "resting": resting}

@@ -44,6 +44,7 @@ from bearing_explorer.diagnosis.signal_words import about_size, in_short, summar
 from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
+AS_GIVEN = "As you gave it."
 
 
 class SignalForm(Findings):
@@ -144,9 +145,10 @@ class SignalForm(Findings):
             self.measured = self._measured(found.asked, found.form)
             words, bad = self._summary(about_size(found.sizes)), False
         else:
-            words = f"{table.name} is read. {_WAITS} " + " ".join(
-                {**found.asks, **found.refused, **found.sizes}.values()
-            )
+            wanted = {**found.asks, **found.refused, **found.sizes}
+            if not wanted.get("columns", "?").endswith(("?", "columns.")):  # there is no signal
+                wanted = {"columns": wanted["columns"]}
+            words = f"{table.name} is read. {_WAITS} {' '.join(wanted.values())}"
             bad = bool(found.refused) and not found.asks
         self._tell(
             words=words,
@@ -218,7 +220,12 @@ class SignalForm(Findings):
         news = {
             "values": texts,
             "refused": {name: words for name, words in refused.items() if name not in left},
-            "reasons": {**reasons(table), **asks, **sizes},
+            "reasons": {
+                name: words if texts[name] == self._first[name] else AS_GIVEN
+                for name, words in reasons(table).items()
+            }
+            | asks
+            | sizes,
             "open": [*left, *sizes],
             "proposed": proposed_unit(table),
             "voltage": is_voltage(table, texts),

@@ -83,11 +83,14 @@ class MeasuredKurtogram(MeasuredView):
         found = measured.kurtogram(direction)
         most = int(found.kurtosis.argmax())
         band, chosen = found.bands[most], self.demodulation(measured, direction)
-        return (
+        words = (
             f"Along {direction} the kurtosis is highest, {style.number(found.kurtosis[most], 3)}, "
             f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
-            f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}."
+            f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}"
         )
+        if self.diagnosed() is None or chosen.band == (band.low, band.high):
+            return f"{words}."
+        return f"{words}: that is chosen by the bearing's lines, not by the kurtosis."
 
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         return measured.kurtogram(self.direction_of(measured)).table().in_units().named()

@@ -85,7 +85,9 @@ class MeasuredSpectrogram(MeasuredView):
 
     def words_of(self, model: Model, measured: Measured) -> str:
         time, frequency, level = self.shown(measured)
-        when, most = np.unravel_index(int(level.argmax()), level.shape)
+        above = min(2, level.shape[1] - 1)  # an offset of the sensor is no vibration
+        when, most = np.unravel_index(int(level[:, above:].argmax()), level[:, above:].shape)
+        most += above
         where = f"at {frequency[most]:.0f} Hz, {style.with_prefix(float(time[when]), 's')} in"
         return f"Along {self.direction_of(measured)} it is loudest {where}."
 

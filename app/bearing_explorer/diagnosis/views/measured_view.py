@@ -194,7 +194,9 @@ class MeasuredView(View[Model]):
             self.bring()
         if self.hidden is not None:
             self.hidden.visible = there
-        self._caption.put(nothing=not there)
+        measured = self.measured
+        file = measured.recording.name if measured is not None and measured.origin else ""
+        self._caption.put(nothing=not there, subject=file)
         # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 

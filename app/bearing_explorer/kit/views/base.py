@@ -66,6 +66,8 @@ class Caption(LiveComponent):
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
+    #: of what its numbers are, for names of files and beneath pictures; empty of the scene
+    subject = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures

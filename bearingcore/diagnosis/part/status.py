@@ -12,6 +12,7 @@ class DiagnosisStatus(Status):
     NONE_SEEN = "none seen"
     PERHAPS_A_BALL = "race's lines, perhaps by a ball"
     ALIKE = "parts alike"
+    UNMODULATED = "lines without modulation"
     MAGNETIC = "like magnetic noise"
     NOT_ALONE = "not alone"
     FAINT = "faint lines"
@@ -40,6 +41,9 @@ _SENTENCES = {
         "may make them."
     ),
     DiagnosisStatus.ALIKE: "The lines of both races show, neither much stronger.",
+    DiagnosisStatus.UNMODULATED: (
+        "Impacts repeat at the rate of a part that turns, but are not modulated by its turning."
+    ),
     DiagnosisStatus.MAGNETIC: (
         "Lines of a part show at twice the mains frequency, where magnetic noise of a motor has "
         "its own."

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from typing import SupportsFloat, TypeVar
+from typing import Any, SupportsFloat, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -68,6 +68,24 @@ def real_number(
     except (TypeError, ValueError, OverflowError):
         pass
     raise _error(given)(field, given, Interval(at_least, at_most, above, below, note), unit)
+
+
+def keep(part: object, **values: object) -> None:
+    """Set fields of a frozen dataclass, as its `__post_init__` does with what it has checked."""
+    for name, value in values.items():
+        object.__setattr__(part, name, value)
+
+
+def keep_number(
+    part: object, name: str, *, optional: bool = False, of: str = "", **limits: Any
+) -> None:
+    """Check a number of a frozen dataclass, see `real_number`, and keep it there as a float.
+
+    An `optional` one may be None; `of` stands behind the name in a refusal.
+    """
+    value = getattr(part, name)
+    if value is not None or not optional:
+        keep(part, **{name: real_number(name + of, value, **limits)})
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:

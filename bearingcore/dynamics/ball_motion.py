@@ -6,10 +6,10 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import floor_bytes
 from bearingcore.scene.packing import PackedMotion, PackedScene, pack
@@ -17,8 +17,6 @@ from bearingcore.scene.scene import DOF_NAMES, Scene
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.positions import equilibrium_over_all
 from bearingcore.statics.status import StaticStatus
-
-Array = NDArray[np.float64]
 
 STEPS_A_CONTACT_CYCLE = 5.0
 """Steps in a period of the contact resonance, by default; stable down to 2.2."""

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -88,12 +88,12 @@ class Motion:
     step_rate: float
     status: MotionStatus
     right_hand_side_calls: int
-    time: NDArray[np.float64]
-    ball_load: NDArray[np.float64] | None
-    history: NDArray[np.float64] = field(repr=False)
-    ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
+    time: Array
+    ball_load: Array | None
+    history: Array = field(repr=False)
+    ball_place: Array | None = field(default=None, repr=False)
     detail: str = ""
-    filtered: NDArray[np.float64] | None = field(default=None, repr=False)
+    filtered: Array | None = field(default=None, repr=False)
 
     @property
     def completed(self) -> bool:
@@ -106,41 +106,41 @@ class Motion:
         return f"{self.status}{self.detail}"
 
     @cached_property
-    def cage_angle(self) -> NDArray[np.float64]:
+    def cage_angle(self) -> Array:
         """(n,) [rad], 0 at the start."""
         return self.scene.cage_speed * self.time
 
     @cached_property
-    def inner_displacement(self) -> NDArray[np.float64]:
+    def inner_displacement(self) -> Array:
         """(n, len(dofs)) [m, rad]"""
         return self._sampled("inner", 0)
 
     @cached_property
-    def outer_displacement(self) -> NDArray[np.float64]:
+    def outer_displacement(self) -> Array:
         """(n, len(dofs)) [m, rad]"""
         return self._sampled("outer", 0)
 
     @cached_property
-    def inner_velocity(self) -> NDArray[np.float64]:
+    def inner_velocity(self) -> Array:
         """(n, len(dofs)) [m/s, rad/s]"""
         return self._sampled("inner", 1)
 
     @cached_property
-    def outer_velocity(self) -> NDArray[np.float64]:
+    def outer_velocity(self) -> Array:
         """(n, len(dofs)) [m/s, rad/s]"""
         return self._sampled("outer", 1)
 
     @cached_property
-    def inner_acceleration(self) -> NDArray[np.float64]:
+    def inner_acceleration(self) -> Array:
         """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
         return self._accelerations("inner")
 
     @cached_property
-    def outer_acceleration(self) -> NDArray[np.float64]:
+    def outer_acceleration(self) -> Array:
         """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
         return self._accelerations("outer")
 
-    def instant_acceleration(self, body: str) -> NDArray[np.float64]:
+    def instant_acceleration(self, body: str) -> Array:
         """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
 
         As the forces of the instant give it, unfiltered: for balances, not for spectra.
@@ -163,7 +163,7 @@ class Motion:
         return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
     @cached_property
-    def ball_position(self) -> NDArray[np.float64]:
+    def ball_position(self) -> Array:
         """(n, 2, N_b) [m] radial and axial place of each ball.
 
         Against that of the unloaded ball that touches the outer race, the rings concentric.
@@ -173,22 +173,24 @@ class Motion:
         ValueError
             for balls without mass, which have no place of their own.
         """
-        place = self._with_mass()
+        place = self.ball_place
+        if place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
         full = np.zeros((len(place), 2, place.shape[2]))
         full[:, : place.shape[1]] = place
         return full
 
     @cached_property
-    def ball_load_inner(self) -> NDArray[np.float64]:
+    def ball_load_inner(self) -> Array:
         """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
         return self.race_loads()[0]
 
     @cached_property
-    def ball_load_outer(self) -> NDArray[np.float64]:
+    def ball_load_outer(self) -> Array:
         """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
         return self.race_loads()[1]
 
-    def race_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+    def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
         Of balls without mass both are the same.
@@ -199,7 +201,7 @@ class Motion:
             return np.stack([loads, loads])
         return self._race_loads(packed, self.ball_place, start, stop)
 
-    def ball_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+    def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
 
         Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
@@ -212,15 +214,13 @@ class Motion:
         """The same motion with the loads of its balls."""
         return replace(self, ball_load=self._ball_loads(packed, 0, None))
 
-    def _race_loads(
-        self, packed: PackedScene, place: NDArray[np.float64], start: int, stop: int | None
-    ) -> NDArray[np.float64]:
+    def _race_loads(self, packed: PackedScene, place: Array, start: int, stop: int | None) -> Array:
         first, last = slice(start, stop).indices(len(self.time))[:2]
         turned = self.scene.cage_speed / self.sample_rate
         begin = first * self.scene.cage_speed / self.sample_rate
         return loads_of_races(packed, self.history[first:last], place[first:last], (begin, turned))
 
-    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> NDArray[np.float64]:
+    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> Array:
         if self.ball_place is not None:
             return self._race_loads(packed, self.ball_place, start, stop)[1]
         samples = slice(start, stop).indices(len(self.time))[:2]
@@ -238,11 +238,6 @@ class Motion:
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
         return np.asarray(loads)
-
-    def _with_mass(self) -> NDArray[np.float64]:
-        if self.ball_place is None:
-            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
-        return self.ball_place
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
@@ -265,7 +260,7 @@ class Motion:
         """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
         return self.step_rate if self.ball_place is None else self.sample_rate
 
-    def _accelerations(self, body: str) -> NDArray[np.float64]:
+    def _accelerations(self, body: str) -> Array:
         n, first = len(self.time), 0 if body == "inner" else 3
         if self.filtered is not None:  # of balls with mass not every step is kept
             scaled = self.filtered[first // 3]
@@ -275,7 +270,7 @@ class Motion:
             scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
         return scaled / packing.length_units(self.scene, self.dofs)
 
-    def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
+    def _sampled(self, body: str, derivative: int) -> Array:
         """A quantity of one body at the sample times, between steps by quintic interpolation."""
         rate = self._history_rate
         scaled = _sample(self.history, body, derivative, self.sample_rate, rate, 0, len(self.time))
@@ -424,9 +419,7 @@ def simulate(
     return motion.with_ball_loads(packed) if ball_loads else motion
 
 
-def march_from(
-    packed: PackedMotion, rest: Equilibrium, h: float, history: NDArray[np.float64]
-) -> int | None:
+def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:
     """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
 
     Returns the number of steps after which all was finite; None where there is no static state.
@@ -456,7 +449,7 @@ def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.
     return kernels.System(rotor, packed.contacts, packed.path)
 
 
-def static_start(packed: PackedMotion, rest: Equilibrium) -> NDArray[np.float64] | None:
+def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
     """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
 
     `rest` is the static state at cage angle 0.
@@ -496,14 +489,14 @@ def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
 
 
 def _sample(
-    history: NDArray[np.float64],
+    history: Array,
     body: str,
     derivative: int,
     sample_rate: float,
     step_rate: float,
     start: int,
     stop: int,
-) -> NDArray[np.float64]:
+) -> Array:
     """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled."""
     a_step, a_sample = _ratio(sample_rate, step_rate)
     first = 0 if body == "inner" else 3

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import moving_system, static_start
@@ -17,8 +17,6 @@ from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium_of
 from bearingcore.statics.passes import path_kinks
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

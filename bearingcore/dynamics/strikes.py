@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from bearingcore.common.arrays import Array, runs
 
 
 @dataclass(frozen=True)
@@ -41,9 +40,9 @@ def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
     """
     free = np.asarray((loads <= 0.0).all(axis=0))
     return tuple(
-        Flight(ball, float(time[first]), float(time[last]))
+        Flight(ball, float(time[first]), float(time[end - 1]))
         for ball in range(free.shape[1])
-        for first, last in _runs_of_true(free[:, ball])
+        for first, end in zip(*runs(free[:, ball]), strict=True)
     )
 
 
@@ -56,11 +55,11 @@ def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
     for index, race in enumerate(RACES_OF_LOADS):
         for ball in range(loads.shape[2]):
             load = loads[index, :, ball]
-            for first, last in _runs_of_true(load > 0.0):
+            for first, end in zip(*runs(load > 0.0), strict=True):
                 if first == 0:
                     continue
-                falls = np.flatnonzero(np.diff(load[first : last + 1]) <= 0.0)
-                peak = first + int(falls[0]) if falls.size else last
+                falls = np.flatnonzero(np.diff(load[first:end]) <= 0.0)
+                peak = first + int(falls[0]) if falls.size else end - 1
                 found.append(
                     Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
                 )
@@ -69,9 +68,3 @@ def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
 
 RACES_OF_LOADS = ("inner", "outer")
 """In the order of the loads."""
-
-
-def _runs_of_true(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First and last index of each run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], which.astype(np.int8), [0]])))
-    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]

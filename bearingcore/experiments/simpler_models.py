@@ -9,12 +9,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_comparison import compare_motions
-from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import common_ball_passes, orbit
@@ -23,8 +22,6 @@ from bearingcore.scene.scene import DOF_NAMES, MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles
-
-Array = NDArray[np.float64]
 
 SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
 """Quantities of errors: the housing's settled acceleration [dB], stiffness over the cage angle, or
@@ -43,6 +40,12 @@ one that takes longer [s] is not repeated."""
 
 N_ANGLES = 361
 """Cage angles over a period of the curves as they are drawn."""
+
+
+_TERMS = np.triu_indices(5)
+
+LEAST_SWING = 0.01
+"""Errors are taken over a curve's swing, but not over less than this part of its size."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +159,8 @@ class _Measure:
     def rows(self) -> Iterator[Alternative]:
         """One after the other."""
         for dofs in fewer_directions(self.scene):
-            yield self._curves_of_directions(dofs)
+            found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
+            yield self._curves(f"directions {' '.join(dofs)}", found, self.state, seconds)
         yield from (self._cage_angles(n) for n in (121, 1441))
         try:
             own, seconds = self._march(self.scene)
@@ -186,19 +190,24 @@ class _Measure:
         found = static_state(scene, default_cage_angles(scene, n))
         return found, time.thread_time() - began
 
-    def _curves_of_directions(self, dofs: tuple[str, ...]) -> Alternative:
-        found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
-        error = _curve_error(found, self.state)
-        name = f"directions {' '.join(dofs)}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds)
+    def _curves(
+        self, name: str, found: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
+    ) -> Alternative:
+        """Error over the swing that 99 % of the cage angles keep below."""
+        error = curve_errors(
+            found.cage_angles,
+            stiffness_curves(found),
+            expected.cage_angles,
+            stiffness_curves(expected),
+        )
+        greatest = float(np.quantile(error, 0.99)) if error.size else math.nan
+        return Alternative(name, CURVES, greatest, seconds, self.static_seconds, note)
 
     def _cage_angles(self, n: int) -> Alternative:
         found, seconds = self._static(self.scene, n)
         coarse, fine = sorted((self.state, found), key=lambda state: state.cage_angles.size)
-        error = _curve_error(coarse, fine)
-        name = f"{found.cage_angles.size} cage angles"
         note = f"drawn: {self.state.cage_angles.size}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds, note)
+        return self._curves(f"{found.cage_angles.size} cage angles", coarse, fine, seconds, note)
 
     # Motions
 
@@ -307,17 +316,6 @@ class _Measure:
         return Alternative("quasi-static", DISPLACEMENT, error, seconds, own_seconds, note)
 
 
-def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
-    """Error over the swing that 99 % of the cage angles keep below."""
-    error = curve_errors(
-        found.cage_angles,
-        stiffness_curves(found),
-        expected.cage_angles,
-        stiffness_curves(expected),
-    )
-    return float(np.quantile(error, 0.99)) if error.size else math.nan
-
-
 def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
     """Smaller sets of directions than a scene's that keep x and y."""
     dofs = scene.active_dofs
@@ -328,3 +326,47 @@ def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
 
 def _without(name: str, own_seconds: float, why: object) -> Alternative:
     return Alternative(name, SPECTRUM, math.nan, math.nan, own_seconds, f"not computed: {why}")
+
+
+def stiffness_curves(state: Equilibrium) -> Array:
+    """(n, 15) the terms of the stiffness, in their units; NaN where there is no answer."""
+    return state.stiffness[:, *_TERMS]
+
+
+def swings(values: Array) -> Array:
+    """(m,) what errors of curves (n, m) are taken over: swings, or LEAST_SWING of the size.
+
+    A term that symmetry makes zero is measured by the size of its neighbours: 1 where nothing is.
+    """
+    known = values[np.isfinite(values).all(axis=1)]
+    if not known.size:
+        return np.ones(values.shape[1])
+    size = np.abs(known).max(axis=0)
+    swing = np.maximum(np.ptp(known, axis=0), LEAST_SWING * size)
+    if values.shape[1] == 15:  # stiffness: a term counts over the diagonal ones of its directions
+        rows, columns = _TERMS
+        diagonal = size[rows == columns]
+        swing = np.maximum(swing, 1e-6 * np.sqrt(diagonal[rows] * diagonal[columns]))
+    return np.where(swing > 0.0, swing, 1.0)
+
+
+def curve_errors(angles: Array, values: Array, dense: Array, expected: Array) -> Array:
+    """Error of straight lines between cage angles: the greatest of all curves, over its swing.
+
+    Parameters
+    ----------
+    angles : (n,) [rad], values : (n, m)
+        cage angles, rising, and the curves there.
+    dense : (k,) [rad], expected : (k, m)
+        the same at far more angles.
+
+    Returns
+    -------
+    (≤ k,)
+        at those of the far more angles where all curves have an answer.
+    """
+    lines = np.stack(
+        [np.interp(dense, angles, values[:, i]) for i in range(values.shape[1])], axis=1
+    )
+    error = np.abs(lines - expected) / swings(expected)
+    return np.asarray(error[np.isfinite(error).all(axis=1)].max(axis=1, initial=0.0))

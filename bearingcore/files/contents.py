@@ -99,7 +99,7 @@ class FileColumns:
                 f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
             )
         for name in ("scalars", "texts", "given"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,8 @@ def contents_of(table: FileColumns) -> FileContents:
         *facts.named_in(table.remarks),
         *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
     ]
-    clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
+    hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
+    clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
     known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
@@ -199,10 +200,6 @@ def contents_of(table: FileColumns) -> FileContents:
         known.bearing,
         known.orders,
     )
-
-
-def _headed_clock(names: Sequence[str]) -> bool:
-    return names[0].strip().lower() in ("hour", "hours", "h", "stunde")
 
 
 def _columns(

@@ -6,12 +6,13 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import json
 import re
 import warnings
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -64,29 +65,10 @@ def read(
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
-    known = libraries.library_for(name, content)
-    kind: str
-    walk: Any
-    if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it
-        kind, walk = "HDF5 file", _walk_hdf5
-    elif known is not None:
-        kind, walk = known
-    elif content[:4] == b"PK\x03\x04":
-        kind, walk = "NumPy file", libraries.npz
-    elif re.match(rb"# Created by Octave", content):
-        kind, walk = "text of Octave", _walk_octave
-    elif re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
-        kind, walk = "JSON file", lambda _, found: _walk_json(values, "", found, 0)
-    elif content[:6] == b"Octave":
-        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
-    elif (
-        content[:6] == b"MATLAB"
-        or content[126:128] in (b"IM", b"MI")
-        or name.lower().endswith(".mat")
-    ):
-        kind, walk = "MATLAB file", _walk_matlab
-    else:
+    known = _format_of(name, content)
+    if known is None:
         return read_text(name, content, most_numbers, most_columns)
+    kind, walk = known
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -98,6 +80,36 @@ def read(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
     return found.table(name, kind, most_numbers, most_columns)
+
+
+Walk = Callable[[bytes, "Variables"], None]
+"""Puts the variables of a content into the second argument."""
+
+
+def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
+    """Name and reader of a format, by the first bytes; None of text with numbers.
+
+    Raises
+    ------
+    FieldError
+        where the format's library is not installed.
+    """
+    for mark, kind, walk, package in _FORMATS:
+        if re.match(mark, content, re.DOTALL):
+            if package and importlib.util.find_spec(package.lower()) is None:
+                raise checks.refuse(
+                    "file",
+                    name,
+                    f"a {kind} only where the package {package} is installed (pip install "
+                    f"{package}); else export it as CSV from the program that wrote it",
+                )
+            return kind, walk
+    if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
+        return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+    if content[:6] == b"Octave":
+        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
+    marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
+    return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
 
 
 def _unzipped_alone(name: str, content: bytes) -> bytes:
@@ -256,10 +268,6 @@ def _check_depth(depth: int) -> None:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
-def _walk_octave(content: bytes, found: Variables) -> None:
-    walk_octave(content, found.add)
-
-
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
 
 
@@ -358,3 +366,17 @@ def _as_in_matlab(data: Any) -> NDArray[Any]:
     if kind == b"char" and values.dtype.kind in "iu":
         return np.array("".join(map(chr, values.T.ravel()[:LONGEST_TEXT].tolist())))
     return values.astype(bool) if kind == b"logical" else values
+
+
+_FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
+    # MATLAB 7.3 puts text before HDF5
+    (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
+    (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
+    (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
+    (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
+    (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
+    (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
+    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", libraries.uff, "pyuff"),
+    (rb"# Created by Octave", "text of Octave", walk_octave, ""),
+)
+"""Formats by their first bytes, what reads each, and the package that it needs."""

@@ -6,18 +6,19 @@ Runs in the process of `child` alone. Each value has a head of lines such as "# 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-Keep = Callable[[str, np.ndarray], None]
+if TYPE_CHECKING:
+    from bearingcore.files.formats import Variables
 
 DEEPEST = 8
 """Structs and cells inside one another."""
 
 
-def walk_octave(content: bytes, keep: Keep) -> None:
-    """Give `keep` the path and value of each matrix, number and word, as in MATLAB.
+def walk_octave(content: bytes, found: Variables) -> None:
+    """Add the path and value of each matrix, number and word, as in MATLAB.
 
     Raises
     ------
@@ -26,7 +27,7 @@ def walk_octave(content: bytes, keep: Keep) -> None:
     """
     text = _Lines(content.decode("latin-1").splitlines())
     while text.skip_to("name"):
-        _value(text, text.said("name"), keep, 0)
+        _value(text, text.said("name"), found, 0)
 
 
 class _Lines:
@@ -71,7 +72,7 @@ class _Lines:
         return self._lines[self._place].startswith(f"# {key}:")
 
 
-def _value(text: _Lines, path: str, keep: Keep, depth: int) -> None:
+def _value(text: _Lines, path: str, found: Variables, depth: int) -> None:
     """A value of any type; those that are no numbers or words are passed over."""
     if depth > DEEPEST:
         raise ValueError("structs inside one another")
@@ -84,19 +85,19 @@ def _value(text: _Lines, path: str, keep: Keep, depth: int) -> None:
         for index in range(inside):
             name = text.said("name")
             part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
-            _value(text, part, keep, depth + 1)
+            _value(text, part, found, depth + 1)
     elif kind in ("string", "sq_string"):
         if int(text.said("elements")):
-            keep(path, np.array([text.take(2)[1]]))
+            found.add(path, np.array([text.take(2)[1]]))
     elif kind.endswith("scalar"):
-        keep(path, text.numbers(1))
+        found.add(path, text.numbers(1))
     elif kind.endswith("range"):
         base, limit, step = text.numbers_after("base, limit, increment")
-        keep(path, base + step * np.arange(round((limit - base) / step) + 1))
+        found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
     elif kind.endswith("matrix") and text.holds("rows"):
         shape = int(text.said("rows")), int(text.said("columns"))
-        keep(path, text.numbers(shape[0]).reshape(shape))
+        found.add(path, text.numbers(shape[0]).reshape(shape))
     elif kind.endswith("matrix") and text.holds("ndims"):  # of whole numbers, or of more dimensions
         text.said("ndims")
         sizes = text.numbers(1).astype(int).tolist()
-        keep(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))
+        found.add(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))

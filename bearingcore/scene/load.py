@@ -23,8 +23,7 @@ class Load:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = checks.real_number(field.name, getattr(self, field.name))
-            object.__setattr__(self, field.name, value)
+            checks.keep_number(self, field.name)
 
     @property
     def has_moment(self) -> bool:

@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import path_tables
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.units import STANDARD_GRAVITY
-
-Array = NDArray[np.float64]
 
 SMALL_TILT = 0.2
 """[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,14 +42,10 @@ class Support:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = getattr(self, field.name)
-            if value is None and field.default is None:
-                continue
-            if field.name.startswith("damping"):
-                value = checks.real_number(field.name, value, at_least=0.0)
-            else:
-                value = checks.real_number(field.name, value, above=0.0)
-            object.__setattr__(self, field.name, value)
+            least: dict[str, Any] = {
+                "at_least" if field.name.startswith("damping") else "above": 0.0
+            }
+            checks.keep_number(self, field.name, optional=field.default is None, **least)
 
     def _numbers(self, names: Mapping[str, str]) -> NDArray[np.float64]:
         """Numbers by direction; where one is not known all that are not are named."""

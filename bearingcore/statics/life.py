@@ -346,21 +346,15 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     """
     own = bearing.of_row(row)
     cosine = math.cos(own.contact_angle)
+    each = [1.0] if bearing.rows_are_alike else _ratings_alone(bearing)
+    part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * _part_of_rating(bearing, row) / (own.n_balls * cosine),
+        dynamic_load_rating * part / (own.n_balls * cosine),
         own.ball_diameter * cosine / own.pitch_diameter,
         1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
-
-
-def _part_of_rating(bearing: Bearing, row: int) -> float:
-    """Rating of a row over the mean of all rows."""
-    if bearing.rows_are_alike:
-        return 1.0
-    each = _ratings_alone(bearing)
-    return each[row] * len(each) / sum(each)
 
 
 def _ratings_alone(bearing: Bearing) -> list[float]:

@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
 from bearingcore.scene.packing import PackedScene, pack
@@ -45,8 +46,6 @@ from bearingcore.statics.equilibrium import (
     equilibrium_of,
     without_defects,
 )
-
-Array = NDArray[np.float64]
 
 TWO_PI = 2.0 * math.pi
 

@@ -8,14 +8,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import ANGLES_A_PERIOD, STIFFNESS_TERMS, Equilibrium
 from bearingcore.statics.equilibrium import equilibrium as massless_equilibrium
 from bearingcore.statics.positions import ROUNDS, extremes, over_all_positions, positions
-
-Array = NDArray[np.float64]
 
 BALL_LOAD = "ball_load"
 """Name of the load [N] of the ball that carries most, besides those of `STIFFNESS_TERMS`."""

@@ -173,16 +173,10 @@ class Grid:
             return (*part, len(self.settings.record_time))
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
-    def values_at(self, index: Sequence[int]) -> dict[str, Any]:
-        """Values of the axes at an index."""
-        return {
-            axis.name: axis.values[i].item() if axis.name not in WORDS else str(axis.values[i])
-            for axis, i in zip(self.axes, index, strict=True)
-        }
-
     def scene_at(self, index: Sequence[int]) -> Scene:
         """The scene at an index; ValueError where there can be none."""
-        return self.scene.replace(**self.values_at(index))
+        pairs = zip(self.axes, index, strict=True)
+        return self.scene.replace(**{axis.name: axis.values[i].item() for axis, i in pairs})
 
     # ---------------------------------------------------------------------------- regions
 
@@ -234,7 +228,8 @@ class Grid:
         """Codes of STATUSES and the outputs of all scenes, in this thread."""
         status = np.zeros(self.shape, dtype=np.int8)
         numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
-        for at, codes, found in self._rows() if self.in_rows else self._scenes():
+        each = ((at, *self._scene(at)) for at in np.ndindex(*self.shape))
+        for at, codes, found in self._rows() if self.in_rows else each:
             status[at] = codes
             for name in self.outputs:
                 if name in found:
@@ -242,10 +237,6 @@ class Grid:
         for values in numbers.values():
             values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
         return status, numbers
-
-    def _scenes(self) -> Iterator[tuple[Any, Any, Numbers]]:
-        for at in np.ndindex(*self.shape):
-            yield at, *self._scene(at)
 
     def _scene(self, index: Sequence[int]) -> tuple[Any, Numbers]:
         try:
@@ -295,7 +286,11 @@ class Grid:
                 for axis in self.axes
                 if axis.name in ("extent", "depth")
             }
-            if not _or_none(self.scene, largest, lambda scene: scene.defects):
+            try:
+                damaged = bool(self.scene.replace(**largest).defects)
+            except ValueError:
+                damaged = True  # there can be none, which is refused below
+            if not damaged:
                 raise checks.refuse(
                     "over",
                     of_defect[0],
@@ -412,14 +407,6 @@ def _even(n: int, most: int) -> int:
     """The least part size that cuts n into as few parts as parts of size `most` do."""
     parts = -(-n // min(most, n))
     return -(-n // parts)
-
-
-def _or_none(scene: Scene, changes: dict[str, Any], ask: Any) -> Any:
-    """`ask` of the changed scene; True where there can be none, which is refused later."""
-    try:
-        return ask(scene.replace(**changes))
-    except ValueError:
-        return True
 
 
 def _short(value: object) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
@@ -48,8 +49,6 @@ from bearingcore.sweep.status import (
     STATUSES,
     SweepStatus,
 )
-
-Array = NDArray[np.float64]
 
 STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
 RECORD = "record"
@@ -280,24 +279,13 @@ class Settings:
     band_high: float = 10_000.0
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: float) -> None:
-            object.__setattr__(self, name, value)
-
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
-        keep("cage_angles", angles)
-        for name, most, unit in (("duration", 60.0, "s"), ("sample_rate", 1e7, "Hz")):
-            value = checks.real_number(
-                name, getattr(self, name), above=0.0, at_most=most, unit=unit
-            )
-            keep(name, value)
-        keep("band_low", checks.real_number("band_low", self.band_low, above=0.0, unit="Hz"))
-        band_high = checks.real_number("band_high", self.band_high, above=self.band_low, unit="Hz")
-        keep("band_high", band_high)
-        if self.dynamic_load_rating is not None:
-            rating = checks.real_number(
-                "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
-            )
-            keep("dynamic_load_rating", rating)
+        checks.keep(self, cage_angles=angles)
+        checks.keep_number(self, "duration", above=0.0, at_most=60.0, unit="s")
+        checks.keep_number(self, "sample_rate", above=0.0, at_most=1e7, unit="Hz")
+        checks.keep_number(self, "band_low", above=0.0, unit="Hz")
+        checks.keep_number(self, "band_high", above=self.band_low, unit="Hz")
+        checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
 
     @property
     def record_time(self) -> Array:
@@ -325,7 +313,11 @@ def of_scene(
     if STATICS in needs or MODES in needs:
         found = static_ranges(
             scene,
-            [name for name in (*STIFFNESS_TERMS, BALL_LOAD) if _ends_of(name) & set(outputs)],
+            [
+                name
+                for name in (*STIFFNESS_TERMS, BALL_LOAD)
+                if {f"{name}_least", f"{name}_greatest"} & set(outputs)
+            ],
             settings.cage_angles,
             rounds=ROUNDS if scene.defect_turns else 0,
         )
@@ -339,7 +331,9 @@ def of_scene(
         if MOTION in needs:
             ended.append(_motion(scene, settings, numbers))
         if RECORD in needs:
-            numbers |= _record(scene, settings)
+            record = simulated_record(scene, None, settings.duration, settings.sample_rate)
+            pairs = zip(record.directions, record.acceleration.T, strict=True)
+            numbers |= {f"record_{name}": signal for name, signal in pairs}
         if MASS in needs:
             if settings.band_high > PASSED * settings.sample_rate:
                 raise checks.refuse(
@@ -363,11 +357,6 @@ def of_scene(
         ended.append(SweepStatus.ARITHMETIC_FAILED)
     known = SweepStatus.COMPLETE
     return next((status for status in ended if status is not known), known).code, numbers
-
-
-def _ends_of(name: str) -> set[str]:
-    """Outputs that are the ends of a number of `static_ranges`."""
-    return {f"{name}_least", f"{name}_greatest"}
 
 
 def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
@@ -496,13 +485,6 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     if known and math.isnan(found.hours):
         return SweepStatus.COMPUTATION_REFUSED
     return OF_STATICS[StaticStatus(found.status)]
-
-
-def _record(scene: Scene, settings: Settings) -> Numbers:
-    """Records (n,) along each direction."""
-    made = simulated_record(scene, None, settings.duration, settings.sample_rate)
-    pairs = zip(made.directions, made.acceleration.T, strict=True)
-    return {f"record_{name}": signal for name, signal in pairs}
 
 
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:

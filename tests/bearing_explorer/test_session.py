@@ -177,7 +177,7 @@ def test_senseless_messages_change_nothing(news: list[dict]) -> None:
         *(showing(tab) for tab in ("nowhere", "", "overview")),
     )
     assert explorer.scene == presets["fan-rig"]
-    assert explorer.inputs.compared == ()
+    assert explorer.content.compared == ()
     assert explorer._shown == "one"
     assert len(explorer.share.state["said"]["words"]) < 400
 
@@ -218,4 +218,4 @@ def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -
         explorer = session(take_it, sections=section, preset=preset)
         fields = {kind: value for kind, value in changes.items() if kind != "step_rate"}
         assert explorer.scene == presets[preset].replace(**fields)
-        assert explorer.inputs.settings.step_rate == changes.get("step_rate")
+        assert explorer.content.settings.step_rate == changes.get("step_rate")

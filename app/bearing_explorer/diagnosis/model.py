@@ -24,16 +24,27 @@ NOT_TAKEN = "Not taken: see the top of Diagnosis"
 class Model:
     """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
 
-    `at_work` says what is under way with the signal.
+    `at_work` says what is under way with the signal; `mark` is the number of the newest change.
     """
 
     scene: Scene
     moving: bool = False
     at_work: str = ""
+    mark: int = 0
 
+    slow = frozenset[str]()
     compared = ()
     grey = _Nothing()
     limits: tuple[Limit, ...] = ()
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        """All that a fine picture depends on."""
+        return (self.scene,)
+
+    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Model:
+        """The same, as it is once the slider rests; nothing here is searched for long."""
+        return replace(self, moving=not rested)
 
     def prefetch(self, needed: frozenset[str]) -> None:
         """Nothing is begun beforehand."""
@@ -53,28 +64,3 @@ class Model:
     def arguments(self, view: View) -> Mapping[str, str]:
         """Arguments of the figure besides those of the view."""
         return {}
-
-
-@dataclass(frozen=True)
-class Inputs:
-    """Inputs of a picture of the signal: the scene, and the number of the newest change."""
-
-    scene: Scene
-    mark: int
-    rested: bool = False
-    at_work: str = ""
-
-    slow = frozenset[str]()
-
-    @property
-    def fine_key(self) -> tuple[object, ...]:
-        """All that a fine picture depends on."""
-        return (self.scene,)
-
-    def at_rest(self, rested: bool = True) -> Inputs:
-        """The same, as they are once the slider rests."""
-        return replace(self, rested=rested)
-
-    def content(self, give_up: Callable[[], bool] | None = None) -> Model:
-        """The model of these inputs."""
-        return Model(self.scene, moving=not self.rested, at_work=self.at_work)

@@ -6,9 +6,9 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from bearing_explorer.explorer.inputs import Inputs
 from bearing_explorer.explorer.requests import ForReport, Requests
 from bearing_explorer.explorer.results.endurance import LifeInputs
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.bookmarks import Bookmarks
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, Values
 from bearing_explorer.explorer.state.last_state import LastState
@@ -17,7 +17,6 @@ from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Referenc
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
-from bearing_explorer.explorer.views.parts import SceneParts
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.views.base import View
@@ -26,6 +25,8 @@ from bearingcore import Scene
 
 class Explorer:
     """The scene of a session, the panels that change it, and what its views draw of it.
+
+    Its views are attached to it: they read `editor`, send `requests`, and call its methods.
 
     Parameters
     ----------
@@ -46,7 +47,6 @@ class Explorer:
         bearings: BearingTable | None = None,
     ) -> None:
         self.sections = tuple(sections)
-        self._page: Page | None = None
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
@@ -57,30 +57,13 @@ class Explorer:
         self.controls = self.requests.controls
         self._last_state = LastState(self.editor.scene)
 
-    @property
-    def page(self) -> Page:
-        """The session."""
-        assert self._page is not None, "a half is joined to its session first"
-        return self._page
-
-    kind_of_inputs = Inputs
+    kind_of_content = Results
 
     def join(self, page: Page) -> None:
-        self._page = page
-        self._parts = SceneParts(
-            page.jobs,
-            self.draw,
-            self.editor,
-            ask=self.requests.change_scene,
-            add_controls=self.requests.panels.append,
-            take_steps=self._take_steps,
-            open_link=self.requests.open_link,
-            set_life_inputs=self._set_life_inputs,
-            set_grey=self._set_grey,
-        )
+        self.page, self.jobs = page, page.jobs
 
     def attach(self, view: View) -> None:
-        view.attach(self._parts)
+        view.attach(self)
 
     def tab_opened(self, name: str) -> None:
         self.bookmarks.show(name)  # links always say which tab is open
@@ -104,18 +87,19 @@ class Explorer:
         """The numbers of the controls."""
         return self.editor.values
 
-    def inputs(self) -> Inputs:
+    def content(self) -> Results:
         before = self._last_state.before
-        return Inputs(
+        return Results(
             self.scene,
             math.radians(self.values[CAGE_ANGLE]),
-            self.requests.mark,
-            self.editor.focus,
             self._settings,
+            self.editor.focus,
+            moving=True,
             compared=self.bookmarks.compared,
             before=None if before is None else Reference(before, BEFORE),
-            grey=self._grey,
+            grey_kind=self._grey,
             life_inputs=self._life_inputs,
+            mark=self.requests.mark,
         )
 
     # What its requests need of the session
@@ -128,22 +112,22 @@ class Explorer:
 
     def for_report(self) -> ForReport:
         """Results, views and findings for a report."""
-        results = dataclasses.replace(self.inputs(), rested=True).content()
+        results = self.content().at_rest()
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
         return ForReport(results, kinds, found)
 
-    def _take_steps(self, step_rate: float | None) -> None:
+    def take_steps(self, step_rate: float | None) -> None:
         """March motions with steps [Hz] set by hand, or None: with the program's own."""
         self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
         self.draw()
 
-    def _set_life_inputs(self, inputs: LifeInputs) -> None:
+    def set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""
         self._life_inputs = inputs
         self.draw()
 
-    def _set_grey(self, kind: str) -> None:
+    def set_grey(self, kind: str) -> None:
         """Draw the reference of this kind in grey."""
         self._grey = kind
         self.draw()

@@ -52,9 +52,8 @@ class ForReport(NamedTuple):
 class Owner(Protocol):
     """The part of the scene's half that requests need."""
 
-    @property
-    def page(self) -> Page:
-        """The session."""
+    page: Page
+    """The session."""
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 if TYPE_CHECKING:
     from bearing_explorer.kit.compute.jobs import Change, Jobs
     from bearing_explorer.kit.views.base import View
-    from bearing_explorer.kit.views.content import Inputs
+    from bearing_explorer.kit.views.content import Content
 
 Found = TypeVar("Found")
 
@@ -58,11 +58,11 @@ class Half(Protocol):
         """Become a half of this session, once, before anything else."""
 
     @property
-    def kind_of_inputs(self) -> type:
-        """The type of its inputs, which another half's are not."""
+    def kind_of_content(self) -> type:
+        """The type of its content, which another half's is not."""
 
-    def inputs(self) -> Inputs:
-        """Inputs of the next picture."""
+    def content(self) -> Content:
+        """The content of the next picture, while a slider moves."""
 
     def attach(self, view: View) -> None:
         """Give a view of its tabs the parts of the session."""

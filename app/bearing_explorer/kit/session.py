@@ -1,4 +1,4 @@
-"""A session: newest inputs -> what is drawn of them -> the views on screen."""
+"""A session: newest content -> what is drawn of it -> the views on screen."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from bearing_explorer.kit.serve import log as write
 from bearing_explorer.kit.serve.live import one_message, send_at_once
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.views.content import Inputs
+from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.widgets.form import stack
 from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
@@ -35,7 +35,7 @@ Found = TypeVar("Found")
 
 #: slow views are drawn together with the others while a slider moves, or all would be painted
 #: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
-#: inputs wait ...
+#: content waits ...
 _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
@@ -74,7 +74,7 @@ class Session:
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
-        self._loop: DrawingLoop[Inputs, Picture] = DrawingLoop(
+        self._loop: DrawingLoop[Content, Picture] = DrawingLoop(
             self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
         self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
@@ -104,9 +104,9 @@ class Session:
         return self._shown
 
     @property
-    def inputs(self) -> Inputs:
-        """The inputs of the next picture."""
-        return self._halves[self._shown].inputs()
+    def content(self) -> Content:
+        """The content of the next picture."""
+        return self._halves[self._shown].content()
 
     async def assign(self, change: Change) -> None:
         """Change models of the page, in one message."""
@@ -136,12 +136,12 @@ class Session:
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
-        inputs = self.inputs
-        self._loop.submit(inputs.at_rest(self._refined == self._what_is_fine(inputs)))
+        content = self.content
+        self._loop.submit(content.at_rest(self._refined == self._what_is_fine(content)))
 
-    def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
+    def _what_is_fine(self, content: Content) -> tuple[object, ...]:
         """The key of a fine picture; another key needs one of its own."""
-        return self._shown, *inputs.fine_key
+        return self._shown, *content.fine_key
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""
@@ -218,81 +218,81 @@ class Session:
 
     # Drawing: off the event loop to compute, on it to assign.
 
-    async def _draw_newest(self, inputs: Inputs) -> Inputs:
+    async def _draw_newest(self, content: Content) -> Content:
         started = time.perf_counter()
         if self._on_screen != self._shown:
             await self._open_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
-        if not self._is_for_screen(inputs):  # asked for before the tab of the other half was opened
-            inputs = self._halves[self._on_screen].inputs()
+        if not self._is_for_screen(content):  # of before the tab of the other half was opened
+            content = self._halves[self._on_screen].content()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
-        slow = [view for view in views if view.needs & inputs.slow]
+        slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
         # where nothing else follows the slider there is nothing to delay
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
-        if slow and not heavy and math.isfinite(self._slow_cost) and not inputs.rested:
+        if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
             quick, slow = [], views
         if heavy and self._loop.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
             run = in_turn if self._quick_cost < _AT_ONCE else in_thread
-            inputs, picture = await run(self._newest_picture, inputs, quick)
+            content, picture = await run(self._newest_picture, content, quick)
             self._quick_cost = picture.work
-            await self._assign(picture, None if slow else inputs.mark)
+            await self._assign(picture, None if slow else content.mark)
         if slow:
             before = time.perf_counter()
-            limits = not quick and self._limits_due(inputs)
-            picture = await in_thread(picture_of, inputs.content(), slow, limits)
+            limits = not quick and self._limits_due(content)
+            picture = await in_thread(picture_of, content, slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
-            await self._assign(picture, inputs.mark)
-        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+            await self._assign(picture, content.mark)
+        write.update(self._doc, content.scene, self._on_screen, time.perf_counter() - started)
         compiling.drawn()
         if self._on_screen != self._shown:
-            # opened meanwhile, and these inputs may have been the newest
+            # opened meanwhile, and this content may have been the newest
             self.draw()
-        return inputs
+        return content
 
-    def _is_for_screen(self, inputs: Inputs) -> bool:
-        """Whether these are inputs of the half whose tab is on screen."""
-        return isinstance(inputs, self._halves[self._on_screen].kind_of_inputs)
+    def _is_for_screen(self, content: Content) -> bool:
+        """Whether this is content of the half whose tab is on screen."""
+        return isinstance(content, self._halves[self._on_screen].kind_of_content)
 
-    def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
-        """A picture of the newest inputs: others may have waited for a thread too."""
-        newest = self._loop.newest(inputs)
-        inputs = newest if self._is_for_screen(newest) else inputs
-        return inputs, picture_of(inputs.content(), views, self._limits_due(inputs))
+    def _newest_picture(self, content: Content, views: Sequence[View]) -> tuple[Content, Picture]:
+        """A picture of the newest content: others may have waited for a thread too."""
+        newest = self._loop.newest(content)
+        content = newest if self._is_for_screen(newest) else content
+        return content, picture_of(content, views, self._limits_due(content))
 
-    def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
+    def _fine_picture(self, content: Content, give_up: Callable[[], bool]) -> Picture | None:
         """Views that are finer at rest, with the limits; None where all is drawn finely already."""
-        if inputs.rested or not self._is_for_screen(inputs):
+        if not content.moving or not self._is_for_screen(content):
             return None
-        fine, drawn = inputs.at_rest().content(give_up), inputs.content()
+        fine = content.at_rest(give_up=give_up)
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
         finer = [
             view
             for view in on_screen
-            if view.at_rest or not view.needs or drawn.is_finer_at_rest(view.needs)
+            if view.at_rest or not view.needs or content.is_finer_at_rest(view.needs)
         ]
         return picture_of(fine, finer, limits=True, on_screen=on_screen)
 
-    async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
-        await self._assign(picture, inputs.mark)
-        self._refined = self._what_is_fine(inputs)
+    async def _draw_fine(self, content: Content, picture: Picture) -> None:
+        await self._assign(picture, content.mark)
+        self._refined = self._what_is_fine(content)
 
-    def _limits_due(self, inputs: Inputs) -> bool:
+    def _limits_due(self, content: Content) -> bool:
         now = time.perf_counter()
         self._pictures += 1
         long_ago = now - self._limits_at > _LIMITS_EVERY
-        due = inputs.rested or (long_ago and self._pictures >= _LIMITS_PICTURES)
+        due = not content.moving or (long_ago and self._pictures >= _LIMITS_PICTURES)
         if due:
             self._limits_at, self._pictures = now, 0
         return due
 
     async def _assign(self, picture: Picture, mark: int | None) -> None:
-        """Send a picture; `mark` where with it all of these inputs is drawn."""
+        """Send a picture; `mark` where with it all of this content is drawn."""
         sources: Sources = {}
         ranges: Ranges = {}
         for drawing in picture.drawings:
@@ -314,7 +314,7 @@ class Session:
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
-        scene = write.scene_name(self.inputs.scene)
+        scene = write.scene_name(self.content.scene)
         write.log_warning("failed", self._doc, scene=scene, view=self._shown)
         self._drawn_mark = self.mark
 

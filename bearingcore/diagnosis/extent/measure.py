@@ -38,43 +38,27 @@ LONGEST_BOUND = 1.0 / 3.0
 class ExtentStatus(Status):
     """The outcome of a measurement of the extent."""
 
-    MEASURED = "measured"
-    EITHER = "either way round"
-    SHORTER = "shorter"
-    ONE_KNOCK = "one knock"
-    UNCLEAR = "unclear"
-    BOUNCES = "bounces"
-    NO_RACE = "no race"
-    NOT_VISIBLE = "not visible"
-    TOO_SHORT = "too short"
-    TOO_COARSE = "too coarse"
-
-    @property
-    def sentence(self) -> str:
-        """The status as a sentence."""
-        return _SENTENCES[self]
-
-
-_SENTENCES = {
-    ExtentStatus.MEASURED: "Entry and exit are separate in the mean ball pass.",
-    ExtentStatus.EITHER: "Entry and exit are separate, but it is not clear which is which.",
-    ExtentStatus.SHORTER: "Entry and exit are too close together to be separated.",
-    ExtentStatus.ONE_KNOCK: (
-        "There is one impact a ball pass: from a pit, or a longer spall with a faint entry."
-    ),
-    ExtentStatus.UNCLEAR: (
-        "Frequency bands do not agree on two impacts a ball pass: ringing hides them, or the balls "
-        "meet the damage differently."
-    ),
-    ExtentStatus.BOUNCES: (
-        "Two impacts a ball pass differ in height, and the later is no sharper than the earlier: a "
-        "ball that bounces or an echo, not entry and exit."
-    ),
-    ExtentStatus.NO_RACE: "No damaged race is named, so there is no extent to measure.",
-    ExtentStatus.NOT_VISIBLE: "Nothing repeats clearly with the ball passes of this race.",
-    ExtentStatus.TOO_SHORT: "The recording holds too few ball passes for a mean.",
-    ExtentStatus.TOO_COARSE: "The sample rate is too low to locate impacts on the race.",
-}
+    MEASURED = "measured", "Entry and exit are separate in the mean ball pass."
+    EITHER = "either way round", "Entry and exit are separate, but it is not clear which is which."
+    SHORTER = "shorter", "Entry and exit are too close together to be separated."
+    ONE_KNOCK = (
+        "one knock",
+        "There is one impact a ball pass: from a pit, or a longer spall with a faint entry.",
+    )
+    UNCLEAR = (
+        "unclear",
+        "Frequency bands do not agree on two impacts a ball pass: ringing hides them, or the "
+        "balls meet the damage differently.",
+    )
+    BOUNCES = (
+        "bounces",
+        "Two impacts a ball pass differ in height, and the later is no sharper than the "
+        "earlier: a ball that bounces or an echo, not entry and exit.",
+    )
+    NO_RACE = "no race", "No damaged race is named, so there is no extent to measure."
+    NOT_VISIBLE = "not visible", "Nothing repeats clearly with the ball passes of this race."
+    TOO_SHORT = "too short", "The recording holds too few ball passes for a mean."
+    TOO_COARSE = "too coarse", "The sample rate is too low to locate impacts on the race."
 
 
 @shown_as_table

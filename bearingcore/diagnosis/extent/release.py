@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.common.arrays import weighted_quantile
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
@@ -79,12 +80,7 @@ class Offsets:
 
     def quantile(self, share: float) -> float:
         """The offset [rad] below which a share of the weight lies, interpolated; NaN of none."""
-        if not len(self.values):
-            return math.nan
-        order = np.argsort(self.values)
-        weights = self.weights[order]
-        reached = np.cumsum(weights) - 0.5 * weights
-        return float(np.interp(share, reached, self.values[order]))
+        return weighted_quantile(self.values, self.weights, share)
 
 
 def release_offset(

@@ -244,7 +244,7 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
     measurement._draw = lambda: None
 
     def words() -> str:
-        return str(halves.diagnosis.inputs().content().status(0.0, frozenset())["words"])
+        return str(halves.diagnosis.content().status(0.0, frozenset())["words"])
 
     assert words() == "Ready"
     measurement.measured = simulated(MOTOR, 20.0, 1)

@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import Places, Side, ends, goes_there, reading
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix, words_of
+from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -403,14 +403,14 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     matrix_cells.write_names(plot, _CELLS)
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
-    extent = {"value": "Length of the defect Δφf (°)"}
+    extent = "return 'Length of the defect Δφf (°)'"
     write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
-    words = words_of(grid, "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'")
+    words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     lines = range(len(_LEGEND))
     legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
-    write(plot, ColumnDataSource(legend), "text")
+    write(plot, ColumnDataSource(legend), "return row.text")
 
 
 _UNIT = f"""
@@ -440,12 +440,11 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         (_ZERO, "middle", "middle"),
     ):
         at = {"x": "bar", "y": y, "x_offset": 4}
-        write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
+        write(plot, cells, code, text_baseline=baseline, **at)
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
-    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
-    write(plot, cells, now, text_align="right", **above)
+    write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
-    write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)
+    write(plot, cells, _FLAT, text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
@@ -455,7 +454,7 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
         (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
     ):
-        write(plot, ticks, words_of(ticks, _ONLY % (side, unit)), **look)
+        write(plot, ticks, _ONLY % (side, unit), **look)
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:

@@ -26,6 +26,25 @@ class Content(Protocol):
         """The scene of the controls."""
 
     @property
+    def mark(self) -> int:
+        """Number of the newest change of the browser that it holds."""
+
+    @property
+    def moving(self) -> bool:
+        """Whether a slider moves; at rest it is drawn as finely as can be."""
+
+    @property
+    def slow(self) -> Set[str]:
+        """Attributes that take long: views that need them are drawn after the others."""
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        """All that a fine picture depends on: content with the same key needs no other."""
+
+    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Content:
+        """The same, as it is once the slider rests; `give_up` may end long searches."""
+
+    @property
     def compared(self) -> Sequence[Named]:
         """References that are drawn too, each under a name."""
 
@@ -48,33 +67,3 @@ class Content(Protocol):
 
     def arguments(self, view: View) -> Mapping[str, str]:
         """Arguments with which lines of Python make the figure, as expressions."""
-
-
-class Inputs(Protocol):
-    """Inputs of the next picture; a value."""
-
-    @property
-    def scene(self) -> Scene:
-        """The scene of the controls, for the log."""
-
-    @property
-    def mark(self) -> int:
-        """Number of the newest change of the browser that it holds."""
-
-    @property
-    def rested(self) -> bool:
-        """Whether the slider is at rest, and it is drawn as finely as can be."""
-
-    @property
-    def slow(self) -> Set[str]:
-        """Attributes that take long: views that need them are drawn after the others."""
-
-    @property
-    def fine_key(self) -> tuple[object, ...]:
-        """All that a fine picture depends on: inputs with the same key need no other."""
-
-    def at_rest(self, rested: bool = True) -> Inputs:
-        """The same, as they are once the slider rests."""
-
-    def content(self, give_up: Callable[[], bool] | None = None) -> Content:
-        """The content that is drawn of them; `give_up` may end long searches."""

@@ -54,7 +54,12 @@ FIELDS: list[FieldSpec] = [
 
 RACES_NAMED = (OUTER, INNER)
 
-UNEXPLAINED = (DiagnosisStatus.OTHER_SOURCE, DiagnosisStatus.NOT_ALONE, DiagnosisStatus.ALIKE)
+UNEXPLAINED = (
+    DiagnosisStatus.OTHER_SOURCE,
+    DiagnosisStatus.NOT_ALONE,
+    DiagnosisStatus.ALIKE,
+    DiagnosisStatus.UNMODULATED,
+)
 """Outcomes where another bearing may explain the lines."""
 
 MOST_LISTED = 4
@@ -69,7 +74,7 @@ NOTHING_NAMED = "No part is named before the bearing is."
 OFFER = "The listed bearings can be tried with this signal, to see which of them would explain it."
 LOOKING = "Looking for listed bearings that explain these lines: {done} of {of} …"
 CANCELLED = "The search was cancelled after {done} of {of} listed bearings. "
-UNEXPLAINED_BY_IT = "This bearing does not explain the signal. "
+UNEXPLAINED_BY_IT = "This bearing does not explain the signal well. "
 FOUND_IN_LIST = (
     "Listed bearings that explain the signal, the strongest lines first; others may have the same "
     "lines, so read the number on the bearing:"

@@ -113,7 +113,7 @@ class Roller(Kind):
     directions: tuple[str, ...] = ("x", "y")
     needed_directions: tuple[str, ...] = ("x", "y")
     carries = "cylindrical rollers carry radial loads only"
-    left_out = "cylindrical rollers carry nothing along the others"
+    left_out = "cylindrical rollers carry nothing along the shaft and resist no tilt"
     shoulders = ()
     tilt_unknown = (
         "Tilt of the rollers: not known, as rollers stay parallel to the shaft in this model. A "

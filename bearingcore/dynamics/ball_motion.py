@@ -19,12 +19,13 @@ from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.positions import equilibrium_over_all
 from bearingcore.statics.status import StaticStatus
 
-STEPS_A_CONTACT_CYCLE = 5.0
-"""Steps in a period of the contact resonance, by default; stable down to 2.2."""
+STEPS_A_CONTACT_CYCLE, LEAST_STEPS_A_CYCLE = 5.0, 2.2
+"""Steps in a period of the contact resonance, by default, and those that Runge-Kutta steps of order
+4 need at least."""
 
-STABLE_DECAY = 2.6
-"""Decay of a ball's motion in its contacts, times the step, that is taken; 2.785 is the limit of
-Runge-Kutta steps of order 4."""
+STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
+"""Decay of a ball's motion in its contacts, times the step: that is taken, and the limit of such
+steps."""
 
 
 LIGHTLY = 0.1
@@ -154,11 +155,25 @@ def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
 
     As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
-    races = _balls(packed).races
-    decay = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s] the fastest
-    resonance = max(resonances(packed.scene, heaviest_load(packed)))
-    needed = max(STEPS_A_CONTACT_CYCLE * resonance, decay / STABLE_DECAY)
+    needed = _steps_needed(packed, STEPS_A_CONTACT_CYCLE, STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
+
+
+def least_step_rate(packed: PackedMotion) -> float:
+    """Steps a second [Hz] below which a ball jumps about between its contacts, ever faster.
+
+    Contacts that let go keep that finite, so that a motion of fewer steps may end and look like
+    one, with ten or ten thousand times its vibration.
+    """
+    return _steps_needed(packed, LEAST_STEPS_A_CYCLE, GREATEST_DECAY)
+
+
+def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
+    """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
+    races = _balls(packed).races
+    fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
+    resonance = max(resonances(packed.scene, heaviest_load(packed)))
+    return max(a_cycle * resonance, fastest / decay)
 
 
 def loads_of_races(

@@ -14,6 +14,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
+    least_step_rate,
     loads_of_races,
     march_balls,
     place_parts,
@@ -307,8 +308,8 @@ def simulate(
         whether to return the balls' loads too.
     step_rate
         [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
-        balls a multiple. None takes that of `default_step_rate`. Samples between steps come from
-        quintic interpolation.
+        balls a multiple and as many as keep a ball from jumping about between its contacts. None
+        takes that of `default_step_rate`. Samples between steps come from quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -353,6 +354,9 @@ def simulate(
             step_rate,
             f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
+    if with_mass and step_rate < (least := least_step_rate(packed)):
+        allowed = f"at least {least:.0f} Hz, or balls with mass jump about between their contacts"
+        raise checks.refuse("step_rate", step_rate, allowed, "Hz")
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(

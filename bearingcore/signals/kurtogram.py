@@ -30,8 +30,13 @@ FEWEST = 24.0
 DYNAMIC_RANGE = 1e-4
 """Bands whose density is this far below the strongest one's are not chosen (40 dB)."""
 
-CHANCE = 3.0
-"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice."""
+CHANCE = 7.0
+"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice: of
+many bands one is that lucky now and then, and a narrow one more than a Gaussian would be."""
+
+SCATTER = 3.6
+"""Variance of that kurtosis times duration and width: 4 ∫ sinc⁴ = 8/3 of a band of noise, and a
+third more of the median of eight pieces."""
 
 
 @shown_as_table
@@ -123,7 +128,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
         np.array([numbers[band] for band in kept]),
         np.array([_kurtosis(one.values) for one in found]),
         np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
-        np.sqrt(20.0 / (duration * widths)),
+        np.sqrt(SCATTER / (duration * widths)),
     )
 
 

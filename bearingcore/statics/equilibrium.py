@@ -134,6 +134,11 @@ class Equilibrium:
         """(n, N_b) True for balls that carry load from ring to ring."""
         return self.ball_load > 0.0
 
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race: Q_j, where balls have no mass."""
+        return self.ball_load
+
     @cached_property
     def ball_angle(self) -> Array:
         """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""

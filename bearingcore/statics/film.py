@@ -49,6 +49,7 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
 from bearingcore.statics.positions import state_of
@@ -264,7 +265,7 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
-    state = state_of(scene, state)
+    state = state_of(scene, state, static_state)
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
     return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
@@ -275,12 +276,12 @@ def _film_of(
 ) -> Film:
     """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
     eta, xi = oil
-    load, own = ball.load, scene.bearing.of_row(ball.row)
+    own = scene.bearing.of_row(ball.row)
     contacts = {race: own.race_contact(race) for race in RACES}
     u = rolling_speed(own, scene.shaft_speed)
     films = {}
     for race, contact in contacts.items():
-        h = math.nan
+        h, load = math.nan, ball.load_on(race)
         if load > 0.0:
             modulus = contact.modulus
             radius = rolling_radius(own, race)

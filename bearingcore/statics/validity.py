@@ -151,14 +151,21 @@ def limits(
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
-    at_rest = [(bearing.of_row(ball.row), ball.load) for ball in heaviest_balls(state)]
+    heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    at_rest = [(own, ball.load) for own, ball in heaviest]
     in_motion = []
     if dynamic_load is not None:
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
         in_motion = [(own, load) for own, _ in bearing.unlike_rows]
     found: list[Limit | None] = [
-        _pressure(bearing, f"contact pressure, {race} race", at_rest, (race,), NO_STATE)
+        _pressure(
+            bearing,
+            f"contact pressure, {race} race",
+            [(own, ball.load_on(race)) for own, ball in heaviest],
+            (race,),
+            NO_STATE,
+        )
         for race in RACES
     ]
     if turns:
@@ -212,8 +219,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
 
 NOT_IN_STATICS = "the static model leaves it out"
 NOT_IN_STATICS_WITH_MASS = (
-    "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
-    "it out"
+    "the loads and stiffness of balls with mass hold it, these limits, maps, natural frequencies "
+    "and life leave it out"
 )
 
 NO_STATE = "no cage angle has a static equilibrium"

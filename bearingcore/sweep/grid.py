@@ -30,6 +30,7 @@ from bearingcore.sweep.outputs import (
     MODES,
     MOVING,
     OUTPUTS,
+    PRESSURE,
     SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
@@ -316,6 +317,8 @@ class Grid:
                 scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
+        if PRESSURE in self.needs:
+            scene.bearing.race_contact("inner")
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
         if set(self.needs) & MOVING and scene.shaft_speed == 0.0:

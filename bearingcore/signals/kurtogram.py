@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
@@ -58,9 +59,9 @@ class Kurtogram(NamedTuple):
 
     bands: tuple[Band, ...]
     parts: NDArray[np.int_]
-    kurtosis: NDArray[np.float64]
-    density: NDArray[np.float64]
-    deviation: NDArray[np.float64]
+    kurtosis: Array
+    density: Array
+    deviation: Array
 
     def best(self, lowest: float = 0.0) -> Band:
         """The band for the envelope: the most impulsive one that is not too faint.
@@ -131,7 +132,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     )
 
 
-def _kurtosis(squared: NDArray[np.float64]) -> float:
+def _kurtosis(squared: Array) -> float:
     """Unevenness of a squared envelope, its ends left out: 0 for noise, -1 for a tone."""
     cut = len(squared) // 20
     pieces = np.array_split(squared[cut : len(squared) - cut], PIECES)

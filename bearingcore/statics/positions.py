@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
@@ -137,6 +138,20 @@ def over_all_positions(
     return dataclasses.replace(state, weights=found.weights)
 
 
+def state_of(
+    scene: Scene,
+    state: Equilibrium | None,
+    solve: Callable[..., Equilibrium] | None = None,
+) -> Equilibrium:
+    """A static equilibrium that is given for a scene, else what `over_all_positions` finds.
+
+    ValueError for the equilibrium of another scene.
+    """
+    if state is not None and state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    return over_all_positions(scene, solve=solve) if state is None else state
+
+
 def equilibrium_over_all(
     packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
 ) -> Equilibrium:
@@ -151,11 +166,12 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     return positions_of(pack(scene), n)
 
 
-def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
-    return 24 * found.weights.size + floor_bytes(packed.scene.defects)
-
-
-@lru_cache_by_bytes(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+@lru_cache_by_bytes(
+    64,
+    16_000_000,
+    lambda found, packed, _: 24 * found.weights.size + floor_bytes(packed.scene.defects),
+    lambda packed, n: (packed.scene, n),
+)
 def positions_of(packed: PackedScene, n: int) -> Positions:
     """The positions of a scene that is packed.
 

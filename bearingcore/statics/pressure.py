@@ -24,7 +24,7 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.positions import state_of
 
 RACES = ("inner", "outer")
 
@@ -122,30 +122,25 @@ class ContactPressures:
 
     def table(self) -> ResultTable:
         """A row a race: load and place of the ball, semi-axes, pressure."""
-        races = (self.inner, self.outer)
         return table_of(
-            ("race", "", [contact.race for contact in races]),
-            ("ball_load", "N", [contact.load for contact in races], "of the heaviest loaded ball"),
+            ("race", "", "race"),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
             ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
             (
                 "semi_axis_across",
                 "m",
-                [contact.semi_axis_across for contact in races],
+                "semi_axis_across",
                 "of the contact ellipse, across the rolling",
             ),
             (
                 "semi_axis_along",
                 "m",
-                [contact.semi_axis_along for contact in races],
+                "semi_axis_along",
                 "of the contact ellipse, along the rolling",
             ),
-            (
-                "greatest_pressure",
-                "Pa",
-                [contact.greatest_pressure for contact in races],
-                "in the middle of the ellipse",
-            ),
+            ("greatest_pressure", "Pa", "greatest_pressure", "in the middle of the ellipse"),
             ("status", "", [self.reason or "known"] * 2),
+            of=(self.inner, self.outer),
         )
 
 
@@ -170,10 +165,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         for a bearing without groove radii, or the equilibrium of another scene.
     """
     checks.instance("scene", scene, Scene)
-    if state is None:
-        state = over_all_positions(scene, solve=static_state)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state, static_state)
     found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     worst = max(
         found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)

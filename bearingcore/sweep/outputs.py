@@ -53,6 +53,8 @@ from bearingcore.sweep.status import (
 
 STATICS, PRESSURE, LIFE, MODES = "statics", "pressure", "life", "modes"
 MOTION, ORBIT, MASS, RECORD = "motion", "orbit", "mass", "record"
+MOVING = frozenset({MOTION, ORBIT, MASS, RECORD})
+"""Computations of motions."""
 
 SECONDS = {STATICS: 4e-4, PRESSURE: 4e-4, LIFE: 1e-3, MODES: 5e-4}
 SECONDS |= {MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2, RECORD: 0.1}

@@ -28,7 +28,7 @@ BALL = 7800.0 * math.pi / 6.0 * (2.0 * R_BALL) ** 3
 ONE = 2.0**1.5 * K
 
 
-@njit
+@njit(cache=True)
 def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
     """Rates of inner x, y, outer x, y and the balls' places [µm], then of their velocities.
 

@@ -20,7 +20,8 @@ from bearingcore import (
 )
 from bearingcore.statics.ranges import BALL_LOAD, static_ranges
 from bearingcore.sweep.grid import Grid
-from tests.outside.plane import Plane, hertz, undamped
+from tests.outside.elements import point_contact
+from tests.outside.plane import Plane, undamped
 from tests.outside.witness import witness
 
 FAN = presets["fan-rig"].replace(race="inner")
@@ -107,7 +108,11 @@ def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center:
 def test_exact_edges_of_a_deep_groove_bearing_by_the_same_computation() -> None:
     """6205 of its drawing: Hertz's K by elliptic integrals, a ball on a convex race's corner."""
     ball, pitch = 7.94e-3, 39.04e-3
-    plane = Plane(9, ball, pitch, hertz(ball, pitch, (0.52 * ball, 0.53 * ball)), 5e-6)
+    factors = [
+        point_contact(ball, -1.0 / (groove * ball), side / (0.5 * (pitch - side * ball)))[0]
+        for groove, side in ((0.52, 1.0), (0.53, -1.0))
+    ]
+    plane = Plane(9, ball, pitch, sum(one ** (-2.0 / 3.0) for one in factors) ** -1.5, 5e-6)
     shaft = np.linspace(0.0, TURNS * 2.0 * math.pi, ANGLES)
     defect = math.radians(8.0), 100e-6, "inner", "exact"
     loads, k, _ = plane.solve(1000.0, plane.cage * shaft, shaft + 1.0, defect)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from bearingcore.common import checks
-from bearingcore.dynamics.ball_motion import ball_step_rate
+from bearingcore.dynamics.ball_motion import STABLE_DECAY, ball_step_rate
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.scene.packing import PackedMotion
@@ -22,9 +24,9 @@ that needs them, as steps stay stable down to 2.2."""
 def default_step_rate(scene: Scene, sample_rate: float, highest: float) -> float:
     """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
 
-    It has STEPS_A_CYCLE steps in a period of the `highest` natural frequency [Hz], and
-    STEPS_A_PASSAGE while a ball passes the defect. Where balls have mass a multiple, see
-    `ball_step_rate`. Raises ValueError where none is finite.
+    It has STEPS_A_CYCLE steps in a period of the `highest` natural frequency [Hz],
+    STEPS_A_PASSAGE while a ball passes the defect, and as many as dampers need. Where balls have
+    mass a multiple, see `ball_step_rate`. Raises ValueError where none is finite.
     """
     return step_rate_of(packed_motion(scene), sample_rate, highest)
 
@@ -34,6 +36,7 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, highest: float) -> fl
     scene = packed.scene
     needed = STEPS_A_CYCLE * highest if math.isfinite(highest) else sample_rate
     needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
+    needed = max(needed, _greatest_decay(packed) / STABLE_DECAY)
     if scene.balls == WITH_MASS:
         needed = max(needed, ball_step_rate(packed, sample_rate))
     if not math.isfinite(needed):
@@ -41,6 +44,20 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, highest: float) -> fl
     if needed <= sample_rate:
         return sample_rate / math.floor(sample_rate / needed)
     return sample_rate * math.ceil(needed / sample_rate - 1e-9)
+
+
+def _greatest_decay(packed: PackedMotion) -> float:
+    """Bound [1/s] of how fast dampers stop the rings: the trace of C over M, all elements loaded.
+
+    Beyond what steps hold a motion diverges, or, under a law without tension, stays finite.
+    """
+    one, rotor = packed.contacts, packed.rotor
+    tilting = one.reach * one.line_z - one.arm * one.line_r
+    radial, axial, turned = (float(part @ part) for part in (one.line_r, one.line_z, tilting))
+    along = np.array([0.5 * radial, 0.5 * radial, axial, 0.5 * turned, 0.5 * turned])
+    both = rotor.inverse_inner + rotor.inverse_outer
+    contacts = rotor.contact_damping * float(along[rotor.active] @ both)
+    return contacts + float((rotor.damping * rotor.inverse_outer).max())
 
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:

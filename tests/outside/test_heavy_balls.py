@@ -149,3 +149,21 @@ def test_share_of_the_power_that_mass_adds() -> None:
     settings = Settings(duration=0.07, band_low=2100.0, band_high=10_000.0)
     _, found = Grid.of(RIG, {"fz": [0.0]}, ["mass_share"], settings).compute()
     assert found["mass_share"][0] == pytest.approx(1.0 - power(light) / power(heavy), abs=0.01)
+
+
+@witness(
+    "law: *", "function: simulate", by="SciPy's DOP853 on the equations of `march.py`",
+    compared="housing's motion by the steps that are chosen, with dampers 800 times as strong",
+    within=0.02,
+)  # fmt: skip
+@pytest.mark.parametrize("law", ["published", "no tension"])
+def test_steps_are_as_fine_as_dampers_need(law: str) -> None:
+    """One law diverged, the other "completed" with three times the acceleration."""
+    strong = 1e5
+    one = replace(problem("fan-rig"), c=strong, no_tension=law == "no tension")
+    scene = RIG.replace(balls="massless", contact_damping=strong, contact_law=law)
+    found = simulate(scene, 0.01, RATE)
+    assert found.completed
+    own = 1e-6 * one.solved(one.start(), found.time)[:, 6:8]
+    off = np.sqrt(np.mean((found.outer_velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
+    assert off.max() < 0.02

@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
+import threading
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from contextlib import nullcontext
 from functools import partial
 from typing import Any, TypeVar
 
@@ -43,6 +45,9 @@ _PATIENCE = 0.25
 #: pictures that took less than this [s] of a processor are made on the event loop: where thirty
 #: people share the interpreter, threads that wait for one another take half as long again
 _AT_ONCE = 0.025
+
+#: a tab opens together with its fine picture where that takes less than this [s]
+_SOON = 0.2
 
 #: the limits of the model are checked when the slider rests; while it moves after so long [s], and
 #: where many share the machine, after so many pictures: they cost as much as two
@@ -82,7 +87,7 @@ class Session:
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.status = StatusLine(folded=True, css_classes=["one-line"])
         self.limits = LimitsStrip()
-        self._on_screen = ""
+        self._on_screen = self._attached = ""  # on the server, and in the browser
         self.tabs = Tabs(
             self.show_tab,
             names=[[one.name, one.title, one.tab or one.title] for one in halves],
@@ -137,11 +142,7 @@ class Session:
     def draw(self) -> None:
         """Bring what is on screen up to date."""
         inputs = self.inputs
-        self._loop.submit(inputs.at_rest(self._refined == self._what_is_fine(inputs)))
-
-    def _what_is_fine(self, inputs: Inputs) -> tuple[object, ...]:
-        """The key of a fine picture; another key needs one of its own."""
-        return self._shown, *inputs.fine_key
+        self._loop.submit(inputs.at_rest(self._refined == (self._shown, *inputs.fine_key)))
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""
@@ -190,41 +191,88 @@ class Session:
         """The views of a section, which are in no document yet."""
         return [view(self.packed) for view in self._sections[name].views]
 
-    async def _open_tab(self, name: str) -> None:
-        """Put a section on screen; its figures are made when it is first opened.
+    async def _make_tab(self, name: str) -> None:
+        """Have the section that is to be on screen: its figures are made when it is first opened.
 
-        Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before its numbers arrive. All of it holds the interpreter, and is done
-        on the event loop, one session after the other: where 30 come at once, threads that take it
-        from each other have the last picture come a sixth later.
+        All of it holds the interpreter, and is done on the event loop, one session after the other:
+        where 30 come at once, threads that take it from each other have the last picture come a
+        sixth later.
         """
         if name not in self._views:
             self._views[name] = await in_turn(self._make, name)
             for view in self._views[name]:
                 self._halves[name].attach(view)
-        new = not self._containers[name].objects
-        await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
+        self._on_screen = name
+
+    async def _send(self, change: Callable[[], None]) -> None:
+        """Change models of the page, in one message with the section that is to be on screen.
+
+        The browser must know a figure before its numbers arrive.
+        """
+        name = self._on_screen
+
+        def act() -> None:
+            if name != self._attached:
+                self._attach_tab(name)
+            change()
+
+        await one_message(self._doc, act)
 
     def _attach_tab(self, name: str) -> None:
-        if not self._containers[name].objects:
-            self._containers[name].objects = [view.panel for view in self._views[name]]
-        for other, container in self._containers.items():
-            container.css_classes = _classes(other, shown=other == name)
-            if other != name:
-                for view in self._views.get(other, ()):
-                    view.put_away()
-        self.packed.introduce()
-        self.tabs.active = self._on_screen = name
+        new = not self._containers[name].objects and self._doc is not None
+        # Bokeh counts the models of the document once, and before numbers bring more of them
+        with self._doc.models.freeze() if new else nullcontext():
+            if not self._containers[name].objects:
+                self._containers[name].objects = [view.panel for view in self._views[name]]
+            for other, container in self._containers.items():
+                container.css_classes = _classes(other, shown=other == name)
+                if other != name:
+                    for view in self._views.get(other, ()):
+                        view.put_away()
+            self.packed.introduce()
+        self.tabs.active = self._attached = name
+
+    async def _opens_finely(self, inputs: Inputs) -> bool:
+        """Open the tab with its fine picture, if that is there soon, or empty and say no.
+
+        Else it would be laid out and painted three times: empty, coarsely and finely.
+        """
+        late = threading.Event()
+        content, views = inputs.at_rest().content(late.is_set), self._views[self._on_screen]
+        drawing = asyncio.ensure_future(in_thread(picture_of, content, views, True))
+        await asyncio.wait({drawing}, timeout=_SOON)
+        if not drawing.done():
+            late.set()
+            drawing.add_done_callback(lambda done: done.cancelled() or done.exception())
+            await self._send(lambda: None)
+            return False
+        await self._draw_fine(inputs, drawing.result())
+        return True
 
     # Drawing: off the event loop to compute, on it to assign.
 
     async def _draw_newest(self, inputs: Inputs) -> Inputs:
         started = time.perf_counter()
-        if self._on_screen != self._shown:
-            await self._open_tab(self._shown)
+        opens = self._on_screen != self._shown
+        if opens:
+            await self._make_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
         if not self._is_for_screen(inputs):  # asked for before the tab of the other half was opened
             inputs = self._halves[self._on_screen].inputs()
+        if opens and await self._opens_finely(inputs):
+            inputs = inputs.at_rest()
+        else:
+            inputs = await self._draw_following(inputs.at_rest(False) if opens else inputs)
+        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+        compiling.drawn()
+        if self._on_screen != self._shown:
+            # opened meanwhile, and these inputs may have been the newest
+            self.draw()
+        return inputs
+
+    async def _draw_following(self, inputs: Inputs) -> Inputs:
+        """Draw what follows a slider, what takes long after the others."""
+        started = time.perf_counter()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & inputs.slow]
         quick = [view for view in views if view not in slow]
@@ -247,11 +295,6 @@ class Session:
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(picture, inputs.mark)
-        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
-        compiling.drawn()
-        if self._on_screen != self._shown:
-            # opened meanwhile, and these inputs may have been the newest
-            self.draw()
         return inputs
 
     def _is_for_screen(self, inputs: Inputs) -> bool:
@@ -280,7 +323,7 @@ class Session:
 
     async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
         await self._assign(picture, inputs.mark)
-        self._refined = self._what_is_fine(inputs)
+        self._refined = self._on_screen, *inputs.fine_key
 
     def _limits_due(self, inputs: Inputs) -> bool:
         now = time.perf_counter()
@@ -310,7 +353,7 @@ class Session:
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
-        await one_message(self._doc, change)
+        await self._send(change)
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
@@ -322,7 +365,7 @@ class Session:
             self.packed.send({}, {}, self._drawn_mark)
             self.status.put(line={"mood": "bad", "words": BROKEN, "details": []})
 
-        await one_message(self._doc, change)
+        await self._send(change)
 
 
 def _classes(name: str, *, shown: bool) -> list[str]:

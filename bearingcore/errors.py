@@ -19,12 +19,18 @@ _short.maxstring = _short.maxother = _short.maxlong = 80  # a value may be a who
 
 
 class Status(enum.StrEnum):
-    """Outcome of a solver. A member equals its text, so files and tables hold that."""
+    """Outcome of a solver. A member equals its text, so files and tables hold that.
 
-    @property
-    def sentence(self) -> str:
-        """The status in words; the text itself where a class says no more."""
-        return str(self.value)
+    Members are a text, or a text and the status in words: its `sentence`, else the text itself.
+    """
+
+    sentence: str
+
+    def __new__(cls, text: str, sentence: str = "") -> Self:
+        """A member that is its text."""
+        member = str.__new__(cls, text)
+        member._value_, member.sentence = text, sentence or text
+        return member
 
 
 @dataclass(frozen=True)

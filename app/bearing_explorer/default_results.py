@@ -17,13 +17,13 @@ TABS = ("overview", "load", "stiffness", "modes", "vibration")
 
 def draw_all() -> list[Picture]:
     """Pictures of the default scene on these tabs, as a slider moves and at rest."""
-    inputs = Halves().session.inputs
+    moving = Halves().session.content
     pictures = []
     for section in SECTIONS:
         if section.name in TABS:
             views = [view(PackedSource()) for view in section.views]
             for rested in (False, True):
-                content = inputs.at_rest(rested).content()
+                content = moving.at_rest(rested)
                 pictures.append(picture_of(content, views, limits=True))
     return pictures
 

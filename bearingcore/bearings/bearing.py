@@ -125,41 +125,29 @@ class Bearing(InRows):
     frequency_spread = inside.frequency_spread
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: object) -> None:
-            object.__setattr__(self, name, value)
-
         super().__post_init__()
         for name in _ABOVE_0:
-            keep(name, checks.real_number(name, getattr(self, name), above=0.0))
+            checks.keep_number(self, name, above=0.0)
         for name in ("groove_center_distance", "roller_length"):
-            if getattr(self, name) is not None:
-                keep(name, checks.real_number(name, getattr(self, name), above=0.0))
-        keep("density", checks.real_number("density", self.density, above=0.0, unit="kg/m³"))
-        if self.dynamic_load_rating is not None:
-            rating = checks.real_number(
-                "dynamic_load_rating", self.dynamic_load_rating, above=0.0, unit="N"
-            )
-            keep("dynamic_load_rating", rating)
+            checks.keep_number(self, name, optional=True, above=0.0)
+        checks.keep_number(self, "density", above=0.0, unit="kg/m³")
+        checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
         least = -self.ball_radius  # more than any contact could be compressed
-        keep(
-            "radial_clearance",
-            checks.real_number("radial_clearance", self.radial_clearance, at_least=least, unit="m"),
-        )
+        checks.keep_number(self, "radial_clearance", at_least=least, unit="m")
         for fault in drawing.faults(vars(self)):
             raise fault
-        for name, value in drawing.checked(vars(self)).items():
-            keep(name, value)
+        checks.keep(self, **drawing.checked(vars(self)))
         rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
-        keep("rows", tuple(rows))
+        checks.keep(self, rows=tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
         for name in self.estimated:
             checks.choice("estimated", name, ESTIMATES)
-        keep("estimated", tuple(self.estimated))
-        keep("kind", kind_of(self))
+        checks.keep(self, estimated=tuple(self.estimated))
+        checks.keep(self, kind=kind_of(self))
         self.kind.check(self)
         if self.kind.line_contact:
-            keep("groove_center_distance", None)
+            checks.keep(self, groove_center_distance=None)
         else:
             drawing.center_distance(self.groove_center_distance)
         for k in range(len(self.rows)):

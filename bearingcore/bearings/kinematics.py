@@ -28,13 +28,11 @@ class Kinematics:
     contact_angle: float
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: float) -> None:
-            object.__setattr__(self, name, value)
-
-        keep("n_balls", checks.whole_number("n_balls", self.n_balls, at_least=1, at_most=500))
+        count = checks.whole_number("n_balls", self.n_balls, at_least=1, at_most=500)
+        checks.keep(self, n_balls=count)
         for name in ("ball_diameter", "pitch_diameter"):
-            keep(name, checks.real_number(name, getattr(self, name), above=0.0))
-        keep("contact_angle", check_contact_angle(self.contact_angle))
+            checks.keep_number(self, name, above=0.0)
+        checks.keep(self, contact_angle=check_contact_angle(self.contact_angle))
 
     @cached_property
     def size_ratio(self) -> float:

@@ -85,27 +85,22 @@ class Row:
     def __post_init__(self) -> None:
         if self.contact_angle is not None:
             angle = check_contact_angle(self.contact_angle, "contact_angle of a row")
-            object.__setattr__(self, "contact_angle", angle)
+            checks.keep(self, contact_angle=angle)
         if self.n_balls is not None:
             count = checks.whole_number("n_balls of a row", self.n_balls, at_least=1, at_most=500)
-            object.__setattr__(self, "n_balls", count)
+            checks.keep(self, n_balls=count)
         for name in LENGTHS:
-            if (length := getattr(self, name)) is not None:
-                length = checks.real_number(f"{name} of a row", length, above=0.0, unit="m")
-                object.__setattr__(self, name, length)
+            checks.keep_number(self, name, optional=True, of=" of a row", above=0.0, unit="m")
         if self.facing not in (-1, 1) or isinstance(self.facing, bool):
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
-        object.__setattr__(self, "facing", int(self.facing))
+        checks.keep(self, facing=int(self.facing))
         for name, most, unit in (
             ("place", 10.0, "m"),
             ("clearance", 1e-2, "m"),
             ("offset", 1e-2, "m"),
             ("turn", 2.0 * math.pi, "rad"),
         ):
-            value = checks.real_number(
-                f"{name} of a row", getattr(self, name), at_least=-most, at_most=most, unit=unit
-            )
-            object.__setattr__(self, name, value)
+            checks.keep_number(self, name, of=" of a row", at_least=-most, at_most=most, unit=unit)
 
     @property
     def own(self) -> dict[str, float]:

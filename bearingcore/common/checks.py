@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 import reprlib
-from typing import SupportsFloat, TypeVar
+from typing import Any, SupportsFloat, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError, FieldTypeError, Interval, MissingError
 
 T = TypeVar("T")
@@ -70,6 +71,24 @@ def real_number(
     raise _error(given)(field, given, Interval(at_least, at_most, above, below, note), unit)
 
 
+def keep(part: object, **values: object) -> None:
+    """Set fields of a frozen dataclass, as its `__post_init__` does with what it has checked."""
+    for name, value in values.items():
+        object.__setattr__(part, name, value)
+
+
+def keep_number(
+    part: object, name: str, *, optional: bool = False, of: str = "", **limits: Any
+) -> None:
+    """Check a number of a frozen dataclass, see `real_number`, and keep it there as a float.
+
+    An `optional` one may be None; `of` stands behind the name in a refusal.
+    """
+    value = getattr(part, name)
+    if value is not None or not optional:
+        keep(part, **{name: real_number(name + of, value, **limits)})
+
+
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:
     """`value` if it is one of `options`, else ValueError."""
     if not (isinstance(value, str) and value in options):
@@ -92,7 +111,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
     return round(x)
 
 
-def finite(field: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
+def finite(field: str, values: ArrayLike, unit: str) -> Array:
     """`values` as a row of finite floats (n,), a copy; else ValueError."""
     allowed = f"finite numbers [{unit}]"
     try:

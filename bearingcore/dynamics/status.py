@@ -11,25 +11,11 @@ from bearingcore.errors import Status
 class MotionStatus(Status):
     """Outcome of a simulated motion."""
 
-    COMPLETED = "completed"
-    TOO_MANY_STEPS = "too many steps"
-    NO_START = "no static state to start from"
-    DIVERGED = "diverged"
-    STEP_VANISHED = "no step is small enough"
-
-    @property
-    def sentence(self) -> str:
-        """The status as a clause that can follow "as"."""
-        return _MOTION_CLAUSES[self]
-
-
-_MOTION_CLAUSES = {
-    MotionStatus.COMPLETED: "the simulated motion is complete",
-    MotionStatus.TOO_MANY_STEPS: "the simulated motion takes too many steps",
-    MotionStatus.NO_START: "there is no static state to start from",
-    MotionStatus.DIVERGED: "the simulated motion diverged",
-    MotionStatus.STEP_VANISHED: "no step of the simulation is small enough",
-}
+    COMPLETED = "completed", "the simulated motion is complete"
+    TOO_MANY_STEPS = "too many steps", "the simulated motion takes too many steps"
+    NO_START = "no static state to start from", "there is no static state to start from"
+    DIVERGED = "diverged", "the simulated motion diverged"
+    STEP_VANISHED = "no step is small enough", "no step of the simulation is small enough"
 
 
 @unique

@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 
 SAMPLES_A_LENGTH = 10
@@ -50,12 +51,10 @@ class RoughFloor:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        height = checks.real_number("rms_height", self.rms_height, at_least=0.0, unit="m")
-        length = checks.real_number("correlation_length", self.correlation_length, at_least=1e-6)
+        checks.keep_number(self, "rms_height", at_least=0.0, unit="m")
+        checks.keep_number(self, "correlation_length", at_least=1e-6)
         seed = checks.whole_number("seed", self.seed, at_least=0, at_most=2**31 - 1)
-        object.__setattr__(self, "rms_height", height)
-        object.__setattr__(self, "correlation_length", length)
-        object.__setattr__(self, "seed", seed)
+        checks.keep(self, seed=seed)
 
     def check_length(self, length: float) -> None:
         """Raise ValueError where a floor of `length` [m] along the race takes too many samples."""
@@ -69,9 +68,7 @@ class RoughFloor:
                 length=length,
             )
 
-    def surface(
-        self, angle: NDArray[np.float64], extent: float, depth: float, radius: float
-    ) -> NDArray[np.float64]:
+    def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
         """Depth [m] at angles [rad] from the middle of a defect on a race of `radius` [m].
 
         It is never above the healthy race.
@@ -84,7 +81,7 @@ class RoughFloor:
 
 
 @lru_cache_by_bytes(16, 64_000_000, lambda heights, *_: heights.nbytes)
-def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
+def _roughness(seed: int, reach: int) -> Array:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package
 
@@ -134,12 +131,9 @@ class MeasuredFloor:
             raise checks.refuse("floor places", "not rising from -1 to 1", "rising from -1 to 1")
         if not (np.all(np.isfinite(depths)) and np.all(depths >= 0.0) and np.all(depths <= 1.0)):
             raise checks.refuse("floor depths", "not all from 0 to 1", "0 to 1")
-        object.__setattr__(self, "places", tuple(places.tolist()))
-        object.__setattr__(self, "depths", tuple(depths.tolist()))
+        checks.keep(self, places=tuple(places.tolist()), depths=tuple(depths.tolist()))
 
-    def surface(
-        self, angle: NDArray[np.float64], extent: float, depth: float, radius: float
-    ) -> NDArray[np.float64]:
+    def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
         """Depth [m] at angles [rad] from the middle of a defect."""
         return depth * np.interp(angle / (0.5 * extent), self.places, self.depths)
 

@@ -6,9 +6,9 @@ import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,7 @@ class Load:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            value = checks.real_number(field.name, getattr(self, field.name))
-            object.__setattr__(self, field.name, value)
+            checks.keep_number(self, field.name)
 
     @property
     def has_moment(self) -> bool:
@@ -32,6 +31,6 @@ class Load:
         return (self.mx, self.my) != (0.0, 0.0)
 
     @property
-    def vector(self) -> NDArray[np.float64]:
+    def vector(self) -> Array:
         """(Fx, Fy, Fz, Mx, My), shape (5,) [N, N·m]."""
         return np.array([self.fx, self.fy, self.fz, self.mx, self.my])

@@ -95,33 +95,24 @@ class Scene:
     unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: object) -> None:
-            object.__setattr__(self, name, value)
-
-        keep("shaft_speed", checks.real_number("shaft_speed", self.shaft_speed, at_least=0.0))
-        keep(
-            "unbalance", checks.real_number("unbalance", self.unbalance, at_least=0.0, unit="kg·m")
-        )
-        if self.contact_damping is not None:
-            keep(
-                "contact_damping",
-                checks.real_number("contact_damping", self.contact_damping, at_least=0.0),
-            )
+        checks.keep_number(self, "shaft_speed", at_least=0.0)
+        checks.keep_number(self, "unbalance", at_least=0.0, unit="kg·m")
+        checks.keep_number(self, "contact_damping", optional=True, at_least=0.0)
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
         said = self.dofs if isinstance(self.dofs, str) else ""
         if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
-            keep("dofs", check_dofs(self.dofs))
+            checks.keep(self, dofs=check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
             for defect in several:
                 checks.instance("defect", defect, Defect, "a Defect or a tuple of them")
-            keep("defect", several)
-        keep("bearing", bearing_of(self.bearing))
+            checks.keep(self, defect=several)
+        checks.keep(self, bearing=bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)
         if said == TILT_HELD:
-            keep("dofs", self._held_dofs)
+            checks.keep(self, dofs=self._held_dofs)
         self._check_directions()
         for defect in self.defects:
             defect.check_row(self.bearing)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import count
 
 DIRECTIONS = ("x", "y")
@@ -44,7 +44,7 @@ class Recording:
         naming the field, its value and what is allowed.
     """
 
-    acceleration: NDArray[np.float64] = field(repr=False)
+    acceleration: Array = field(repr=False)
     sample_rate: float
     directions: tuple[str, ...] = ("x", "y")
     name: str = ""
@@ -52,17 +52,9 @@ class Recording:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        def keep(name: str, value: object) -> None:
-            object.__setattr__(self, name, value)
-
-        keep(
-            "sample_rate", checks.real_number("sample_rate", self.sample_rate, above=0.0, unit="Hz")
-        )
-        keep("directions", check_directions(self.directions))
-        if self.shaft_speed is not None:
-            speed = checks.real_number("shaft_speed", self.shaft_speed, above=0.0, unit="rad/s")
-            keep("shaft_speed", speed)
-        keep("notes", tuple(self.notes))
+        checks.keep_number(self, "sample_rate", above=0.0, unit="Hz")
+        checks.keep_number(self, "shaft_speed", optional=True, above=0.0, unit="rad/s")
+        checks.keep(self, directions=check_directions(self.directions), notes=tuple(self.notes))
         signal = np.array(self.acceleration, dtype=float)
         if signal.ndim == 1:
             signal = signal[:, None]
@@ -93,7 +85,7 @@ class Recording:
                 what = f"swinging by {swing:.1g} along {direction}"
                 raise checks.refuse("acceleration", what, "from {:g} to {:g}".format(*SWINGS))
         signal.setflags(write=False)
-        keep("acceleration", signal)
+        checks.keep(self, acceleration=signal)
 
     @property
     def duration(self) -> float:

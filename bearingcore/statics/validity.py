@@ -37,7 +37,7 @@ the kernels distinguish them exactly.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +47,9 @@ from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.packing import contacts
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
@@ -56,8 +57,8 @@ from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
 from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.statics.positions import over_all_positions, positions
-from bearingcore.statics.pressure import HeaviestBall, heaviest_balls
+from bearingcore.statics.positions import over_all_positions, positions, state_of
+from bearingcore.statics.pressure import RACES, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
 from bearingcore.statics.tilts import free_tilts, held_tilts
 
@@ -65,7 +66,7 @@ ANGLES = 361
 """Cage angles in a ball spacing at which a scene is looked at; a third of them go into the
 positions of a defect that turns."""
 
-CENTRIFUGAL_SHARE = {"least": 1.0}
+CENTRIFUGAL_SHARE = 1.0
 """Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
 lift off the inner race."""
 
@@ -146,34 +147,46 @@ def limits(
     checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
         checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
-    if state is None:
-        state = state_of_limits(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state_of_limits(scene) if state is None else state)
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
-    heaviest = heaviest_balls(state)
-    in_motion = None
+    bearing, turns = scene.bearing, scene.shaft_speed > 0.0
+    heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    at_rest = [(own, ball.load) for own, ball in heaviest]
+    in_motion = []
     if dynamic_load is not None:
-        in_motion = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
-    kind = scene.bearing.kind
+        load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
+        # which row it was is not known: the one on which it matters most counts
+        in_motion = [(own, load) for own, _ in bearing.unlike_rows]
     found: list[Limit | None] = [
-        _pressure(scene.bearing, "inner", heaviest),
-        _pressure(scene.bearing, "outer", heaviest),
-        _pressure_in_motion(scene, in_motion),
-        _shoulder(scene, state, shoulder_height),
-        *_centrifugal(scene, state),
-        gyroscopic_limit(scene),
+        _pressure(
+            bearing,
+            f"contact pressure, {race} race",
+            [(own, ball.load_on(race)) for own, ball in heaviest],
+            (race,),
+            NO_STATE,
+        )
+        for race in RACES
     ]
-    if not kind.line_contact:
-        found += [
-            _compression(scene.bearing, heaviest),
-            _compression_in_motion(scene, in_motion),
-            _stiffness(scene),
-        ]
+    if turns:
+        name = "contact pressure in motion"
+        found.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
+    found.append(_shoulder(scene, state, shoulder_height))
+    found.append(_centrifugal_change(scene))
+    found.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
+    found.append(gyroscopic_limit(scene))
+    if not bearing.kind.line_contact:
+        found.append(_compression("compression against groove centre distance", at_rest, NO_STATE))
+        if turns:
+            found.append(_compression("compression in motion", in_motion, NO_MOTION))
+        found.append(_stiffness(scene))
     found += thrust_limits(scene, state)
     found += [held_tilts(state), free_tilts(state)]
-    found.append(_film(scene, film))
+    if turns:
+        no_film = unknown(
+            "film parameter", TOUCHING, "", NO_OIL if bearing.knows_contacts else NO_DRAWING
+        )
+        found.append(no_film if film is None else film.limit)
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
         found.append(_steps(scene, rate))
@@ -206,59 +219,47 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
 
 NOT_IN_STATICS = "the static model leaves it out"
 NOT_IN_STATICS_WITH_MASS = (
-    "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
-    "it out"
+    "the loads and stiffness of balls with mass hold it, these limits, maps, natural frequencies "
+    "and life leave it out"
 )
 
 NO_STATE = "no cage angle has a static equilibrium"
 
 
-def _pressure(bearing: Bearing, race: str, heaviest: tuple[HeaviestBall, ...]) -> Limit:
-    """Greatest pressure between a most loaded ball, of each row that is unlike, and a race."""
-    name = f"contact pressure, {race} race"
+Loaded = Sequence[tuple[Bearing, float]]
+"""Rows that are unlike, and the greatest load [N] of an element of each; none without a motion."""
+
+
+def _are_known(loaded: Loaded) -> bool:
+    return bool(loaded) and not any(math.isnan(load) for _, load in loaded)
+
+
+def _pressure(
+    bearing: Bearing, name: str, loaded: Loaded, races: Sequence[str], no_load: str
+) -> Limit:
+    """Greatest pressure of most loaded elements on some races against that of ISO 76.
+
+    `no_load` is NO_MOTION of loads in motion, else NO_STATE.
+    """
     allowed = bearing.kind.static_pressure
     if not bearing.knows_contacts:
         return unknown(name, allowed, "Pa", NO_DRAWING)
-    if any(math.isnan(ball.load) for ball in heaviest):
-        return unknown(name, allowed, "Pa", NO_STATE)
-    p, load = max(
-        (float(bearing.of_row(ball.row).race_contact(race).greatest_pressure(ball.load)), ball.load)
-        for ball in heaviest
+    if not _are_known(loaded):
+        return unknown(name, allowed, "Pa", no_load)
+    p, load, race = max(
+        (float(own.race_contact(race).greatest_pressure(load)), load, race)
+        for own, load in loaded
+        for race in races
     )
-    fact = (
-        f"The most loaded {bearing.kind.element} presses on the {race} race with "
-        f"{number(p / 1e9)} GPa (load {with_prefix(load, 'N')})"
-    )
-    return _pressure_limit(name, p, allowed, fact)
-
-
-def _pressure_limit(name: str, p: float, allowed: float, fact: str) -> Limit:
-    """A pressure [Pa] against that of ISO 76."""
+    element, carried = bearing.kind.element, with_prefix(load, "N")
+    fact = f"presses on the {race} race with {number(p / 1e9)} GPa"
+    if no_load == NO_MOTION:
+        fact = f"In the simulated motion a {element} carries up to {carried} and {fact}"
+    else:
+        fact = f"The most loaded {element} {fact} (load {carried})"
     most = f"the {allowed / 1e9:.1f} GPa that ISO 76 allows"
     beyond = f", above {most}: it dents the race, and elastic contact no longer holds."
     return upper_limit(name, p, allowed, "Pa", fact, beyond, f", below {most}.")
-
-
-def _pressure_in_motion(scene: Scene, load: float | None) -> Limit | None:
-    """Greatest pressure of a simulated motion, on the race where it is greater."""
-    if scene.shaft_speed == 0.0:
-        return None
-    name, allowed = "contact pressure in motion", scene.bearing.kind.static_pressure
-    if not scene.bearing.knows_contacts:
-        return unknown(name, allowed, "Pa", NO_DRAWING)
-    if load is None:
-        return unknown(name, allowed, "Pa", NO_MOTION)
-    # which row it was is not known: the one on which it presses hardest counts
-    p, race = max(
-        (float(own.race_contact(race).greatest_pressure(load)), race)
-        for own, _ in scene.bearing.unlike_rows
-        for race in ("inner", "outer")
-    )
-    fact = (
-        f"In the simulated motion a {scene.bearing.kind.element} carries up to "
-        f"{with_prefix(load, 'N')} and presses on the {race} race with {number(p / 1e9)} GPa"
-    )
-    return _pressure_limit(name, p, allowed, fact)
 
 
 def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
@@ -279,12 +280,7 @@ def _worst(found: Iterable[Limit]) -> Limit:
     return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
-def _shoulder_of(
-    bearing: Bearing,
-    loads: NDArray[np.float64],
-    angles: NDArray[np.float64],
-    height: float | None,
-) -> Limit:
+def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | None) -> Limit:
     """Contact angle of loaded balls, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
@@ -300,8 +296,8 @@ def _shoulder_of(
     reach, angles = angles[carries], angles[carries]
     known = bearing.knows_contacts
     if known:
-        contacts = map(bearing.race_contact, bearing.kind.shoulders)
-        half = [contact.semi_axes(loads[carries])[0] for contact in contacts]
+        ellipses = map(bearing.race_contact, bearing.kind.shoulders)
+        half = [ellipse.semi_axes(loads[carries])[0] for ellipse in ellipses]
         spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
@@ -322,42 +318,32 @@ def _shoulder_of(
     return upper_limit(name, value, limit, "rad", fact, ": the ball rides over its edge.", ".")
 
 
-def _centrifugal(scene: Scene, state: Equilibrium) -> tuple[Limit, Limit]:
-    """Effect of centrifugal force, and its size against the load of the least loaded ball.
+def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
+    """Centrifugal force against the load of the least loaded of some balls.
 
     Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
-    the second takes the least loaded of those that carry, at the median cage angle. Of rows that
-    are unlike the one counts where it matters most.
+    it is the least loaded of those that carry, at the median cage angle.
     """
-    least = _worst(
-        _centrifugal_share(own, balls, scene, state) for own, balls in scene.bearing.unlike_rows
-    )
-    return _centrifugal_change(scene), least
-
-
-def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
-    """Centrifugal force against the load of the least loaded of some balls."""
+    which = f"least loaded {bearing.kind.element}"
+    name, limit = f"centrifugal force, {which}", CENTRIFUGAL_SHARE
     loads = state.ball_load[:, balls]
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     carried = _known(state) & np.isfinite(lightest)
-    median = _median(lightest[carried], state.shares[carried])
-    element = bearing.kind.element
-    return _share(
-        f"least loaded {element}",
-        bearing.centrifugal_load(scene.shaft_speed),
-        median,
-        CENTRIFUGAL_SHARE["least"],
-        f"it lifts that {element} off the inner race, and the {element} may skid",
+    load = weighted_quantile(lightest[carried], state.shares[carried], 0.5)
+    if not load > 0.0:
+        return unknown(name, limit, "", "no ball is known to carry load")
+    force = bearing.centrifugal_load(scene.shaft_speed)
+    share = force / load
+    fact = (
+        f"The centrifugal force of a {bearing.kind.element}, {with_prefix(force, 'N')}, is "
+        f"{percent(share)} of the {with_prefix(load, 'N')} on the {which}"
     )
-
-
-def _median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:
-    """Median of numbers (n,) with weights (n,); NaN of none."""
-    if not values.size:
-        return math.nan
-    order = np.argsort(values)
-    below = np.cumsum(weights[order]) - 0.5 * weights[order]
-    return float(np.interp(0.5 * weights.sum(), below, values[order]))
+    beyond = (
+        f": it lifts that {bearing.kind.element} off the inner race, and the "
+        f"{bearing.kind.element} may skid."
+    )
+    within = f", less than the {percent(limit)} that matter."
+    return upper_limit(name, share, limit, "", fact, beyond, within)
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
@@ -392,45 +378,17 @@ def _up_to(share: float) -> str:
     return f"up to {percent(share)}" if share >= 1e-4 else "less than 0.01 %"
 
 
-def _share(which: str, force: float, load: float, limit: float, so_what: str) -> Limit:
-    name = f"centrifugal force, {which}"
-    if not load > 0.0:
-        return unknown(name, limit, "", "no ball is known to carry load")
-    share = force / load
-    fact = (
-        f"The centrifugal force of a {which.split()[-1]}, {with_prefix(force, 'N')}, is "
-        f"{percent(share)} of the {with_prefix(load, 'N')} on the {which}"
-    )
-    within = f", less than the {percent(limit)} that matter."
-    return upper_limit(name, share, limit, "", fact, f": {so_what}.", within)
-
-
-def _compression(bearing: Bearing, heaviest: tuple[HeaviestBall, ...]) -> Limit:
-    """Compression of the most loaded ball against the distance of the groove centres."""
-    name = "compression against groove centre distance"
-    if any(math.isnan(ball.load) for ball in heaviest):
-        return unknown(name, GREATEST_COMPRESSION, "", NO_STATE)
-    return _worst(
-        _compressed(bearing.of_row(ball.row), name, ball.load, "The most loaded ball is")
-        for ball in heaviest
-    )
-
-
-def _compression_in_motion(scene: Scene, load: float | None) -> Limit | None:
-    """The same of a simulated motion."""
-    if scene.shaft_speed == 0.0:
-        return None
-    name = "compression in motion"
-    if load is None:
-        return unknown(name, GREATEST_COMPRESSION, "", NO_MOTION)
-    return _worst(
-        _compressed(own, name, load, "In the simulated motion a ball is")
-        for own, _ in scene.bearing.unlike_rows
-    )
+def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
+    """Compression of most loaded balls against the distance of the groove centres."""
+    if not _are_known(loaded):
+        return unknown(name, GREATEST_COMPRESSION, "", no_load)
+    moving = no_load == NO_MOTION
+    who = "In the simulated motion a ball is" if moving else "The most loaded ball is"
+    return _worst(_compressed(own, name, load, who) for own, load in loaded)
 
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
-    compression = typical_compression(bearing, load)
+    compression = contacts(bearing).compression(load)
     apart = center_distance(bearing.groove_center_distance)
     share = compression / apart
     most = percent(GREATEST_COMPRESSION)
@@ -462,16 +420,6 @@ def _stiffness(scene: Scene) -> Limit | None:
     beyond = ": pressures and contact ellipses belong to the drawing, displacements to the factor."
     name = "load-deflection factor against the drawing"
     return upper_limit(name, off, STIFFNESS_MISMATCH, "", fact, beyond, ".")
-
-
-def _film(scene: Scene, film: Film | None) -> Limit | None:
-    """Thickness of the thinner film over the roughness; None where no oil is drawn in."""
-    if scene.shaft_speed == 0.0:
-        return None
-    if film is not None:
-        return film.limit
-    why = NO_OIL if scene.bearing.knows_contacts else NO_DRAWING
-    return unknown("film parameter", TOUCHING, "", why)
 
 
 def _steps(scene: Scene, step_rate: float) -> Limit | None:

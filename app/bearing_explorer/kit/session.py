@@ -1,4 +1,4 @@
-"""A session: newest inputs -> what is drawn of them -> the views on screen."""
+"""A session and its halves: newest content -> what is drawn of it -> the views on screen."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import nullcontext
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
@@ -19,13 +20,12 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
 from bearing_explorer.kit.compute.executors import in_thread, in_turn
 from bearing_explorer.kit.compute.jobs import Change, Jobs
-from bearing_explorer.kit.half import Half, Section
 from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
 from bearing_explorer.kit.serve import log as write
 from bearing_explorer.kit.serve.live import one_message, send_at_once
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.views.content import Inputs
+from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.widgets.form import stack
 from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
@@ -37,7 +37,7 @@ Found = TypeVar("Found")
 
 #: slow views are drawn together with the others while a slider moves, or all would be painted
 #: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
-#: inputs wait ...
+#: content waits ...
 _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
@@ -49,10 +49,56 @@ _AT_ONCE = 0.025
 #: a tab opens together with its fine picture where that takes less than this [s]
 _SOON = 0.2
 
-#: the limits of the model are checked when the slider rests; while it moves after so long [s], and
-#: where many share the machine, after so many pictures: they cost as much as two
+#: the limits of the model are checked when the slider rests and with the first picture of a change;
+#: while it moves after so long [s], and where many share the machine, after so many pictures: they
+#: cost as much as two
 _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page that is on screen as a whole: a tab, or one of the parts of a `tab`."""
+
+    name: str
+    title: str
+    views: tuple[type[View], ...]
+    tab: str = ""
+    """Title of the tab, where that has several parts; they stand one after the other."""
+
+
+class Half:
+    """A half of the program. Its methods are called on the event loop of the session."""
+
+    sections: tuple[Section, ...]
+    """Its tabs."""
+    kind_of_content: type
+    """The type of its content, which another half's is not."""
+    page: Session
+    jobs: Jobs
+    """The background of the session."""
+
+    def join(self, page: Session) -> None:
+        """Become a half of this session, once, before anything else."""
+        self.page, self.jobs = page, page.jobs
+
+    def content(self) -> Content:
+        """The content of the next picture, while a slider moves."""
+        raise NotImplementedError
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
+        self.page.draw()
+
+    def attach(self, view: View) -> None:
+        """Give a view of its tabs this half of the session."""
+        view.attach(self)
+
+    def tab_opened(self, name: str) -> None:
+        """A tab of the page was opened, of whichever half."""
+
+    def stop(self) -> None:
+        """The session is over."""
 
 
 class Session:
@@ -79,7 +125,7 @@ class Session:
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
-        self._loop: DrawingLoop[Inputs, Picture] = DrawingLoop(
+        self._loop: DrawingLoop[Content, Picture] = DrawingLoop(
             self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
         self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
@@ -109,9 +155,9 @@ class Session:
         return self._shown
 
     @property
-    def inputs(self) -> Inputs:
-        """The inputs of the next picture."""
-        return self._halves[self._shown].inputs()
+    def content(self) -> Content:
+        """The content of the next picture."""
+        return self._halves[self._shown].content()
 
     async def assign(self, change: Change) -> None:
         """Change models of the page, in one message."""
@@ -141,8 +187,8 @@ class Session:
 
     def draw(self) -> None:
         """Bring what is on screen up to date."""
-        inputs = self.inputs
-        self._loop.submit(inputs.at_rest(self._refined == (self._shown, *inputs.fine_key)))
+        content = self.content
+        self._loop.submit(content.at_rest(self._refined == (self._shown, *content.fine_key)))
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""
@@ -187,10 +233,6 @@ class Session:
                 half.tab_opened(name)
             self.draw()
 
-    def _make(self, name: str) -> list[View]:
-        """The views of a section, which are in no document yet."""
-        return [view(self.packed) for view in self._sections[name].views]
-
     async def _make_tab(self, name: str) -> None:
         """Have the section that is to be on screen: its figures are made when it is first opened.
 
@@ -199,7 +241,8 @@ class Session:
         sixth later.
         """
         if name not in self._views:
-            self._views[name] = await in_turn(self._make, name)
+            kinds = self._sections[name].views
+            self._views[name] = await in_turn(lambda: [view(self.packed) for view in kinds])
             for view in self._views[name]:
                 self._halves[name].attach(view)
         self._on_screen = name
@@ -232,110 +275,112 @@ class Session:
             self.packed.introduce()
         self.tabs.active = self._attached = name
 
-    async def _opens_finely(self, inputs: Inputs) -> bool:
+    async def _opens_finely(self, content: Content) -> bool:
         """Open the tab with its fine picture, if that is there soon, or empty and say no.
 
         Else it would be laid out and painted three times: empty, coarsely and finely.
         """
         late = threading.Event()
-        content, views = inputs.at_rest().content(late.is_set), self._views[self._on_screen]
-        drawing = asyncio.ensure_future(in_thread(picture_of, content, views, True))
+        fine, views = content.at_rest(give_up=late.is_set), self._views[self._on_screen]
+        drawing = asyncio.ensure_future(in_thread(picture_of, fine, views, True))
         await asyncio.wait({drawing}, timeout=_SOON)
         if not drawing.done():
             late.set()
             drawing.add_done_callback(lambda done: done.cancelled() or done.exception())
             await self._send(lambda: None)
             return False
-        await self._draw_fine(inputs, drawing.result())
+        await self._draw_fine(content, drawing.result())
         return True
 
     # Drawing: off the event loop to compute, on it to assign.
 
-    async def _draw_newest(self, inputs: Inputs) -> Inputs:
+    async def _draw_newest(self, content: Content) -> Content:
         started = time.perf_counter()
         opens = self._on_screen != self._shown
         if opens:
             await self._make_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
-        if not self._is_for_screen(inputs):  # asked for before the tab of the other half was opened
-            inputs = self._halves[self._on_screen].inputs()
-        if opens and await self._opens_finely(inputs):
-            inputs = inputs.at_rest()
+        if not self._is_for_screen(content):  # of before the tab of the other half was opened
+            content = self._halves[self._on_screen].content()
+        if opens and await self._opens_finely(content):
+            content = content.at_rest()
         else:
-            inputs = await self._draw_following(inputs.at_rest(False) if opens else inputs)
-        write.update(self._doc, inputs.scene, self._on_screen, time.perf_counter() - started)
+            content = await self._draw_following(content.at_rest(False) if opens else content)
+        write.update(self._doc, content.scene, self._on_screen, time.perf_counter() - started)
         compiling.drawn()
         if self._on_screen != self._shown:
-            # opened meanwhile, and these inputs may have been the newest
+            # opened meanwhile, and this content may have been the newest
             self.draw()
-        return inputs
+        return content
 
-    async def _draw_following(self, inputs: Inputs) -> Inputs:
+    async def _draw_following(self, content: Content) -> Content:
         """Draw what follows a slider, what takes long after the others."""
         started = time.perf_counter()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
-        slow = [view for view in views if view.needs & inputs.slow]
+        slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
         # where nothing else follows the slider there is nothing to delay
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
-        if slow and not heavy and math.isfinite(self._slow_cost) and not inputs.rested:
+        if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
             quick, slow = [], views
         if heavy and self._loop.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
 
         if quick or not slow:
             run = in_turn if self._quick_cost < _AT_ONCE else in_thread
-            inputs, picture = await run(self._newest_picture, inputs, quick)
+            content, picture = await run(self._newest_picture, content, quick)
             self._quick_cost = picture.work
-            await self._assign(picture, None if slow else inputs.mark)
+            await self._assign(picture, None if slow else content.mark)
         if slow:
             before = time.perf_counter()
-            limits = not quick and self._limits_due(inputs)
-            picture = await in_thread(picture_of, inputs.content(), slow, limits)
+            limits = not quick and self._limits_due(content)
+            picture = await in_thread(picture_of, content, slow, limits)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
-            await self._assign(picture, inputs.mark)
-        return inputs
+            await self._assign(picture, content.mark)
+        return content
 
-    def _is_for_screen(self, inputs: Inputs) -> bool:
-        """Whether these are inputs of the half whose tab is on screen."""
-        return isinstance(inputs, self._halves[self._on_screen].kind_of_inputs)
+    def _is_for_screen(self, content: Content) -> bool:
+        """Whether this is content of the half whose tab is on screen."""
+        return isinstance(content, self._halves[self._on_screen].kind_of_content)
 
-    def _newest_picture(self, inputs: Inputs, views: Sequence[View]) -> tuple[Inputs, Picture]:
-        """A picture of the newest inputs: others may have waited for a thread too."""
-        newest = self._loop.newest(inputs)
-        inputs = newest if self._is_for_screen(newest) else inputs
-        return inputs, picture_of(inputs.content(), views, self._limits_due(inputs))
+    def _newest_picture(self, content: Content, views: Sequence[View]) -> tuple[Content, Picture]:
+        """A picture of the newest content: others may have waited for a thread too."""
+        newest = self._loop.newest(content)
+        content = newest if self._is_for_screen(newest) else content
+        return content, picture_of(content, views, self._limits_due(content))
 
-    def _fine_picture(self, inputs: Inputs, give_up: Callable[[], bool]) -> Picture | None:
+    def _fine_picture(self, content: Content, give_up: Callable[[], bool]) -> Picture | None:
         """Views that are finer at rest, with the limits; None where all is drawn finely already."""
-        if inputs.rested or not self._is_for_screen(inputs):
+        if not content.moving or not self._is_for_screen(content):
             return None
-        fine, drawn = inputs.at_rest().content(give_up), inputs.content()
+        fine = content.at_rest(give_up=give_up)
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
         finer = [
             view
             for view in on_screen
-            if view.at_rest or not view.needs or drawn.is_finer_at_rest(view.needs)
+            if view.at_rest or not view.needs or content.is_finer_at_rest(view.needs)
         ]
         return picture_of(fine, finer, limits=True, on_screen=on_screen)
 
-    async def _draw_fine(self, inputs: Inputs, picture: Picture) -> None:
-        await self._assign(picture, inputs.mark)
-        self._refined = self._on_screen, *inputs.fine_key
+    async def _draw_fine(self, content: Content, picture: Picture) -> None:
+        await self._assign(picture, content.mark)
+        self._refined = self._on_screen, *content.fine_key
+        # the next change may be a typed number far from here
+        self._limits_at, self._pictures = -math.inf, _LIMITS_PICTURES
 
-    def _limits_due(self, inputs: Inputs) -> bool:
+    def _limits_due(self, content: Content) -> bool:
         now = time.perf_counter()
         self._pictures += 1
         long_ago = now - self._limits_at > _LIMITS_EVERY
-        due = inputs.rested or (long_ago and self._pictures >= _LIMITS_PICTURES)
+        due = not content.moving or (long_ago and self._pictures >= _LIMITS_PICTURES)
         if due:
             self._limits_at, self._pictures = now, 0
         return due
 
     async def _assign(self, picture: Picture, mark: int | None) -> None:
-        """Send a picture; `mark` where with it all of these inputs is drawn."""
+        """Send a picture; `mark` where with it all of this content is drawn."""
         sources: Sources = {}
         ranges: Ranges = {}
         for drawing in picture.drawings:
@@ -357,7 +402,7 @@ class Session:
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
-        scene = write.scene_name(self.inputs.scene)
+        scene = write.scene_name(self.content.scene)
         write.log_warning("failed", self._doc, scene=scene, view=self._shown)
         self._drawn_mark = self.mark
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
-from bearingcore.diagnosis.size.pass_quality import PassQuality
+from bearingcore.diagnosis.size.matching import PassQuality
 from bearingcore.diagnosis.size.synthesis import Band
 from bearingcore.errors import Status
 from bearingcore.scene.scene import Scene
@@ -20,54 +18,35 @@ from bearingcore.signals.recording import Recording
 class SizingStatus(Status):
     """The outcome of a sizing."""
 
-    SIZED = "sized"
-    AT_MOST = "at most"
-    AT_LEAST = "at least"
-    OTHER_PART = "other part"
-    SUPPORT_NOT_MEASURED = "support not measured"
-    TOO_MANY_STEPS = "too many steps"
-    NO_LINES = "no lines"
-    ONE_TONE = "one tone"
-    UNEXPLAINED = "unexplained"
-    OTHER_LEVEL = "other level"
-    SEVERAL = "several extents"
-    WIDE = "wide range"
-    LIKE_A_PIT = "like a pit"
-    TWO_KNOCKS = "two knocks"
-    UNCONFIRMED = "unconfirmed"
-
-    @property
-    def sentence(self) -> str:
-        """The status as a sentence."""
-        return _SENTENCES[self]
-
-
-_SENTENCES = {
-    SizingStatus.SIZED: "One extent explains the signal, and no other does.",
-    SizingStatus.AT_MOST: "The defect is shorter than what the compared band resolves.",
-    SizingStatus.AT_LEAST: "The defect is as long as the longest extent considered.",
-    SizingStatus.OTHER_PART: "The outer race is not named as damaged, so no extent is estimated.",
-    SizingStatus.SUPPORT_NOT_MEASURED: (
+    SIZED = "sized", "One extent explains the signal, and no other does."
+    AT_MOST = "at most", "The defect is shorter than what the compared band resolves."
+    AT_LEAST = "at least", "The defect is as long as the longest extent considered."
+    OTHER_PART = "other part", "The outer race is not named as damaged, so no extent is estimated."
+    SUPPORT_NOT_MEASURED = (
+        "support not measured",
         "Whole ball spacings are counted by natural frequencies: that needs the measured masses "
-        "and stiffness of the support."
-    ),
-    SizingStatus.TOO_MANY_STEPS: "The search would take more steps of integration than allowed.",
-    SizingStatus.NO_LINES: (
-        "No lines stand out at the ball-pass frequency of an outer-race defect."
-    ),
-    SizingStatus.ONE_TONE: (
-        "The mean ball pass is a tone; a defect's entry and exit show in many harmonics."
-    ),
-    SizingStatus.UNEXPLAINED: "The best extent leaves much of the mean ball pass unexplained.",
-    SizingStatus.OTHER_LEVEL: "The signal has another level than such a defect gives.",
-    SizingStatus.SEVERAL: "Several extents, whole ball spacings apart, explain the signal.",
-    SizingStatus.WIDE: "Extents over a wide range explain the signal nearly as well.",
-    SizingStatus.LIKE_A_PIT: "A long spall and a pit explain the signal nearly as well.",
-    SizingStatus.TWO_KNOCKS: (
-        "A short pit explains the signal best, but its envelope has two knocks a ball pass."
-    ),
-    SizingStatus.UNCONFIRMED: "Entry and exit in the envelope do not bear the extent out.",
-}
+        "and stiffness of the support.",
+    )
+    TOO_MANY_STEPS = (
+        "too many steps",
+        "The search would take more steps of integration than allowed.",
+    )
+    NO_LINES = "no lines", "No lines stand out at the ball-pass frequency of an outer-race defect."
+    ONE_TONE = (
+        "one tone",
+        "The mean ball pass is a tone; a defect's entry and exit show in many harmonics.",
+    )
+    UNEXPLAINED = "unexplained", "The best extent leaves much of the mean ball pass unexplained."
+    OTHER_LEVEL = "other level", "The signal has another level than such a defect gives."
+    SEVERAL = "several extents", "Several extents, whole ball spacings apart, explain the signal."
+    WIDE = "wide range", "Extents over a wide range explain the signal nearly as well."
+    LIKE_A_PIT = "like a pit", "A long spall and a pit explain the signal nearly as well."
+    TWO_KNOCKS = (
+        "two knocks",
+        "A short pit explains the signal best, but its envelope has two knocks a ball pass.",
+    )
+    UNCONFIRMED = "unconfirmed", "Entry and exit in the envelope do not bear the extent out."
+
 
 AT_MOST, AT_LEAST = SizingStatus.AT_MOST, SizingStatus.AT_LEAST
 
@@ -99,8 +78,8 @@ class Candidate:
     extent: float
     probability: float
     edge: str
-    waveform_misfit: NDArray[np.float64]
-    spectrum_misfit: NDArray[np.float64]
+    waveform_misfit: Array
+    spectrum_misfit: Array
     level: float
     scene: Scene = field(repr=False)
 
@@ -159,12 +138,13 @@ class Sizing:
         """A row a candidate: extent, probability, edges and misfits."""
         candidates = self.candidates
         return table_of(
-            ("extent", "rad", [c.extent for c in candidates]),
-            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
-            ("probability", "1", [c.probability for c in candidates]),
-            ("edge", "", [c.edge for c in candidates]),
+            ("extent", "rad", "extent"),
+            ("ball_spacings", "", "turns", "whole ball spacings in it"),
+            ("probability", "1", "probability"),
+            ("edge", "", "edge"),
             ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
             ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            of=candidates,
         )
 
     @property

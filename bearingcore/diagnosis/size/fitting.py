@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator
+import os
+from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,12 +16,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.processors import processors
 from bearingcore.diagnosis.size.matching import (
     SPECTRUM_FLOOR,
     SPECTRUM_WEIGHT,
     WAVEFORM_WEIGHT,
+    Match,
     Target,
 )
 from bearingcore.diagnosis.size.synthesis import Begin, Simulator, steps_of
@@ -87,8 +89,10 @@ class Guess:
         edge model.
     score
         logarithm of how well it explains the signal, before the temperature.
-    level
-        natural logarithm of simulated over measured power.
+    match
+        of its one pass with the measured one.
+    begin
+        state in which its motion ended, for that of a guess nearby.
     extent_spread
         standard deviation [rad] of the extent if what is left is noise; NaN until it was refined.
     """
@@ -96,11 +100,7 @@ class Guess:
     extent: float
     edge: str
     score: float
-    waveform_misfit: NDArray[np.float64]
-    spectrum_misfit: NDArray[np.float64]
-    level: float
-    waveform_residual: NDArray[np.complex128]
-    spectrum_residual: NDArray[np.float64]
+    match: Match
     begin: Begin | None
     extent_spread: float = math.nan
     extent_scatter: float = math.nan
@@ -129,17 +129,7 @@ class Search:
         passes, begin = self.simulator.passes(extent, edge, CLOSED, begin)
         match = self.target.match(passes.harmonics[None], passes.power[None])
         score = float(match.score[0]) - OTHER_EDGE * (edge != self.edges[0])
-        return Guess(
-            extent,
-            edge,
-            score,
-            match.waveform_misfit[0],
-            match.spectrum_misfit[0],
-            float(match.level[0]),
-            match.waveform_residual[0],
-            match.spectrum_residual[0],
-            begin,
-        )
+        return Guess(extent, edge, score, match, begin)
 
     @property
     def edges(self) -> tuple[str, str]:
@@ -147,21 +137,25 @@ class Search:
         (defect,) = self.scene.defects
         return defect.edge, "published" if defect.edge == "exact" else EDGES[-1]
 
+    def cell(self, difference: float) -> int:
+        """Number of ball spacings in a difference [rad] of extents: each is a cell of its own."""
+        return round(difference / self.scene.bearing.ball_spacing)
+
     @cached_property
     def simulator(self) -> Simulator:
         """Of the scene, at the speed that was measured."""
         return Simulator(self.scene, self.target.measured.frequency, self.count, self.columns)
 
-    def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
+    def residuals(self, guess: Guess, about: Guess) -> Array:
         """Residuals of least squares, so weighted that near `about` their sum is as the score."""
-        directions = len(about.waveform_misfit)
-        weighed = (np.abs(about.waveform_residual) ** 2).sum(axis=0)
+        own, of = guess.match, about.match
+        bands, directions = own.spectrum_residual.shape[1:]
+        weighed = (np.abs(of.waveform_residual) ** 2).sum(axis=1)
         waveform = np.sqrt(2.0 * WAVEFORM_WEIGHT / directions / (1.0 + weighed))
-        bands = len(guess.spectrum_residual)
-        floored = SPECTRUM_FLOOR + about.spectrum_misfit
+        floored = SPECTRUM_FLOOR + of.spectrum_misfit
         spectrum = np.sqrt(2.0 * SPECTRUM_WEIGHT / directions / bands / floored)
-        left = (guess.waveform_residual * waveform).ravel()
-        return np.concatenate([left.real, left.imag, (guess.spectrum_residual * spectrum).ravel()])
+        left = (own.waveform_residual * waveform).ravel()
+        return np.concatenate([left.real, left.imag, (own.spectrum_residual * spectrum).ravel()])
 
     def neighbouring(self, guess: Guess) -> Guess:
         """The best of extents a little shorter and longer, and of other edges, refined once.
@@ -200,16 +194,6 @@ class Search:
         )
 
 
-@dataclass(frozen=True)
-class _Sought:
-    """Arguments of a library: the same for all signals of nearly the same speed."""
-
-    scene: Scene
-    frequency: float
-    count: int
-    columns: tuple[int, ...]
-
-
 EXTENTS = np.concatenate([PITS, np.arange(2.0 * EXTENT_STEP, GREATEST_EXTENT, EXTENT_STEP)])
 """[rad] that are simulated."""
 
@@ -217,22 +201,21 @@ _OF_PARTS = np.array_split(EXTENTS, PARTS)
 
 
 @lru_cache(maxsize=8)
-def _simulator(sought: _Sought) -> Simulator:
-    return Simulator(
-        sought.scene, sought.frequency, sought.count, sought.columns, ROUGH_STEPS_A_CYCLE
-    )
+def _rough_simulator(
+    scene: Scene, frequency: float, count: int, columns: tuple[int, ...]
+) -> Simulator:
+    """The same for all signals of nearly the same speed."""
+    return Simulator(scene, frequency, count, columns, ROUGH_STEPS_A_CYCLE)
 
 
 @lru_cache(maxsize=16 * PARTS)
-def _library(
-    sought: _Sought, edge: str, part: int
-) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+def _library(simulator: Simulator, edge: str, part: int) -> tuple[NDArray[np.complex128], Array]:
     """Harmonics and power (m, N, d) of ball passes over a part of all extents."""
     begin: Begin | None = None
     passes = []
     for extent in _OF_PARTS[part].tolist():
         # each begins as its neighbour goes on, and soon goes its own way
-        found, begin = _simulator(sought).passes(extent, edge, CLOSED_ROUGHLY, begin)
+        found, begin = simulator.passes(extent, edge, CLOSED_ROUGHLY, begin)
         passes.append(found)
     return np.array([one.harmonics for one in passes]), np.array([one.power for one in passes])
 
@@ -246,39 +229,34 @@ def steps_needed(search: Search) -> int:
     return (library + refined) * steps_of(search.scene, frequency, search.count)
 
 
-def guesses(search: Search, cells: Callable[[float], int]) -> list[Guess]:
-    """Refined guesses, the best first; and one at least in each cell of extents.
+def guesses(search: Search) -> list[Guess]:
+    """Refined guesses, the best first; and one at least in each cell of extents, from the best on.
 
-    `cells` numbers the cells that extents fall into once the best guess is known; it takes
-    differences of extents [rad]. Threads share the work, most of which holds no interpreter lock;
-    nothing depends on which is done first, as everything is taken in its own order.
+    Threads share the work, most of which holds no interpreter lock; nothing depends on which is
+    done first, as everything is taken in its own order.
     """
-    with ThreadPoolExecutor(processors(), "size") as threads:
-        return _refined(search, _library_scores(search, threads), cells, threads)
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    with ThreadPoolExecutor(usable, "size") as threads:
+        return _refined(search, _library_scores(search, threads), threads)
 
 
-def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
+def _library_scores(search: Search, threads: Executor) -> Array:
     """Likeness of the signal and that of each of EXTENTS, with one edge and then the other."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     frequency = nominal * round(target.measured.frequency / nominal, 3)
-    sought = _Sought(scene, frequency, search.count, search.columns)
+    simulator = _rough_simulator(scene, frequency, search.count, search.columns)
     tasks = [(edge, part) for edge in search.edges for part in range(PARTS)]
 
-    def explained(task: tuple[str, int]) -> NDArray[np.float64]:
-        score = target.match(*_library(sought, *task)).score
+    def explained(task: tuple[str, int]) -> Array:
+        score = target.match(*_library(simulator, *task)).score
         return score - OTHER_EDGE * (task[0] != search.edges[0])
 
     return np.concatenate(list(threads.map(explained, tasks)))
 
 
-def _refined(
-    search: Search,
-    scores: NDArray[np.float64],
-    cells: Callable[[float], int],
-    threads: Executor,
-) -> list[Guess]:
+def _refined(search: Search, scores: Array, threads: Executor) -> list[Guess]:
     """The best guesses made better, and those of each cell."""
     sources = [(extent, edge) for edge in search.edges for extent in EXTENTS.tolist()]
     order = np.argsort(-scores, kind="stable")
@@ -309,10 +287,10 @@ def _refined(
             break
     best = max(found, key=lambda guess: guess.score)
     # a cell without a guess would lose for want of refinement, not of likeness
-    reached = {cells(guess.extent - best.extent) for guess in found}
+    reached = {search.cell(guess.extent - best.extent) for guess in found}
     alone = []
     for index in order.tolist():
-        cell = cells(sources[index][0] - best.extent)
+        cell = search.cell(sources[index][0] - best.extent)
         if cell not in reached:
             reached.add(cell)
             alone.append(index)

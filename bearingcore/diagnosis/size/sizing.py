@@ -8,7 +8,7 @@ is no clear result.
 
 First comes the diagnosis, which needs no model of the machine: an extent is looked for only
 where it names the outer race. Then the mean ball pass must be one: several harmonics, more than
-noise (see `pass_quality`). Last, knocks in the envelope are held against the answer (see `judge`).
+noise (see `PassQuality`). Last, knocks in the envelope are held against the answer (see `judge`).
 A machine whose support is not measured gets no size: natural frequencies count the ball spacings.
 
 Quantity                                   | Symbol | Name           | Unit
@@ -21,7 +21,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -29,7 +28,6 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, SLIP, diagnose
-from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.diagnosis.size.answer import Candidate, Sizing, SizingStatus
 from bearingcore.diagnosis.size.fitting import (
@@ -42,7 +40,6 @@ from bearingcore.diagnosis.size.fitting import (
 )
 from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.matching import Target
-from bearingcore.diagnosis.size.pass_quality import pass_quality
 from bearingcore.diagnosis.size.synthesis import comparison_band
 from bearingcore.errors import FieldError
 from bearingcore.scene.defect import Defect
@@ -69,6 +66,10 @@ than those that are scored."""
 
 SPREAD_FLOOR = math.radians(0.02)
 """[rad] No extent is better known than what is simulated of it."""
+
+_TURNS = (
+    "The defect of an inner race turns with the shaft, so its size cannot be estimated this way."
+)
 
 FOLLOWED = 3.3 / 1.35
 """Times the highest compared frequency up to which a cage that wanders is followed."""
@@ -146,25 +147,19 @@ def size_defect(
         passes,
         band,
         recording,
-        pass_quality(target),
+        target.quality,
     )
     if fault is None:
-        found_fault = diagnose(
+        found = diagnose(
             recording, scene.bearing, scene.shaft_speed, slip=slip, most_samples=most_samples
         )
-        nothing = dataclasses.replace(
-            nothing, diagnosis=found_fault, sentence=_no_size(found_fault)
-        )
-        if found_fault.fault != OUTER:
+        why = f"{found.sentence} {_TURNS}" if found.fault == INNER else found.sentence
+        nothing = dataclasses.replace(nothing, diagnosis=found, sentence=why)
+        if found.fault != OUTER:
             return nothing
     if not support_known:
         status = SizingStatus.SUPPORT_NOT_MEASURED
         return dataclasses.replace(nothing, status=status, sentence=status.sentence)
-    spacing = scene.bearing.ball_spacing
-
-    def cell(difference: float) -> int:
-        return round(difference / spacing)
-
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     search = Search(scene, target, columns)
     steps = steps_needed(search)
@@ -174,11 +169,7 @@ def size_defect(
             f"{thousands(most_steps)}"
         )
         return dataclasses.replace(nothing, status=SizingStatus.TOO_MANY_STEPS, sentence=cost)
-    found = guesses(search, cell)
-    return _with_judgement(_answer(nothing, search, found, cell), scene)
-
-
-def _with_judgement(sized: Sizing, scene: Scene) -> Sizing:
+    sized = _answer(nothing, search, guesses(search))
     status, sentence = judged(sized)
     sized = dataclasses.replace(sized, status=status, sentence=sentence)
     if not (sized.bound or sized.conclusive):
@@ -200,17 +191,12 @@ def _knocks(sized: Sizing, scene: Scene) -> MeasuredExtent | FieldError:
         return refused
 
 
-def _answer(
-    nothing: Sizing,
-    search: Search,
-    found: list[Guess],
-    cell: Callable[[float], int],
-) -> Sizing:
+def _answer(nothing: Sizing, search: Search, found: list[Guess]) -> Sizing:
     """The candidates among the guesses, not yet judged."""
     best = found[0]
     in_cells: dict[int, Guess] = {}
     for guess in found:
-        in_cells.setdefault(cell(guess.extent - best.extent), guess)
+        in_cells.setdefault(search.cell(guess.extent - best.extent), guess)
     chosen = [in_cells[number] for number in sorted(in_cells)]
     scores = np.array([guess.score for guess in chosen])
     weights = np.exp((scores - scores.max()) / TEMPERATURE)
@@ -219,12 +205,9 @@ def _answer(
         _candidate(search, guess, float(weight))
         for guess, weight in zip(chosen, weights, strict=True)
     )
-    spread, apart = _spread(best, [g for g in found if cell(g.extent - best.extent) == 0])
+    spread, apart = _spread(best, [g for g in found if search.cell(g.extent - best.extent) == 0])
     return dataclasses.replace(
-        nothing,
-        candidates=candidates,
-        extent_uncertainty=spread,
-        apart=apart,
+        nothing, candidates=candidates, extent_uncertainty=spread, apart=apart
     )
 
 
@@ -257,9 +240,9 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
         extent=guess.extent,
         probability=probability,
         edge=guess.edge,
-        waveform_misfit=guess.waveform_misfit,
-        spectrum_misfit=guess.spectrum_misfit,
-        level=guess.level,
+        waveform_misfit=guess.match.waveform_misfit[0],
+        spectrum_misfit=guess.match.spectrum_misfit[0],
+        level=float(guess.match.level[0]),
         scene=search.scene.replace(extent=guess.extent, edge=guess.edge),
     )
 
@@ -282,14 +265,3 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
     spread = math.sqrt(own + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
     unknown = (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0)
     return min(spread, unknown), math.sqrt(between(TEMPERATURE))
-
-
-def _no_size(found: Diagnosis) -> str:
-    """Why no extent is looked for where the outer race is not named."""
-    words = found.sentence
-    if found.fault == INNER:
-        words += (
-            " The defect of an inner race turns with the shaft, so its size cannot be estimated "
-            "this way."
-        )
-    return words

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Sequence, Set
+from dataclasses import KW_ONLY, dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +22,6 @@ from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.python_arguments import arguments
 from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
@@ -30,9 +30,12 @@ from bearing_explorer.explorer.state.references import (
     Reference,
     grey_reference,
 )
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
+from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
 from bearingcore.dynamics import OrbitStatus, common_ball_passes
@@ -82,7 +85,8 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
     return Results(scene, cage_angle, settings, moving=moving).chain
 
 
-class Results:
+@dataclass(frozen=True, eq=False)
+class Results(Content):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -101,45 +105,42 @@ class Results:
         scenes that are drawn too, each under a name.
     before
         the scene before the last change, where there was one.
-    grey
+    grey_kind
         kind of the reference that is drawn in grey.
     life_inputs
         steel, oil and surfaces as entered under Life.
+    mark
+        number of the newest change of the browser that they hold.
     give_up
         called in long searches: whether the results are no longer wanted.
     like
         other results, over whose stretch and with whose steps these are computed.
     """
 
-    slow = SLOW
+    slow: ClassVar[Set[str]] = SLOW
 
-    def __init__(
-        self,
-        scene: Scene,
-        cage_angle: float = 0.0,
-        settings: Settings | None = None,
-        focus: int = 0,
-        *,
-        moving: bool = False,
-        compared: Sequence[Reference] = (),
-        before: Reference | None = None,
-        grey: str = HEALTHY,
-        life_inputs: LifeInputs | None = None,
-        give_up: Callable[[], bool] | None = None,
-        like: Results | None = None,
-    ) -> None:
-        self.scene = scene
-        self.cage_angle = cage_angle
-        self.settings = settings or Settings()
-        self.focus = focus
-        self.moving = moving
-        self.compared = tuple(compared)
-        self.before = before
-        self.grey_kind = grey
-        self._against: dict[tuple[Scene, bool], Results] = {}
-        self.life_inputs = life_inputs or LifeInputs()
-        self._give_up = give_up
-        self._like = like
+    scene: Scene
+    cage_angle: float = 0.0
+    settings: Settings = field(default_factory=Settings)
+    focus: int = 0
+    _: KW_ONLY
+    moving: bool = False
+    compared: Sequence[Reference] = ()
+    before: Reference | None = None
+    grey_kind: str = HEALTHY
+    life_inputs: LifeInputs = field(default_factory=LifeInputs)
+    mark: int = 0
+    give_up: Callable[[], bool] | None = None
+    like: Results | None = None
+    _against: dict[tuple[Scene, bool], Results] = field(default_factory=dict, init=False)
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        """All that a fine picture depends on: turning the bearing leaves one fine."""
+        return self.scene, self.settings, self.compared, self.grey_kind
+
+    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
+        return dataclasses.replace(self, moving=not rested, give_up=give_up)
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:
         """Results of another scene, to be compared with these.
@@ -153,10 +154,17 @@ class Results:
                 self.cage_angle,
                 self.settings,
                 moving=self.moving,
-                give_up=self._give_up,
+                give_up=self.give_up,
                 like=None if own_period else self,
             )
         return self._against[key]
+
+    @cached_property
+    def editor(self) -> SceneEditor:
+        """Controls with this scene, for forms outside of the page."""
+        editor = SceneEditor("fan-rig")
+        editor.take_scene(self.scene, selected=self.focus)
+        return editor
 
     @cached_property
     def compared_results(self) -> list[Results]:
@@ -191,8 +199,8 @@ class Results:
         have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
         soon: then the turn of the shaft that the cage angle shown lies in.
         """
-        if self._like is not None:
-            return self._like.stretch
+        if self.like is not None:
+            return self.like.stretch
         settings = self.settings
         n = settings.n_cage_angles
         if self.moving:
@@ -229,7 +237,7 @@ class Results:
 
         Where a defect turns with the shaft they are more than the turn that curves are over.
         """
-        if self.over_shaft or (self._like is not None and self._like.over_shaft):
+        if self.over_shaft or (self.like is not None and self.like.over_shaft):
             return statics.ranges(self.scene, self.moving)
         return ranges_of(self.equilibrium)
 
@@ -312,8 +320,26 @@ class Results:
         return status_of(self, seconds, needed)
 
     def arguments(self, view: View) -> dict[str, str]:
-        """Arguments with which lines of Python make a figure of these."""
-        return arguments(view, self)
+        """Arguments with which lines of Python make a figure of these, if not as usual."""
+        given: dict[str, str] = {}
+        if self.cage_angle:
+            given["cage_angle"] = short(self.cage_angle)
+        if self.focus:
+            given["focus"] = str(self.focus)
+        if self.compared and view.compares:
+            named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
+            given["compared"] = "{" + ", ".join(named) + "}"
+        if self.before is not None and "before" in view.needs:
+            given["before"] = scene_code(self.before.scene)
+        if self.grey_kind != HEALTHY and "reference" in view.needs:
+            given["grey"] = code_of(self.grey_kind)
+        for name, value, usual in (
+            ("settings", self.settings, Settings()),
+            ("endurance", self.life_inputs, LifeInputs()),
+        ):
+            if changed := changed_fields(value, usual):
+                given[name] = code_of(changed)
+        return given
 
     @property
     def _with_mass(self) -> Scene:
@@ -361,7 +387,7 @@ class Results:
     @cached_property
     def marching(self) -> Marching:
         """Settings of its motions; those of the scene with the defect where it is compared."""
-        first = self._like or self
+        first = self.like or self
         how = first._marching_of(first.scene, first.grey.scene)
         if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
             return motions.as_far_as_with_mass(self.scene, how)
@@ -426,7 +452,7 @@ class Results:
         found = motions.quick_orbit(*key)
         if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
             return found
-        return motions.orbit(*key, give_up=self._give_up)
+        return motions.orbit(*key, give_up=self.give_up)
 
     @cached_property
     def contact_damping(self) -> float:

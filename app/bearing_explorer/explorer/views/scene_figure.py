@@ -53,7 +53,7 @@ def figure_of(
         focus,
         compared=[Reference(one, name) for name, one in (compared or {}).items()],
         before=None if before is None else Reference(before, BEFORE),
-        grey=grey,
+        grey_kind=grey,
         life_inputs=LifeInputs(**(endurance or {})),
     )
     return Figure(kind, results, **more)

@@ -3,11 +3,14 @@
 import base64
 import copy
 import dataclasses
+import functools
+import itertools
 import math
 import tomllib
 import tracemalloc
 import zlib
 from pathlib import Path
+from typing import Any
 
 import pytest
 from bearing_explorer.explorer.state.address import (
@@ -41,6 +44,26 @@ from bearingcore import (
 from bearingcore.scene import TILT_FREE
 
 FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("utf-8"))["link"]
+
+
+def changed(kept: Any, change: Any) -> Any:
+    """What a file says of a scene, with what differs put in; of lists each of their tables."""
+    if isinstance(kept, dict) and isinstance(change, dict):
+        return kept | {n: changed(kept.get(n), value) for n, value in change.items()}
+    if isinstance(kept, list) and isinstance(change, list) and isinstance(change[0], dict):
+        pairs = itertools.zip_longest(kept, change, fillvalue={})
+        return [changed(old, new) for old, new in pairs]
+    return change
+
+
+WHOLE: dict[str, dict[str, Any]] = {}
+"""The scene of each link in full, by what the link is about."""
+for _link in FROZEN:
+    _scene = copy.deepcopy(WHOLE[_link["like"]]) if "like" in _link else {}
+    for _name in _link.get("without", ()):
+        *_parts, _last = _name.split(".")
+        del functools.reduce(dict.__getitem__, _parts, _scene)[_last]
+    WHOLE[_link["about"]] = _link["scene"] = changed(_scene, _link.get("scene", {}))
 
 
 def numbers(least: float, most: float) -> st.SearchStrategy[float]:

@@ -21,10 +21,11 @@ export function render({ model }) {
   })
   const part = (id) => root.querySelector(`#${id}`)
   const { title } = model, head = root.querySelector("h2"), code = part("code"), menu = part("exports")
-  head.append(model.leads_to
-    ? button(model.lead ? `${title}: ${model.lead}` : title, () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
-    : "")
-  if (!model.leads_to) follow(model, ["title"], () => { head.textContent = model.title })
+  const lead = model.leads_to && button("", () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
+  if (lead) head.append(lead)
+  follow(model, ["title"], () => {
+    (lead || head).textContent = model.lead ? `${model.title}: ${model.lead}` : model.title
+  })
   if (model.compact) {  // the figure says it itself; the rest is a tooltip
     follow(model, ["line", "rest"], () => { head.title = `${model.line} ${model.rest}`.trim() })
     root.className = "compact"
@@ -50,9 +51,9 @@ export function render({ model }) {
   part("lines").querySelector("strong").append(`${title} in Python`)
   part("reading").querySelector("strong").append(title)
 
-  // with the scene: "bearing-load-fan-rig-defect-12.9deg-50-um-load-100-N.png"
+  // with the scene, "bearing-load-fan-rig-defect-12.9deg-50-um-load-100-N.png", or with the file that was measured
   const file = (ending) => {
-    const scene = (document.documentElement.dataset.scene ?? "").replaceAll("°", "deg").replaceAll("µ", "u")
+    const scene = (model.subject || (document.documentElement.dataset.scene ?? "")).replaceAll("°", "deg").replaceAll("µ", "u")
       .replace(/[^\p{L}\p{N}.]+/gu, "-").slice(0, 90)
     return `bearing-${model.name_of_files}${scene && `-${scene}`.replace(/-$/, "")}.${ending}`
   }
@@ -63,7 +64,8 @@ export function render({ model }) {
   // What a picture says of itself: its title, its key, the scene and the link to it.
   const about = () => {
     const { scene, link } = document.documentElement.dataset
-    return { title, key: model.line, scene, link }
+    const of = model.subject ? { scene: model.subject } : { scene, link }
+    return { title, key: model.line, ...of }
   }
   // before a button acts: a dialog that it opens is then the last to take the focus
   menu.addEventListener("click", () => menu.hidePopover(), true)

@@ -29,3 +29,12 @@ def summit(left: Array, middle: Array, right: Array) -> Array:
     bend = left - 2.0 * middle + right
     shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, 1.0), 0.0)
     return np.clip(shift, -1.0, 1.0)
+
+
+def least_and_greatest(values: Array, axis: int) -> tuple[Array, Array]:
+    """The ends of what is known of numbers along an axis; NaN of nothing."""
+    known = np.isfinite(values)
+    least = values.min(axis=axis, initial=np.inf, where=known)
+    greatest = values.max(axis=axis, initial=-np.inf, where=known)
+    none = ~known.any(axis=axis)
+    return np.where(none, np.nan, least), np.where(none, np.nan, greatest)

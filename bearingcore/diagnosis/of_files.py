@@ -9,6 +9,7 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any, overload
 
+from bearingcore.bearings.designation import read_designation
 from bearingcore.bearings.named import BearingLike
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -81,7 +82,7 @@ def diagnose(
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     *,
-    columns: tuple[int | str, ...] | None = None,
+    columns: int | str | tuple[int | str, ...] | None = None,
     directions: tuple[str, ...] | None = None,
     unit: str | None = None,
     sample_rate: float | None = None,
@@ -167,13 +168,24 @@ def _of_file(
         raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
     table = read_table(path.name, path.read_bytes())
     says = table.contents
-    if bearing is None and says.bearing is not None and says.bearing.taken:
-        bearing = says.bearing.value
-        more = {"bearing_source": _source(says.bearing, f"{bearing}, ")} | more
+    named = says.bearing or _known(says.designation)
+    if bearing is None and named is not None and named.taken:
+        bearing = named.value
+        more = {"bearing_source": _source(named, f"{bearing}, ")} | more
     if shaft_speed is None and says.shaft_speed is not None and says.shaft_speed.taken:
         shaft_speed = says.shaft_speed.value
         more = {"speed_source": _source(says.shaft_speed)} | more
     return diagnose_recording(_recording(table, **choices), bearing, shaft_speed, **more)
+
+
+def _known(designation: Finding[str] | None) -> Finding[str] | None:
+    """The designation that a file gives, where a bearing has it."""
+    if designation is not None:
+        try:
+            read_designation(designation.value)
+        except ValueError:
+            return None
+    return designation
 
 
 def _source(finding: Finding[Any], words: str = "") -> str:
@@ -183,7 +195,7 @@ def _source(finding: Finding[Any], words: str = "") -> str:
 
 def _recording(
     table: Table,
-    columns: tuple[int | str, ...] | None,
+    columns: int | str | tuple[int | str, ...] | None,
     directions: tuple[str, ...] | None,
     unit: str | None,
     sample_rate: float | None,
@@ -191,6 +203,8 @@ def _recording(
 ) -> Recording:
     """The recording in a table, with what the file says where nothing else is given."""
     says = table.contents
+    if isinstance(columns, (int, str)):
+        columns = (columns,)
     if columns is None:
         chosen = says.choice.columns
         if not chosen:

@@ -15,7 +15,7 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
@@ -245,7 +245,7 @@ def trend_point(
     bearing = None if bearing is None else bearing_of(bearing)
     column = recording.directions.index(direction)
     speed = _known_speed(shaft_speed)
-    fault, probability, extent = CANNOT_TELL, math.nan, without_extent()
+    fault, probability, extent = CANNOT_TELL, math.nan, MeasuredExtent()
     lines = noise = np.full(len(LINES), math.nan)
     if bearing is not None:
         answer = diagnose(recording, bearing, shaft_speed)

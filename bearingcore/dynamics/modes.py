@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.common.arrays import Array
+from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.damping import contact_damping
@@ -108,13 +108,8 @@ class Modes:
         NaN for both where no angle has an answer. Nothing between the angles counts, nor other
         turns of the shaft: see `frequency_bands`.
         """
-        return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
-
-
-def _band(frequency: Array) -> tuple[float, float]:
-    """Least and greatest of the frequencies (n,) that are known."""
-    known = frequency[np.isfinite(frequency)]
-    return (float(known.min()), float(known.max())) if known.size else (math.nan, math.nan)
+        ends = zip(*(end.tolist() for end in least_and_greatest(self.frequency, 0)), strict=True)
+        return dict(zip(self.label, ends, strict=True))
 
 
 def modes(

@@ -14,6 +14,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
+    least_step_rate,
     loads_of_races,
     march_balls,
     place_parts,
@@ -195,11 +196,7 @@ class Motion:
 
         Of balls without mass both are the same.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        if self.ball_place is None:
-            loads = self._ball_loads(packed, start, stop)
-            return np.stack([loads, loads])
-        return self._race_loads(packed, self.ball_place, start, stop)
+        return np.stack(self._loads(None, start, stop))
 
     def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
@@ -207,37 +204,32 @@ class Motion:
         Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
         that a figure of contact forces needs.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        return self._ball_loads(packed, start, stop)
+        return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
         """The same motion with the loads of its balls."""
-        return replace(self, ball_load=self._ball_loads(packed, 0, None))
+        return replace(self, ball_load=self._loads(packed, 0, None)[1])
 
-    def _race_loads(self, packed: PackedScene, place: Array, start: int, stop: int | None) -> Array:
+    def _loads(
+        self, packed: PackedScene | None, start: int, stop: int | None
+    ) -> tuple[Array, Array]:
+        """Loads at both races; `packed` is the scene, where it is packed already."""
+        place, speed, rate = self.ball_place, self.scene.cage_speed, self.sample_rate
+        packed = packed or packing.pack(self.scene, self.dofs, balls=place is not None)
         first, last = slice(start, stop).indices(len(self.time))[:2]
-        turned = self.scene.cage_speed / self.sample_rate
-        begin = first * self.scene.cage_speed / self.sample_rate
-        return loads_of_races(packed, self.history[first:last], place[first:last], (begin, turned))
-
-    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> Array:
-        if self.ball_place is not None:
-            return self._race_loads(packed, self.ball_place, start, stop)[1]
-        samples = slice(start, stop).indices(len(self.time))[:2]
-        inner, outer = (
-            _sample(self.history, body, 0, self.sample_rate, self._history_rate, *samples)
-            for body in ("inner", "outer")
-        )
-        loads = kernels.elastic_loads(
-            inner - outer,
-            packed.load.active,
-            float(samples[0] * self.scene.cage_speed / self.sample_rate),
-            self.scene.cage_speed / self.sample_rate,
-            packed.contacts,
-            packed.path,
+        begin, turned = float(first * speed / rate), speed / rate
+        if place is not None:
+            rows = self.history[first:last], place[first:last]
+            at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
+            return at_inner, at_outer
+        inner, outer = (self._scaled(body, 0, first, last) for body in ("inner", "outer"))
+        loads = np.asarray(
+            kernels.elastic_loads(
+                inner - outer, packed.load.active, begin, turned, packed.contacts, packed.path
+            )
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
-        return np.asarray(loads)
+        return loads, loads
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
@@ -271,10 +263,26 @@ class Motion:
         return scaled / packing.length_units(self.scene, self.dofs)
 
     def _sampled(self, body: str, derivative: int) -> Array:
-        """A quantity of one body at the sample times, between steps by quintic interpolation."""
-        rate = self._history_rate
-        scaled = _sample(self.history, body, derivative, self.sample_rate, rate, 0, len(self.time))
+        """A quantity of one body at the sample times."""
+        scaled = self._scaled(body, derivative, 0, len(self.time))
         return scaled / packing.length_units(self.scene, self.dofs)
+
+    def _scaled(self, body: str, derivative: int, start: int, stop: int) -> Array:
+        """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled.
+
+        Between steps by quintic interpolation.
+        """
+        history, rate = self.history, self._history_rate
+        a_step, a_sample = _ratio(self.sample_rate, rate)
+        first = 0 if body == "inner" else 3
+        n = max(stop - start, 0)
+        if a_step == 1:
+            rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
+            return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
+        out = np.empty((n, history.shape[2]))
+        weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
+        kernels.between_steps(history, first, weights, start, out)
+        return out
 
 
 def simulate(
@@ -300,8 +308,8 @@ def simulate(
         whether to return the balls' loads too.
     step_rate
         [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
-        balls a multiple. None takes that of `default_step_rate`. Samples between steps come from
-        quintic interpolation.
+        balls a multiple and as many as keep a ball from jumping about between its contacts. None
+        takes that of `default_step_rate`. Samples between steps come from quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -346,6 +354,9 @@ def simulate(
             step_rate,
             f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
+    if with_mass and step_rate < (least := least_step_rate(packed)):
+        allowed = f"at least {least:.0f} Hz, or balls with mass jump about between their contacts"
+        raise checks.refuse("step_rate", step_rate, allowed, "Hz")
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
@@ -486,25 +497,3 @@ def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
             f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
         )
     return (whole, 1) if sample_rate > step_rate else (1, whole)
-
-
-def _sample(
-    history: Array,
-    body: str,
-    derivative: int,
-    sample_rate: float,
-    step_rate: float,
-    start: int,
-    stop: int,
-) -> Array:
-    """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled."""
-    a_step, a_sample = _ratio(sample_rate, step_rate)
-    first = 0 if body == "inner" else 3
-    n = max(stop - start, 0)
-    if a_step == 1:
-        rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
-        return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
-    out = np.empty((n, history.shape[2]))
-    weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
-    kernels.between_steps(history, first, weights, start, out)
-    return out

@@ -106,12 +106,13 @@ class StabilityChart:
         """A row a trial: method, steps a second, verdict and errors, with the linear limit."""
         trials = self.trials
         return table_of(
-            ("method", "", [t.method for t in trials]),
-            ("step_rate", "Hz", [t.step_rate for t in trials]),
-            ("verdict", "", [t.verdict for t in trials]),
-            ("spectrum_error", "dB", [t.spectrum_error for t in trials]),
-            ("amplitude_ratio", "1", [t.amplitude for t in trials]),
+            ("method", "", "method"),
+            ("step_rate", "Hz", "step_rate"),
+            ("verdict", "", "verdict"),
+            ("spectrum_error", "dB", "spectrum_error"),
+            ("amplitude_ratio", "1", "amplitude"),
             ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
+            of=trials,
         )
 
 

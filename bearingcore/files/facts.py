@@ -14,8 +14,8 @@ from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.files.units import (
     FORCES,
     SPEEDS,
@@ -80,7 +80,7 @@ class Named:
 _STEADY = 0.02
 
 
-def is_steady(values: NDArray[np.float64]) -> bool:
+def is_steady(values: Array) -> bool:
     """Whether numbers, such as those of a speed, vary so little that they count as one."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 
@@ -155,7 +155,23 @@ def _under(names: str, values: str) -> Iterator[Named]:
             yield Named(name, value, unit_in(name))
 
 
+_RANGE = re.compile(
+    rf"\s*([:=])\s*({_NUMBER})\s*(?:-|–|\.\.\.?|to|bis)\s*({_NUMBER})\s*([\w/]+)", re.IGNORECASE
+)
+MIDDLE = "middle of"
+"""In the name of a number that a file gives as a range, which is a guess."""
+
+
+def _middle(match: re.Match[str]) -> str:
+    """A narrow range, "speed: 1750-1790 rpm", as its middle."""
+    low, high = _number(match[2]), _number(match[3])
+    if low is None or high is None or not low < high <= 1.5 * low:
+        return match[0]
+    return f" ({MIDDLE} {low:g} to {high:g}){match[1]} {0.5 * (low + high):g} {match[4]}"
+
+
 def _in_line(line: str) -> Iterator[Named]:
+    line = _RANGE.sub(_middle, line)
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
@@ -178,7 +194,7 @@ def _in_line(line: str) -> Iterator[Named]:
     for name, text, unit in found:
         value = _number(text)
         if value is not None:
-            yield Named(name.strip(), value, unit_named(unit) if unit else unit_in(name))
+            yield Named(name.strip(" :;,=\t"), value, unit_named(unit) if unit else unit_in(name))
 
 
 def names_a_fact(line: str) -> bool:
@@ -269,7 +285,10 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             continue
         words = f"“{one.name}” in the file"
         if "rpm" in key or (one.unit == "rpm" and not _OTHER_SPEED.search(one.name)):
-            found.append(Finding(value * SPEEDS["rpm"], words, file_unit="rpm"))
+            stated = MIDDLE not in one.name
+            found.append(
+                Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+            )
         elif key in _FREQUENCIES:
             unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
             found.append(Finding(value * SPEEDS[unit], words, file_unit=unit))
@@ -324,22 +343,37 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
     }
 
 
-_SENSITIVITY = re.compile(
-    rf"(?i)(sensitivity|empfindlichkeit|sensibilit\w+)\b.{{0,30}}?({_NUMBER})\s*"
-    r"(mV|V)\s?(?:/|per)\s?(g|\(?m/?s\S{0,3}[2²])"
-)
+_SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s\S{{0,3}}[2²])")
+"""In whatever words: the unit is that of nothing else."""
 
 
 def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
     """[V/(m/s²)] where all lines that say one say the same."""
     found: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
-        per = STANDARD_GRAVITY if match[4].lower() == "g" else 1.0
-        if value := _number(match[2]):
-            found[value * VOLTAGES["V" if match[3] in "Vv" else "mV"] / per] = (
-                f"“{match[1]}” in the file"
+        per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
+        if value := _number(match[1]):
+            found[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
+                f"“{match[0]}” in the file"
             )
     return Finding(*found.popitem()) if len(found) == 1 else None
+
+
+_DESIGNATION = re.compile(
+    r"\b(?i:bearing|lager|wälzlager|roulement|rodamiento|cuscinetto)"
+    r"(?:\s+(?i:type|typ|number|no|designation|code))?\W{1,6}"
+    r"((?:[A-Z]{1,4}[ -]?)?\d{3,5}(?:[ /-]?[A-Z\d]{1,6})*)\b"
+)
+
+
+def designation_in(lines: Iterable[str]) -> Finding[str] | None:
+    """The number of the bearing that lines such as "Bearing: SKF 6205-2RS C3" give, if it is one.
+
+    It is as the file has it: whether there is such a bearing is not looked at.
+    """
+    found = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
+    (text, words), *others = [*found.items()] or [("", "")]
+    return Finding(text, f"“{words}” in the file") if text and not others else None
 
 
 _UNITS = {

@@ -15,16 +15,24 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
 from bearingcore.files.sampling import longest_run
-from bearingcore.files.units import SPEEDS, TIMES, UNITS, differentiated, kind_of, level_doubt
+from bearingcore.files.units import (
+    SPEEDS,
+    TIMES,
+    UNITS,
+    cut_off,
+    differentiated,
+    kind_of,
+    level_doubt,
+)
 from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
@@ -133,8 +141,9 @@ class Table(FileColumns):
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
         first, last, gaps = self._rows(picked)
-        notes = [*self.notes, *notes, gaps]
-        signal = self.columns[first:last, picked] * scale
+        signal = self.columns[first:last, picked]
+        cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
+        notes, signal = [*self.notes, *notes, gaps, *cut], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
@@ -151,11 +160,7 @@ class Table(FileColumns):
         return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
 
     def _to_acceleration(
-        self,
-        signal: NDArray[np.float64],
-        units: Sequence[str],
-        rate: float,
-        sensitivity: float | None,
+        self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
     ) -> list[str]:
         """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
         notes = []

@@ -218,16 +218,12 @@ def floor_bytes(defects: tuple[Defect, ...]) -> int:
     return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
 
 
-def _bytes_of_tables(
-    found: kernels.Path,
-    defects: tuple[Defect, ...],
-    bearing: Bearing,
-) -> int:
-    return found.defects.nbytes + found.tables.nbytes + floor_bytes(defects)
-
-
 # of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
-@lru_cache_by_bytes(256, 64_000_000, _bytes_of_tables)
+@lru_cache_by_bytes(
+    256,
+    64_000_000,
+    lambda found, defects, _: sum(part.nbytes for part in found) + floor_bytes(defects),
+)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common.arrays import runs
+from bearingcore.common.arrays import Array, runs
 
 LEAST_RUN = 16
 """Equal samples in a row from which a sensor is taken to have dropped out."""
@@ -38,7 +38,7 @@ class SignalFaults:
     clipped_share: float
 
 
-def signal_faults(samples: NDArray[np.float64]) -> SignalFaults:
+def signal_faults(samples: Array) -> SignalFaults:
     """Dropouts and clipping of a signal (n,)."""
     begins, ends = runs(np.diff(samples) == 0.0)  # of equal neighbours: samples begin .. end
     dropped = np.zeros(len(samples), dtype=bool)

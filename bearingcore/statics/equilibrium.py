@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
-from bearingcore.common.arrays import Array
+from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -134,6 +134,11 @@ class Equilibrium:
         """(n, N_b) True for balls that carry load from ring to ring."""
         return self.ball_load > 0.0
 
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race: Q_j, where balls have no mass."""
+        return self.ball_load
+
     @cached_property
     def ball_angle(self) -> Array:
         """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
@@ -204,20 +209,13 @@ class Equilibrium:
 
         Least, mean in time and greatest, of the angles that have an equilibrium.
         """
-        known = np.isfinite(self.displacement)
-        ends = [
-            np.where(known.any(axis=0), end, math.nan)
-            for end in (
-                self.displacement.min(axis=0, initial=math.inf, where=known),
-                self.displacement.max(axis=0, initial=-math.inf, where=known),
-            )
-        ]
+        least, greatest = least_and_greatest(self.displacement, 0)
         return table_of(
             ("direction", "", list(DOF_NAMES)),
             ("unit", "", ["rad" if dof.startswith("r") else "m" for dof in DOF_NAMES]),
-            ("least", "", ends[0]),
+            ("least", "", least),
             ("mean", "", self._mean(self.displacement)),
-            ("greatest", "", ends[1]),
+            ("greatest", "", greatest),
         )
 
     def _mean(self, values: Array) -> Array:

@@ -94,6 +94,11 @@ class RaceLoads(NamedTuple):
     status: int = StaticStatus.CONVERGED
     reason: str = ""
 
+    @property
+    def of_rows(self) -> Array:
+        """(rows, 2) [N] of the inner and the outer race of each row."""
+        return np.stack([self.inner, self.outer], axis=1)
+
 
 def snapshot_loads(
     scene: Scene, cage_angle: float, load_exponent: float, scatter: float, turning_race: str

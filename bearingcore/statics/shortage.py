@@ -95,7 +95,7 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
         return _TILTS_HELD
     if facing == 0.0 or _Z not in active:
         return ""
-    thrust = _thrust(scene, math.hypot(*force[:2]), facing * force[_Z])
+    thrust = _thrust(scene, cage_angle, facing * force[_Z])
     if carries(active, pressed):
         return f"the shaft's other bearing, or {thrust}"
     if level.size < active.size and carries(level, pressed):
@@ -103,16 +103,25 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
     return ""
 
 
-def _thrust(scene: Scene, radial: float, thrust: float) -> str:
-    """Clause on the thrust that rows lack beside a radial load and a thrust [N] one way."""
+def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
+    """Clause on the thrust that rows lack beside the radial load and a thrust [N] one way.
+
+    A row holds F_r with F_r tan α where one element is on the load's line; where it is between two
+    both carry, and the fewer there are the more: cos(β/2 − γ)/cos(β/2) times as much, β the
+    spacing, γ the angle from the one before the line.
+    """
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:
         words = f"more axial load: with {with_prefix(thrust, 'N')} the inner ring leaves the outer"
-    if radial == 0.0 or len(scene.bearing.all_rows) > 1:
+    bearing, load = scene.bearing, scene.load
+    radial = math.hypot(load.fx, load.fy)
+    if radial == 0.0 or len(bearing.all_rows) > 1:
         return words
-    least = with_prefix(radial * math.tan(scene.bearing.contact_angle), "N")
-    return f"{words}, and over {least} must hold it against the radial load"
+    half, first = 0.5 * bearing.ball_spacing, packing.ball_angles(bearing, np.array([cage_angle]))
+    past = (math.atan2(load.fy, load.fx) - float(first[0, 0])) % bearing.ball_spacing
+    least = radial * math.tan(bearing.contact_angle) * math.cos(half - past) / math.cos(half)
+    return f"{words}, and over {with_prefix(least, 'N')} must hold it against the radial load"
 
 
 def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:

@@ -26,13 +26,11 @@ from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
     IN_ROWS,
     LIFE,
-    MASS,
     MODE,
     MODES,
-    MOTION,
-    ORBIT,
+    MOVING,
     OUTPUTS,
-    RECORD,
+    PRESSURE,
     SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
@@ -188,7 +186,7 @@ class Grid:
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
             seconds = sum(table[need] for need in self.needs)
-            if len(self.dofs) > 2 and set(self.needs) & {MOTION, ORBIT, MASS, RECORD}:
+            if len(self.dofs) > 2 and set(self.needs) & MOVING:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
         left = max(scenes, 1)
@@ -312,16 +310,18 @@ class Grid:
     def _try(self, index: Sequence[int]) -> None:
         """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
         scene = self.scene_at(index)
-        if set(self.needs) & {MODES, MOTION, ORBIT, MASS, RECORD}:
+        if set(self.needs) & {MODES, *MOVING}:
             dofs = scene.active_dofs
             scene.support.stiffness(dofs)
             if self.needs != (MODES,):
                 scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
+        if PRESSURE in self.needs:
+            scene.bearing.race_contact("inner")
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
-        if set(self.needs) & {MOTION, ORBIT, MASS, RECORD} and scene.shaft_speed == 0.0:
+        if set(self.needs) & MOVING and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
     # ---------------------------------------------------------------------------- in words

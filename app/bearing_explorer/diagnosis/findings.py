@@ -9,7 +9,7 @@ import asyncio
 import copy
 import logging
 from collections.abc import Awaitable, Callable, Coroutine
-from dataclasses import InitVar, dataclass, replace
+from dataclasses import replace
 from typing import Any, Self
 
 from bearing_explorer.diagnosis.diagnoses import (
@@ -21,14 +21,14 @@ from bearing_explorer.diagnosis.diagnoses import (
     extent_of,
     listed_of,
 )
-from bearing_explorer.diagnosis.machine import of_scene
+from bearing_explorer.diagnosis.machine import FIELDS, of_scene
 from bearing_explorer.diagnosis.measurement_state import (
     CHANGED,
     NOT_YET,
     REFUSED,
     MeasurementState,
 )
-from bearing_explorer.diagnosis.model import NOT_TAKEN
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.executors import FILES, in_thread
@@ -39,7 +39,6 @@ from bearingcore.diagnosis import ListedBearing
 log = logging.getLogger(__name__)
 
 
-@dataclass(eq=False, repr=False)
 class Findings:
     """The signal of one session, its state, and the answers that are computed in the background.
 
@@ -55,12 +54,7 @@ class Findings:
         requests a drawing.
     """
 
-    scene: InitVar[Callable[[], Scene]]
-    bearings: InitVar[BearingTable]
-    assign: InitVar[Callable[[Change], Awaitable[None]]]
-    draw: InitVar[Callable[[], None]]
-
-    def __post_init__(
+    def __init__(
         self,
         scene: Callable[[], Scene],
         bearings: BearingTable,
@@ -153,8 +147,13 @@ class Findings:
             return "Reading the signal"
         if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
             return "Analysing the signal"
-        if self.state.bad:
-            return NOT_TAKEN
+        state = self.state
+        drawn = self._table is None or state.line
+        missing = not any(state.values.get(name) for name in state.refused)
+        if not drawn and missing and (state.refused or not state.bad):
+            return WANTED
+        if state.bad:  # what the form on the machine refuses stands in it
+            return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
         return "Searching the list of bearings" if self.listed.busy else ""
 
     def listed_question(self, about: Question) -> ListQuestion:

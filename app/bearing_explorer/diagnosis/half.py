@@ -10,13 +10,12 @@ from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.report_page import About
-from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.session import Half, Section, Session
 from bearingcore import Scene
 
 
-class DiagnosisOfSignal:
+class DiagnosisOfSignal(Half):
     """The measurement of a session, and what its views draw of it.
 
     Parameters
@@ -33,26 +32,25 @@ class DiagnosisOfSignal:
         self, sections: Sequence[Section], scene: Callable[[], Scene], bearings: BearingTable
     ) -> None:
         self.sections = tuple(sections)
-        self.scene_now, self._bearings = scene, bearings
+        self._scene, self._bearings = scene, bearings
 
     kind_of_content = Model
 
-    def join(self, page: Page) -> None:
-        self.page, self.jobs, self.draw = page, page.jobs, page.draw
-        self.measurement = Measurement(self.scene_now, self._bearings, page.assign, page.draw)
+    def join(self, page: Session) -> None:
+        super().join(page)
+        self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
 
-    def attach(self, view: View) -> None:
-        view.attach(self)
-
-    def tab_opened(self, name: str) -> None:
-        """Nothing of it depends on the tab."""
+    @property
+    def scene(self) -> Scene:
+        """The scene with which a signal is compared, as it is now."""
+        return self._scene()
 
     def stop(self) -> None:
         self.measurement.stop()
 
     def content(self) -> Model:
         self.measurement.take_scene()
-        return Model(self.scene_now(), True, self.measurement.at_work, self.page.mark)
+        return Model(self.scene, True, self.measurement.at_work, self.page.mark)
 
     # What the page connects with the scene's half
 
@@ -75,4 +73,4 @@ class DiagnosisOfSignal:
         kinds = (view.look["machine"] for view in self.page.views_made()
                  if isinstance(view, MeasuredIndicators))  # fmt: skip
         kind = next(kinds, "")
-        return lambda: measured_report(Model(self.scene_now()), measurement, found, about, kind)
+        return lambda: measured_report(Model(self.scene), measurement, found, about, kind)

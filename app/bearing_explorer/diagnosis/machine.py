@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Bearing, CatalogueBearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span
@@ -55,6 +54,12 @@ BEARING_SOURCES = {
     SIMULATED: "of the simulation",
 }  # fmt: skip
 """Where a bearing is from, in words."""
+
+OWN_FREQUENCIES = (
+    " Another bearing has other frequencies, however alike: choose “by its frequencies” and take "
+    "them from the maker's sheet."
+)
+"""What to do about a bearing that is not in the table."""
 
 find_published = BearingTable().find
 """The published bearing of a name, or the one of a designation."""
@@ -196,6 +201,13 @@ def _bearing(contents: FileContents) -> dict[str, str]:
             for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
         }
         return {"bearing": BY_FREQUENCIES, **texts}
+    named = contents.designation
+    if listed is None and named is not None:
+        try:
+            find_published(named.value)
+        except ValueError:  # a number of another thing, or a bearing that is not in the table
+            return {"bearing": NOT_KNOWN, **texts}
+        return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
 
 
@@ -262,28 +274,25 @@ def read_machine(
             name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
         elif name == BY_DESIGNATION:
             name = texts["designation"]
-            bearing = _of_designation(name, find)
+            bearing = find(name).bearing if name else None  # before it is typed
         elif name != NOT_KNOWN:
             bearing = find(name).bearing
     except ValueError as error:
         if not {"speed", "shaft_speed"} & set(refused):  # which says it already
             field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
-            refused[field] = sentence_of(error)
+            refused[field] = sentence_of(error) + OWN_FREQUENCIES * (field == "designation")
     if refused:
         raise FormError(refused)
-    if by == GIVEN and all(texts[one] == first[one] for one in ("bearing", *FREQUENCIES)):
+    if by == GIVEN and all(texts[one] == first[one] for one in GROUPS["bearing"]):
         by = FILE
-        if not contents.frequencies:  # known from the collection the file seems to be of
+        if (
+            not contents.frequencies and not texts["designation"]
+        ):  # known from the collection the file seems to be of
             guessed.add("bearing")
     return Machine(
         speed, bearing, source, by, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES,
     )  # fmt: skip
-
-
-def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:
-    """The bearing of a designation that was typed; None before it is."""
-    return find(text).bearing if text else None
 
 
 def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
@@ -316,10 +325,16 @@ def read_speed(text: str) -> float:
     """[Hz], of a number with its unit, or of one in Hz so low that no rpm can be meant."""
     words, (least, most) = "The shaft speed", SPEEDS
     bare = text.lower()
-    per_minute = bare.endswith(("rpm", "/min", "u/min", "1/min"))
-    bare = re.sub(r"\s*(rpm|[u1]?/min|hz)$", "", bare)
+    bare = re.sub(r"\s*(rpm|[ur1]?/min|min(-|\^-|⁻|−)[1¹])$", " rpm", bare)
+    per_minute = bare.endswith(" rpm")
+    bare = bare.removesuffix(" rpm").removesuffix("hz").rstrip()
+    if per_minute and re.fullmatch(r"\d{1,3}[.,]\d{3}", bare):
+        raise ValueError(
+            f"{words} is {bare} rpm: is that {re.sub('[.,]', '', bare)} rpm? Type it without the "
+            "mark, or with another number of decimals."
+        )
     value = number_of(bare, words, "rpm" if per_minute else "Hz", 0.0, math.inf)
-    if bare == text.lower() and FASTEST_BARE < value <= most:
+    if bare == text.lower().strip() and FASTEST_BARE < value <= most:
         raise ValueError(
             f"A number alone is in Hz: {words.lower()} is {number(60.0 * value, 6)} rpm. Did you "
             f"mean {bare} rpm? Type it with its unit."

@@ -1,7 +1,7 @@
 """The next step after a diagnosis, and how soon, in sentences for planners.
 
-How soon rests on the zone of the vibration's velocity and on whether it grew; the intervals are
-usual practice, and say so.
+How soon rests on the zone of the vibration's velocity and on whether it grew. The intervals are a
+rule of thumb, and say so.
 """
 
 from __future__ import annotations
@@ -16,7 +16,10 @@ GROWN = 2.0
 """Times the baseline's root mean square from which on the vibration has clearly grown."""
 
 ONE_RECORD = "One record cannot show how fast the damage grows; a second one can."
-PRACTICE = "These intervals are usual practice, not computed."
+PRACTICE = (
+    "These intervals are a rule of thumb: neither computed nor checked against a standard. A "
+    "machine that must not fail needs shorter ones."
+)
 ALIKE = "at the same point, speed and load"
 
 

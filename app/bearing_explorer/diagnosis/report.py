@@ -5,14 +5,16 @@ Finished by the browser as a report of a scene is, see `report`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bokeh.embed import json_item
 
 from bearing_explorer.diagnosis.diagnoses import Question
-from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SIMULATED
+from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.next_steps import next_steps
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
@@ -33,10 +35,7 @@ from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, with_prefix
 from bearingcore.diagnosis import time_in
 
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-
-FILE = "bearing-measurement.html"
+FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
 WIDTH, HEIGHT = 470, 250
 """Of a figure as it is drawn [px]; two are side by side."""
@@ -110,7 +109,7 @@ def measured_report(
             continue
         # the trend is in words above
         caption = "" if view is TrendOfFiles else html_text(figure.sentence)
-        first.height = HEIGHT
+        first.height = first.min_height = first.max_height = HEIGHT
         drawn.append(first.id)
         items.append(json_item(figure.layout))
         figures.append(
@@ -132,6 +131,11 @@ def measured_report(
     said = measurement.about
     place = "" if (origin := question.measured.origin) is None else origin.place
     about = replace(about, machine=said.machine or about.machine)
+    if (
+        SCENE not in (machine.bearing_source, machine.speed_source)
+        and not question.measured.true_part
+    ):
+        about = replace(about, link="")  # of a scene that has nothing to do with the signal
     trend = found.get(TrendOfFiles.name)
     if not isinstance(trend, FoundTrend) or trend.series is not measurement.series:
         trend = None
@@ -154,7 +158,7 @@ def measured_report(
     ]
     style = asset_text("part.css") + asset_text("measured_report.css")
     return {
-        "name": FILE,
+        "name": FILE.format(re.sub(r"[^\w.-]+", "-", question.measured.recording.name)[:60]),
         "html": document(about, title, body, style),
         "items": items,
         "figures": drawn,

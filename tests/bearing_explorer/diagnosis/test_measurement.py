@@ -13,9 +13,11 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form, with_role
 from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.signal_form import AS_GIVEN
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import (
     LONGEST_NAME,
@@ -406,6 +408,36 @@ def test_a_rate_that_could_not_be_is_a_question_and_agreeing_settles_it():
     assert not made.state.open
     answer(made, columns="time s;y")  # the hand wins, even so
     assert made.measured.recording.sample_rate == 8.0
+
+
+def test_the_status_line_says_which_step_refuses_or_wants_an_answer():
+    """A file that is read is not "not taken", and a refusal stands where the line says."""
+    rows = "\n".join(f"{a:.6g},{b:.6g}" for a, b in NOISE)
+    made = brought("a.csv", f"ch 1 [g],ch 2 [g]\n{rows}".encode())
+    assert "is read" in made.state.words
+    assert made.at_work == WANTED
+    answer(made, columns="y;")
+    assert made.at_work == WANTED  # of the rate
+    answer(made, sample_rate="abc")
+    assert made.at_work == NOT_TAKEN.format(1)
+    answer(made, sample_rate="8000")
+    assert (made.at_work, made.state.reasons["sample_rate"]) == ("", AS_GIVEN)
+    answer(made, bearing="designation", designation="22212")
+    assert made.at_work == NOT_TAKEN.format(2)
+    assert "by its frequencies" in made.state.refused["designation"]
+    answer(made, designation="6205", shaft_speed="1.770 rpm")
+    assert "1770 rpm?" in made.state.refused["shaft_speed"]
+    answer(made, shaft_speed="1770 min-1")
+    assert made.measured.shaft_speed == pytest.approx(59.0 * math.pi)
+
+
+def test_a_bearing_that_the_file_names_is_taken_and_can_be_changed():
+    content = b"# Bearing: 6205\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
+    made = brought("a.csv", content)
+    machine = made.measured.machine
+    assert (machine.bearing_name, machine.source_of("bearing")) == ("6205", "from the file")
+    answer(made, designation="6206")
+    assert made.measured.machine.source_of("bearing") == "given"
 
 
 def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise():

@@ -14,7 +14,7 @@ import pytest
 from scipy.io import savemat
 
 from bearingcore import join_tables, read_recording, read_table
-from bearingcore.files import libraries, table
+from bearingcore.files import table
 from bearingcore.files.channels import Column
 from tests.helpers.reading import read_in_this_process
 
@@ -530,7 +530,7 @@ def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
 
 
 def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
-    monkeypatch.setattr(libraries.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     for mark, package in (
         (b"TDSm", "npTDMS"),
         (b"PAR1", "pyarrow"),
@@ -699,13 +699,39 @@ def test_directions_and_places_in_headings(heading: str, found: dict) -> None:
     assert not contents.unit.stated  # V is no volt there
 
 
-def test_the_sensitivity_that_a_file_names_is_used() -> None:
-    volts = b"# Sensitivity: 100 mV/g\n" + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
+@pytest.mark.parametrize("words", ["Sensitivity: 100 mV/g", "Sensor: 100 mV/g, S/N 1234"])
+def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
+    volts = f"# {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
     got = read_recording("a.csv", volts).acceleration[:, 0]
     np.testing.assert_allclose(got, SIGNAL[:, 0] * 0.0980665, atol=1e-9)
     two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
     with pytest.raises(ValueError, match="sensitivity"):
         read_recording("a.csv", two)
+
+
+@pytest.mark.parametrize(
+    ("line", "designation"),
+    [
+        ("# Bearing: 6205", "6205"), ("Bearing:;SKF 6205-2RS C3;", "SKF 6205-2RS C3"),
+        ("# speed: 1770 rpm, bearing 7208 BECBP", "7208 BECBP"),
+        ("# Lager NJ 2210", "NJ 2210"), ("# bearing load 1200 N", None),
+        ("# Bearing: 6205, bearing: 6203", None), ("# bearing temperature: 620 K", None),
+    ],
+)  # fmt: skip
+def test_the_bearing_that_a_file_names(line: str, designation: str | None) -> None:
+    found = read(f"{line}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]"))
+    named = found.contents.designation
+    assert (named and named.value) == designation
+
+
+@pytest.mark.parametrize("words", ["1750-1790 rpm", "1750 - 1790 rpm", "1750 to 1790 1/min"])
+def test_a_range_of_speeds_is_a_guess_at_its_middle(words: str) -> None:
+    found = read(f"# speed: {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]"))
+    speed = found.contents.shaft_speed
+    assert speed.value == pytest.approx(1770.0 * math.pi / 30.0)
+    assert speed.taken
+    assert not speed.stated
+    assert "middle of 1750 to 1790" in speed.reason
 
 
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+import numpy as np
+
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
 from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.diagnosis.views.frequency_view import (
@@ -21,9 +24,7 @@ from bearing_explorer.diagnosis.views.frequency_view import (
 from bearing_explorer.diagnosis.views.measured_view import HIGHEST_SHARE, Demodulation, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
+from bearingcore import Diagnosis
 
 
 def _edge(name: str, label: str, words: str) -> FieldSpec:
@@ -61,6 +62,19 @@ class MeasuredEnvelope(FrequencyView):
         LINES,
     ]
 
+    #: the name of the recording for which a band was given: it is that of no other one
+    _band_of = ""
+
+    def take_look(self, choices: Mapping[str, Any]) -> None:
+        super().take_look(choices)
+        if {"low", "high"} & set(choices) and self.measured is not None:
+            self._band_of = self.measured.recording.name
+
+    def show_look(self) -> None:
+        if self.measured is not None and self.measured.recording.name != self._band_of:
+            self.look = {**self.look, "low": "", "high": ""}
+        super().show_look()
+
     def shown(self, model: Model, measured: Measured) -> Shown:
         turning = self.turning
         direction = self.direction(measured)
@@ -70,13 +84,15 @@ class MeasuredEnvelope(FrequencyView):
         if turning is not None:
             first = fundamentals(turning)
             top = max(8.6 * first["bpfo"], 2.3 * first["bpfi"], 20.0)
-        top = min(top, 0.8 * nyquist)
+        top = min(top, 0.8 * nyquist, band[1] - band[0])  # an envelope has no lines beyond
         spectrum = measured.envelope(direction, band, top)
         return Shown(direction, top, spectrum, measured.envelope_resolution(top), band)
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
         """The demodulation band [Hz] as chosen; ends that are not given are found."""
         low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
+        if measured.recording.name != self._band_of:
+            low = high = math.nan
         if math.isnan(low) and math.isnan(high):
             return self.demodulation(measured, direction)
         if math.isnan(low):
@@ -108,12 +124,20 @@ class MeasuredEnvelope(FrequencyView):
         shown = self.shown(model, measured)
         turning = self.turning
         assert shown.band is not None
+        assert self.measurement is not None
+        low, high = shown.band
         words = (
-            f"Envelope along {shown.direction} between {shown.band[0]:.0f} and "
-            f"{shown.band[1]:.0f} Hz, {self.band(measured, shown.direction).reason}. "
+            f"Envelope along {shown.direction} between {low:.0f} and {high:.0f} Hz, "
+            f"{self.band(measured, shown.direction).reason}. "
         )
-        sets = [] if turning is None else of_rows(turning)
-        return words + telling(shown, sets, *shown_unit(measured))
+        sets = []
+        if turning is not None:
+            turn = turning.shaft_speed / (2.0 * math.pi)
+            sets = [first | {"shaft": turn} for first in of_rows(turning)]
+            if shown.top == high - low:
+                words += f"It has no lines above {shown.top:.0f} Hz, the width of that band. "
+        found = self.measurement.diagnosis()
+        return words + highest_line(shown, sets, *shown_unit(measured), found)
 
 
 _PLACES = {
@@ -121,43 +145,84 @@ _PLACES = {
     "BPFI": ("bpfi", (1, 2, 3)),
     "BSF": ("bsf", (2, 1, 4)),
     "FTF": ("ftf", (1, 2)),
+    "the shaft's turn": ("shaft", (1, 2, 3)),
 }
+_OF_PARTS = {"outer race": ("BPFO", 1), "inner race": ("BPFI", 1), "ball": ("BSF", 2)}
 _NEAR = 0.02  # slip, and what the shaft speed is off
+_SAME = 0.005
+"""Relative difference up to which a line is one of the part that is named."""
+_CLEAR = 4.0
+"""Times the median from which on a line stands out: of 1600 of noise the highest has 3.3 times."""
 
 
-def telling(shown: Shown, sets: Sequence[Mapping[str, float]], unit: str, size: float) -> str:
-    """The bearing frequency, a set a row, at the highest line of the envelope."""
+def highest_line(
+    shown: Shown,
+    sets: Sequence[Mapping[str, float]],
+    unit: str,
+    size: float,
+    found: Diagnosis | None,
+) -> str:
+    """The highest line of the envelope, and the frequency that is there.
+
+    `sets` are the frequencies [Hz] of each row and the shaft; a line of the part that is `found`
+    is named so, with the frequency that all its harmonics give.
+    """
     frequency, density = shown.measured
     slowest = min((first["ftf"] for first in sets), default=0.0)
     lowest = max(2.5 * shown.resolution, 0.7 * slowest)
     seen = (frequency > lowest) & (frequency < shown.top)
     if not seen.any():
         return "It holds no lines."
-    at = float(frequency[seen][density[seen].argmax()])
-    height = float(amplitudes(shown.measured)[seen].max()) / size
-    words = f"Its highest line, {style.number(height, 3)} {unit} at {style.number(at, 4)} Hz,"
+    at, height = float(frequency[seen][density[seen].argmax()]), amplitudes(shown.measured)[seen]
+    most = float(height.max())
+    place = f"{style.number(most / size, 3)} {unit} at {style.number(at, 4)} Hz,"
+    if most < _CLEAR * float(np.median(height)):
+        return f"No line stands out: the highest, {place} is as high as noise gives."
+    words = f"Its highest line, {place}"
+    if found is not None and found.names_a_part:
+        one = found.of(found.fault)
+        multiple = round(at / one.frequency)
+        off = abs(at - multiple * one.frequency)
+        if multiple and off <= max(_SAME * at, 1.5 * shown.resolution):
+            title, each = _OF_PARTS[one.part]
+            said = (f"{style.number(value, 4)} Hz" for value in (one.frequency, shown.resolution))
+            return f"{words} is {_times(each * multiple)}{title}: " + (
+                "step 2 has {} for the first, from all harmonics; lines here are {} apart."
+            ).format(*said)
     if not sets:
         return f"{words[:-1]}. Which part that is follows from bearing and shaft speed."
-    lines = [
+    lines = sorted(
         (
             abs(at / (multiple * first[name]) - 1.0),
             multiple * first[name],
-            multiple,
-            title if len(sets) == 1 else f"{title} of row {row + 1}",
+            first.get(f"{name}_spread", 0.0) / first[name],
+            _times(multiple) + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
         )
         for row, first in enumerate(sets)
         for title, (name, multiples) in _PLACES.items()
         for multiple in multiples
+        if first[name] > 0.0
+    )
+    near = [
+        one for one in lines if abs(at - one[1]) <= max((_NEAR + one[2]) * one[1], shown.resolution)
     ]
-    _, line, multiple, title = min(lines)
-    if abs(at - line) > max(_NEAR * line, shown.resolution):
+    if not near:
         return (
-            f"{words} is at none of the bearing's frequencies: check the shaft speed and the "
-            "bearing."
+            f"{words} is at none of the bearing's frequencies: another part of the machine, or "
+            "bearing or shaft speed are others."
         )
-    words += f" is {'' if multiple == 1 else f'{multiple}×'}{title}"
+    same = [one[3] for one in near if abs(one[1] - near[0][1]) < shown.resolution]
+    if len(same) > 1:
+        apart = f"{style.number(shown.resolution, 2)} Hz apart"
+        return f"{words} may be {' or '.join(same[:3])}: lines here are {apart}."
+    _, line, _, title = near[0]
+    words += f" is {title}"
     if abs(at - line) > 1.5 * shown.resolution:
         off = 100.0 * (at / line - 1.0)
         side = "above" if off > 0.0 else "below"
         words += f", {style.number(abs(off), 2)} % {side} what the geometry says"
     return f"{words}."
+
+
+def _times(multiple: int) -> str:
+    return "" if multiple == 1 else f"{multiple}×"

@@ -38,9 +38,9 @@ from bearing_explorer.explorer.state.field_values import (
     limits_of,
     read,
     scene_with_fields,
+    second_units,
     values_of,
 )
-from bearing_explorer.explorer.state.second_units import second_units
 from bearing_explorer.kit.bearing_list import BearingTable, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (

@@ -34,9 +34,9 @@ class ControlView(View):
         """Send changes to the session, and follow its scene."""
         super().attach(parts)
         self.rows.state = self.parts.editor.state()
-        self.parts.requests.panels.append(self.rows)
+        self.parts.panels.append(self.rows)
 
     def forward(self, message: Any) -> None:
         """Hand on a message of the browser."""
         if self.parts is not None:
-            self.parts.requests.change_scene(message)
+            self.parts.change_scene(message)

@@ -30,7 +30,7 @@ from bearing_explorer.explorer.state.references import massless
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
-from bearing_explorer.kit.plots.heat_map import Places, Side, ends, goes_there, reading
+from bearing_explorer.kit.plots.heat_map import Side, ends, let_point
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -125,13 +125,28 @@ class StiffnessMaps(View):
         points = packed.source("maps_points", "bits")
         frames = _frames(plot)
         images = _images(plot, points)
-        places = Places(images, _SIDES_OF, stands=grid, count=_N, digits=1)
         _names(plot, grid)
         _scales(plot, cells)
         _ticks(plot, ticks)
         _crosshair(plot, now)
-        _hover(plot, frames, cells, places, points)
-        goes_there(plot, places)
+        let_point(
+            plot,
+            images,
+            _SIDES_OF,
+            [frames],
+            asset_text("maps_value.js"),
+            stands=grid,
+            count=_N,
+            digits=1,
+            tooltip=_TOOLTIP,
+            fields={"@left": "value", "@right": "y", "@top": "x"},
+            cells=cells,
+            points=points,
+            units=list(UNITS),
+            head=_HEAD,
+            none=NO_ANSWER,
+            greatest=GREATEST,
+        )
         matrix_cells.axes_when_zoomed(plot, _CELLS, _SCALE_OF, [grid])
         return matrix_cells.scrolled(plot)
 
@@ -464,22 +479,3 @@ def _crosshair(plot: figure, now: ColumnDataSource) -> None:
         plot.segment("x", "bottom", "x", "top", **look)
         plot.segment("left", "y", "right", "y", **look)
     plot.scatter("x", "y", source=now, size=8, fill_color=style.DEFECT, line_color=style.SHADE)
-
-
-def _hover(plot: figure, frames: Any, cells: ColumnDataSource, places: Places, points: Any) -> None:
-    """The value under the pointer, its extent and cage angle, without a word to the server."""
-    plot.add_tools(
-        reading(
-            places,
-            [frames],
-            asset_text("maps_value.js"),
-            tooltip=_TOOLTIP,
-            fields={"@left": "value", "@right": "y", "@top": "x"},
-            cells=cells,
-            points=points,
-            units=list(UNITS),
-            head=_HEAD,
-            none=NO_ANSWER,
-            greatest=GREATEST,
-        )
-    )

@@ -62,7 +62,7 @@ class PaperFigures(View[Results]):
         """The tab of the figure, with its other scenes as compared ones."""
         figure = self._figure
         if self.parts is not None:
-            self.parts.requests.open_link(f"Figure {figure.number}", figure.link)
+            self.parts.open_link(f"Figure {figure.number}", figure.link)
 
     def choices(self) -> dict[str, Any]:
         return {"figure": self._figure.number}

@@ -158,7 +158,8 @@ class Stiffness(View):
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
             least, most = ranges.least[term], ranges.greatest[term]
-            line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
+            span = prefixed_span(least, most, "N/m")
+            line = f"{name} {term} {'varies from' if ' to ' in span else 'is'} {span}"
             if results.reference_label and healthy.state.converged.any():
                 mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
@@ -173,13 +174,11 @@ class Stiffness(View):
         text = f"{'; '.join(parts)}. {why} {count} {carry}. Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""
-        super().say(results, sentence)
-        if results is not None:
-            words = _legend_words(results.scene)
-            if words != self._legend.data["text"]:
-                self._legend.data = {**self._legend.data, "text": words}
+        words = _legend_words(results.scene)
+        if words != self._legend.data["text"]:
+            self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""

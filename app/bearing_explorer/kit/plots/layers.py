@@ -10,9 +10,10 @@ most of what a session costs.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from bokeh import models
@@ -46,21 +47,6 @@ _PLACES: dict[type[models.Glyph], tuple[str, ...]] = {
     models.VStrip: ("x0", "x1"),
 }
 _OF_RENDERER = frozenset({"level", "x_range_name", "y_range_name"})
-
-
-class Layer(Protocol):
-    """One glyph of a figure, over one source."""
-
-    @property
-    def source(self) -> str:
-        """Name of the source."""
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
 
 
 @dataclass(frozen=True)
@@ -268,6 +254,9 @@ class Words:
         return CustomJSExpr(args=args, code=code)
 
 
+Layer = Glyph | Words
+"""One glyph of a figure, over one source."""
+
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
 """Look of words that lie on lines."""
 CENTERED = {"text_align": "center"}
@@ -331,6 +320,33 @@ def with_gaps(
         pieces += [(across, up), (gap, gap)]
     parts = pieces[:-1] if len(pieces) > 1 else pieces
     return {x: np.concatenate([a for a, _ in parts]), y: np.concatenate([b for _, b in parts])}
+
+
+def least_and_greatest(
+    values: NDArray[np.float64], parts: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """At most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
+
+    Of each of `parts` stretches the least and the greatest number are kept, in the order in which
+    they came, so that no peak is lost that a pixel would show. Returns the row numbers at which
+    the kept ones stand (the same for all columns) and the kept ones.
+    """
+    n = len(values)
+    if n <= 2 * parts:
+        return np.arange(n), values
+    size = math.ceil(n / parts)
+    count = math.ceil(n / size)
+    full = np.concatenate([values, np.repeat(values[-1:], count * size - n, axis=0)])
+    blocks = full.reshape(count, size, -1)
+    least, greatest = blocks.min(axis=1), blocks.max(axis=1)
+    rising = blocks.argmin(axis=1) <= blocks.argmax(axis=1)
+    kept = np.empty((count, 2, values.shape[1]))
+    kept[:, 0] = np.where(rising, least, greatest)
+    kept[:, 1] = np.where(rising, greatest, least)
+    starts = np.arange(count) * size
+    rows = np.stack([starts, np.minimum(starts + size, n) - 1], axis=1).ravel()
+    length = 2 * count - int(rows[-1] == rows[-2])  # a last stretch of one row
+    return rows[:length], kept.reshape(2 * count, -1)[:length]
 
 
 def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:

@@ -69,6 +69,7 @@ BUTTONS = f"""
 :host .bk-input-group, :host label {{ font-family: {FONT}; }}
 :host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
 :host .bk-btn.bk-active {{ color: var(--accent); }}
+:host(.look) {{ display: var(--tick-box, inline-block); }}
 """
 """Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"

@@ -11,7 +11,8 @@ and give it
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
   sources of the view that it leaves out are empty;
 - `sentence(results)`: one sentence on the figure in plain words;
-- `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+- `table(results)`: the numbers behind the figure, units in the names, for the CSV file;
+- `show(results)`, where something in it is not in the packed source.
 
 On the page `parts` is the half of the session that the view is of, with the scene of the controls
 or the measured signal; what a view begins with it, it begins in `attach(parts)`.
@@ -65,6 +66,8 @@ class Caption(LiveComponent):
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
+    #: of what its numbers are, for names of files and beneath pictures; empty of the scene
+    subject = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
@@ -262,6 +265,10 @@ class View(Generic[C]):
         if results is not None:
             for key in self._keys:
                 key.show([one.name for one in results.compared])
+            self.show(results)
+
+    def show(self, content: C) -> None:
+        """Show what is not in the packed source of this content. On the event loop only."""
 
     def put_head(self, content: C) -> None:
         """Title and caption in the words of the bearing: its balls may be rollers."""

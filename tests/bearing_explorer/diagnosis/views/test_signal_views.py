@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,8 +17,8 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
     named,
     orders,
 )
-from bearing_explorer.diagnosis.views.frequency_view import MOST_LINES, curves
-from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope
+from bearing_explorer.diagnosis.views.frequency_view import MOST_LINES, Shown, curves
+from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope, highest_line
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -124,6 +125,56 @@ def test_the_envelope_says_what_knocks(speed, said):
     sentence = view.sentence(MODEL)
     assert "where the kurtogram is highest" in sentence
     assert re.search(said, sentence), sentence
+
+
+AT_29_5_HZ = {"bpfo": 105.4, "bpfi": 160.1, "bsf": 68.5, "ftf": 11.7, "shaft": 29.5}
+BALL = SimpleNamespace(
+    fault="ball", names_a_part=True, of=lambda _: SimpleNamespace(part="ball", frequency=138.7)
+)
+
+
+@pytest.mark.parametrize(
+    ("peak", "step", "found", "said"),
+    [
+        (139.0, 0.6, BALL, r"is 2×BSF: step 2 has 138\.7 Hz for the first"),
+        (139.0, 0.6, None, r"is 2×BSF, 1\.6 % above"),
+        (29.5, 0.6, None, r"is the shaft's turn\."),
+        (82.0, 0.6, BALL, "none of the bearing's"),
+        (None, 0.6, BALL, "No line stands out"),
+        (150.0, 26.0, None, "may be BPFI or 2×BSF: lines here are 26 Hz apart"),
+    ],
+)
+def test_the_highest_line_is_named_only_as_far_as_it_is_known(peak, step, found, said):
+    frequency = np.arange(0.0, 900.0, step)
+    density = np.random.default_rng(2).exponential(size=frequency.size)
+    if peak is not None:
+        density[np.abs(frequency - peak).argmin()] = 1e4
+    shown = Shown("y", 900.0, Spectrum(frequency, density), step, (2000.0, 4000.0))
+    sentence = highest_line(shown, [AT_29_5_HZ], "g", 1.0, found)
+    assert re.search(said, sentence), sentence
+
+
+def test_a_band_that_was_typed_is_that_of_no_other_file():
+    view = view_of(MeasuredEnvelope, signal())
+    view.look_changed("low", "1000")
+    view.look_changed("high", "3000")
+    assert "as chosen" in view.sentence(MODEL)
+    recording = dataclasses.replace(signal().recording, name="another.csv")
+    view.measure(
+        view_of(MeasuredEnvelope, Measured(recording, at(RIG, 14.0 * math.pi))).measurement
+    )
+    assert "where the kurtogram is highest" in view.sentence(MODEL)
+    view.say(MODEL, "")
+    assert (view.look["low"], view.look["high"]) == ("", "")
+
+
+def test_an_envelope_is_drawn_as_far_as_its_band_is_wide():
+    view = view_of(MeasuredEnvelope, signal())
+    view.look_changed("low", "2000")
+    view.look_changed("high", "2050")
+    _, ranges = view.all_data(MODEL)
+    assert ranges["measured_envelope_frequency"] == (0.0, 50.0)
+    assert "no lines above 50 Hz, the width of that band" in view.sentence(MODEL)
 
 
 def test_a_band_of_ones_own_is_taken_and_an_impossible_one_told():

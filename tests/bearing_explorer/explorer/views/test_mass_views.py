@@ -77,7 +77,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     band = sources["spectrum_wide_resonance"]
     assert band["high"][0] == pytest.approx(contact_resonance_band(FAN_RIG)[1])
     assert band["above"][0] == 0.0
-    own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_others"]
+    own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_grey"]
     high = own["frequency"] > 9e3
     assert np.median(other["y"][high] - own["y"][high]) > 10.0, "mass adds above 8 kHz"
     assert "with the mass of its balls" in spectra.caption(results.grey.name)

@@ -49,6 +49,7 @@ def test_a_file_from_elsewhere_is_sized(measured):
     assert sized.passes.frequency == pytest.approx(1.001 * nominal, rel=1.5e-4)
 
 
+@pytest.mark.proof
 def test_in_another_unit_it_says_so(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording([1, 2], ["x", "y"], "m/s²")

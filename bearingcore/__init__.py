@@ -20,8 +20,7 @@ from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
 from bearingcore.files.by_hand import read_recording
 from bearingcore.files.floor import read_floor
-from bearingcore.files.join import join_tables
-from bearingcore.files.table import Table, read_table
+from bearingcore.files.table import Table, join_tables, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor
 from bearingcore.scene.load import Load

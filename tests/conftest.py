@@ -30,3 +30,19 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         from tests.helpers.compiled import compile_once
 
         compile_once()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Two processes begin with what takes long, one with a browser; both end with what is short.
+
+    Each gets a half of the list, and takes from the end of the other's once its own is done.
+    """
+    kinds: dict[str, list[pytest.Item]] = {"browser": [], "proof": [], "": []}
+    for item in items:
+        kinds[next((kind for kind in kinds if kind and item.get_closest_marker(kind)), "")].append(
+            item
+        )
+    driving, long, short = kinds.values()
+    middle = max(0, len(items) // 2 - len(driving))
+    items[:] = [*driving, *short[:middle], *long, *short[middle:]]

@@ -15,12 +15,11 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.half import Half, Section
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.fast import PLAIN
 from bearing_explorer.kit.serve.live import on_loop
 from bearing_explorer.kit.serve.template import PageTemplate
-from bearing_explorer.kit.session import Session
+from bearing_explorer.kit.session import Half, Section, Session
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.form import stack
@@ -70,8 +69,10 @@ class Halves:
 
     def __init__(self, address: str = "", lessons: Any = ()) -> None:
         bearings = BearingTable()
-        self.explorer = scene and scene.Explorer(
-            scene.SECTIONS, address=address, lessons=lessons, bearings=bearings
+        self.explorer = (
+            scene.Explorer(scene.SECTIONS, address=address, lessons=lessons, bearings=bearings)
+            if scene
+            else None
         )
         self.diagnosis = signal and signal.DiagnosisOfSignal(
             signal.SECTIONS, self._scene_of_signal, bearings
@@ -80,13 +81,13 @@ class Halves:
         for section in SECTIONS:
             of_signal = signal and section in signal.SECTIONS
             half = self.diagnosis if of_signal else self.explorer
-            assert half is not None
+            assert isinstance(half, Half)
             halves[section] = half
         self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")
         if self.explorer is not None and self.diagnosis is not None:
-            self.explorer.requests.report_on_signal = self.diagnosis.report
-            self.explorer.requests.simulate = self.diagnosis.simulate
-            self.diagnosis.change_scene_by(self.explorer.requests.change_scene)
+            self.explorer.report_on_signal = self.diagnosis.report
+            self.explorer.simulate = self.diagnosis.simulate
+            self.diagnosis.change_scene_by(self.explorer.change_scene)
 
     def _scene_of_signal(self) -> Any:
         """The scene with which a signal is compared."""

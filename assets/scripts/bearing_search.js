@@ -16,8 +16,11 @@ function bearing_search(model, panel) {
     "aria-label": "About this bearing", title: "About this bearing" })
   unfolds(more, note)
   let name = "", active = -1, pause = 0
+  let listed = ""  // the text that the list is of
+  let taking = false  // whether Enter came before the list of its text, whose first is then taken
 
-  const search = () => model.send_msg({ search: input.value === name ? "" : input.value })
+  const typed = () => input.value === name ? "" : input.value.trim().replace(/\s+/g, " ")
+  const search = () => model.send_msg({ search: typed() })
   const open = (shown) => {
     list.hidden = !shown
     input.setAttribute("aria-expanded", String(shown))
@@ -27,6 +30,7 @@ function bearing_search(model, panel) {
   }
   const close = () => {
     clearTimeout(pause)
+    taking = false
     input.value = name
     open(false)
   }
@@ -44,7 +48,7 @@ function bearing_search(model, panel) {
   }
   const refuse = (sentence) => panel.refuse("preset", sentence)
   const list_found = ({ text, entries, words }) => {
-    if (input.getRootNode().activeElement !== input || text !== (input.value === name ? "" : input.value.trim().replace(/\s+/g, " "))) return
+    if (input.getRootNode().activeElement !== input || text !== typed()) return
     list.replaceChildren(...entries.map(({ choose, label, words: about, mark }, i) => {
       const one = element("li", { role: "option", id: `found-${i}`, "aria-selected": "false" },
         element("strong", {}, label, ...(mark ? [element("span", { class: "mark" }, mark)] : [])), about)
@@ -55,11 +59,21 @@ function bearing_search(model, panel) {
     open(entries.length > 0)
     status.textContent = words || `${entries.length} found`
     point(-1)
+    listed = text
+    if (taking) take_first()
+  }
+  const take_first = () => {
+    taking = false
+    if (list.hidden) return
+    if (active < 0 && !typed()) return input.blur()  // nothing was typed or pointed at
+    list.children[Math.max(active, 0)].take()
+    input.blur()
   }
   // the field keeps the focus until the choice is made
   list.addEventListener("pointerdown", (event) => event.preventDefault())
   input.addEventListener("focus", () => { input.select(); search() })
   input.addEventListener("input", () => {
+    taking = false
     clearTimeout(pause)
     pause = setTimeout(search, SEARCH_PAUSE)
   })
@@ -67,7 +81,12 @@ function bearing_search(model, panel) {
   input.addEventListener("keydown", (event) => {
     const count = list.children.length
     if (event.key === "Escape") input.blur()
-    else if (event.key === "Enter" && !list.hidden) { list.children[Math.max(active, 0)].take(); input.blur() }
+    else if (event.key === "Enter" && listed === typed()) take_first()
+    else if (event.key === "Enter") {
+      clearTimeout(pause)
+      taking = true
+      search()
+    }
     else if (/^Arrow(Up|Down)$/.test(event.key) && !list.hidden)
       point((active + (event.key === "ArrowDown" ? 1 : count - (active < 0 ? 0 : 1))) % count)
     else return

@@ -21,10 +21,11 @@ export function render({ model }) {
   })
   const part = (id) => root.querySelector(`#${id}`)
   const { title } = model, head = root.querySelector("h2"), code = part("code"), menu = part("exports")
-  head.append(model.leads_to
-    ? button(model.lead ? `${title}: ${model.lead}` : title, () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
-    : "")
-  if (!model.leads_to) follow(model, ["title"], () => { head.textContent = model.title })
+  const lead = model.leads_to && button("", () => announce("show", model.leads_to), { class: "lead", title: "Open its tab" })
+  if (lead) head.append(lead)
+  follow(model, ["title"], () => {
+    (lead || head).textContent = model.lead ? `${model.title}: ${model.lead}` : model.title
+  })
   if (model.compact) {  // the figure says it itself; the rest is a tooltip
     follow(model, ["line", "rest"], () => { head.title = `${model.line} ${model.rest}`.trim() })
     root.className = "compact"

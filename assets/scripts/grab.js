@@ -3,6 +3,7 @@
 // By keys a handle is a slider: Tab comes to it, arrow keys move it, of the arrow up and down its size.
 // See app/bearing_explorer/explorer/views/bearing_handles.py.
 const NEAR = { mouse: 12, pen: 18, touch: 26 }  // [px]
+const CUED = 29  // [px] of an arrow beside which there is room for the cue
 const KINDS = ["start", "end", "middle", "load"]
 const CUES = { start: "Drag: length of the defect", end: "Drag: length of the defect",
   middle: "Drag: place of the defect", load: "Drag: load and its direction" }
@@ -96,8 +97,10 @@ if (view?.frame?.bbox?.width > 0) {
       attribute(one, "aria-valuemax", load ? 1e6 : 360)
       attribute(one, "aria-valuetext", load ? `${number} N at ${place}\u00b0` : middle ? `at ${place}\u00b0`
         : `at ${place}\u00b0; defect ${number}\u00b0 long`)
-      cue.style.visibility = document.documentElement.hasAttribute("data-projector") ? "hidden" : ""  // too large
-      if (load) cue.style.transform = at(x0[i] - 0.42 * (x[i] - x0[i]), -0.42 * y[i])
+      if (!load) return
+      const large = document.documentElement.hasAttribute("data-projector")
+      cue.style.visibility = large || unit * Math.hypot(x[i] - x0[i], y[i]) < CUED ? "hidden" : ""
+      cue.style.transform = at(x0[i] - 0.42 * (x[i] - x0[i]), -0.42 * y[i])
     })
   }
   view.place_handles()

@@ -81,13 +81,14 @@ export function render({ model }) {
     else go(number)
   })
   const projector = button("Projector", () => announce("projector", !root.hasAttribute("data-projector")),
-    { class: "projector", title: "Large type and fewer controls, for a projector" })
+    { class: "projector", "aria-label": "Projector", title: "Large type and fewer controls, for a projector" })
   const show_projector = () => {
     const large = root.hasAttribute("data-projector")
     projector.setAttribute("aria-pressed", String(large))
     lesson.classList.toggle("large", large)
     back.textContent = large ? "\u2039" : "Back"  // there the list of lessons needs the room
     next.textContent = large ? "\u203a" : "Next lesson"
+    projector.textContent = large ? "\u2922" : "Projector"
   }
   const close = button("\u00d7", () => announce("lessons"),
     { class: "close", "aria-label": "Close the lessons", title: "Close the lessons" })
@@ -245,10 +246,11 @@ export function render({ model }) {
   on_event("projector", lesson, show_projector)
   on_event("lessons", lesson, (which) => {
     const number = model.titles.findIndex(([, , name]) => name && name === which?.name)
-    if (number >= 0) {  // Back came to it: its words, and the scene as it is
+    if (number >= 0) {  // Back came to it from another, with its scene, or from none: its words
+      const other = began() && number !== model.lesson.number
       resumed = true
       set_open(true)
-      ask(model, { lesson: number, words_only: true })
+      ask(model, { lesson: number, ...(other ? {} : { words_only: true }) })
       return send_event()
     }
     if (which !== "first") return !which || open ? toggle() : undefined

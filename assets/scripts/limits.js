@@ -31,8 +31,10 @@ export function render({ model }) {
     // beside the status line where all is well, a line of its own where it is not
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", warned.length > 0)
     more.hidden = model.rows.length === 0  // before the first picture, and of a measured signal
-    const [first, others] = model.summary.split(" (")
-    more.replaceChildren(first, element("span", { class: "others" }, others ? ` (${others}` : ""))
+    const [first, others = ""] = model.summary.split(/(?= \()/)
+    const [count, why = ""] = others.replace(/\)$/, "").split(/(?=:)/)
+    more.replaceChildren(first, element("span", { class: "others" }, count,
+      element("span", { class: "why" }, why), others && ")"))
     if (!list.hidden) fill()
   }
   for (const name of ["rows", "summary"]) model.on(name, write)

@@ -54,6 +54,7 @@ LONGEST_REFUSAL = 500
 """Characters up to which faults are listed at once; the others are counted."""
 
 _SEPARATORS = (";", "\t", ",")
+"""Of columns; the most frequent one in the headings is taken."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     lines = _lines(_text(table))
     if not lines:
         raise checks.refuse("table of bearings", "empty", "a line of headings and one a bearing")
-    separator = _separator(lines[0][1])
+    separator = max(_SEPARATORS, key=lines[0][1].count)
     rows = [(number, _cells(number, line, separator)) for number, line in lines]
     headings = _headings(*rows[0])
     if len(rows) - 1 > MOST_BEARINGS:
@@ -157,11 +158,6 @@ def _lines(text: str) -> list[tuple[int, str]]:
         for number, line in enumerate(text.splitlines(), start=1)
         if line.strip(" \t;,") and not line.lstrip().startswith("#")
     ]
-
-
-def _separator(heading: str) -> str:
-    """Delimiter of the columns: the most frequent one in the headings."""
-    return max(_SEPARATORS, key=heading.count)
 
 
 def _cells(number: int, line: str, separator: str) -> list[str]:

@@ -29,9 +29,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 GREATEST_LOG_RATIO = 40.0
 """ln χ up to which the ellipse is sought. A groove wider than the ball by one part in 10^15 of
@@ -86,7 +87,7 @@ class RaceContact:
             * math.sqrt(self.second_integral / (self.curvature_sum * self.first_integral**3))
         )
 
-    def semi_axes(self, load: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def semi_axes(self, load: ArrayLike) -> tuple[Array, Array]:
         """Semi-axes a (across the rolling) and b (along it) [m] of the ellipse at a load [N].
 
         a = (2 χ² E / π)^⅓ c and b = a/χ with c = (3 Q / (E* Σρ))^⅓ (Harris).
@@ -95,7 +96,7 @@ class RaceContact:
         a = np.cbrt(2.0 * self.ellipse_ratio**2 * self.second_integral / math.pi) * c
         return a, a / self.ellipse_ratio
 
-    def greatest_pressure(self, load: ArrayLike) -> NDArray[np.float64]:
+    def greatest_pressure(self, load: ArrayLike) -> Array:
         """Pressure [Pa] in the middle of the ellipse at a load [N]: p = 3 Q / (2 π a b) (Harris).
 
         0 at no load.

@@ -26,7 +26,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings import ratings
 from bearingcore.bearings.ball import USUAL_GROOVES
@@ -36,6 +35,7 @@ from bearingcore.units import INCH
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
+
 
 BALL_SIZES: tuple[float, ...] = tuple(
     sorted(
@@ -227,23 +227,6 @@ def balls_from_ratings(
     pitch, height = 0.5 * (bore + outside_diameter), outside_diameter - bore
     sizes = np.array([D for D in BALL_SIZES if BALL_SHARE[0] <= D / height <= BALL_SHARE[1]])
     D, Z = np.meshgrid(sizes, np.arange(5, MOST_BALLS + 1), indexing="ij")
-    off = _misfit(D, Z, pitch, dynamic_rating, static_rating, contact_angle, factor, self_aligning)
-    off = np.where(pitch * np.sin(math.pi / Z) < TIGHTEST * D, np.inf, off)
-    best = np.unravel_index(int(np.argmin(off)), off.shape)
-    return Inside(int(Z[best]), float(D[best]), pitch, float(off[best]))
-
-
-def _misfit(
-    D: NDArray[np.float64],
-    Z: NDArray[np.int_],
-    pitch: float,
-    dynamic_rating: float,
-    static_rating: float,
-    contact_angle: float,
-    factor: float | None,
-    self_aligning: bool,
-) -> NDArray[np.float64]:
-    """Distance from a catalogue's numbers, in standard deviations."""
     cosine = math.cos(contact_angle)
     gamma = D * cosine / pitch
     rows, spread = (2, SPHERE_SPREAD) if self_aligning else (1, GROOVE_SPREAD)
@@ -255,9 +238,14 @@ def _misfit(
     )
     C_0 = ratings.static_rating(f_0, Z, D, cosine, rows)
     C = ratings.dynamic_rating(f_c, Z, D, cosine, rows)
+    # distance from the catalogue's numbers, in standard deviations
     off = np.log(C_0 / static_rating) / spread.static
     off = np.hypot(off, np.log(C / dynamic_rating) / spread.dynamic)
-    return off if factor is None else np.hypot(off, (f_0 - factor) / spread.factor)
+    if factor is not None:
+        off = np.hypot(off, (f_0 - factor) / spread.factor)
+    off = np.where(pitch * np.sin(math.pi / Z) < TIGHTEST * D, np.inf, off)
+    best = np.unravel_index(int(np.argmin(off)), off.shape)
+    return Inside(int(Z[best]), float(D[best]), pitch, float(off[best]))
 
 
 @lru_cache(maxsize=512)

@@ -10,17 +10,16 @@ import dataclasses
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bearingcore.bearings.contact import Contact
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
     from bearingcore.bearings.drawing import Derived
     from bearingcore.bearings.hertz import RaceContact
     from bearingcore.bearings.line_contact import RollerContact
+
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -194,7 +193,7 @@ class Kind:
         """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
         return None
 
-    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
         """Drop P [m] of a roller's profile at places [m] from its middle; see `statics.laminae`."""
         raise NotImplementedError
 

@@ -22,9 +22,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
 """E [Pa] and ν of rollers and rings: the factor is for steel."""
@@ -73,12 +74,12 @@ class RollerContact:
         """E/(1 − ν²) [Pa]."""
         return self.youngs_modulus / (1.0 - self.poisson**2)
 
-    def greatest_pressure(self, load: ArrayLike) -> NDArray[np.float64]:
+    def greatest_pressure(self, load: ArrayLike) -> Array:
         """Pressure [Pa] in the middle at a load [N]: p = (Q E Σρ/(2 π l (1 − ν²)))^½."""
         Q = np.asarray(load, dtype=float)
         return np.sqrt(Q * self.modulus * self.curvature_sum / (2.0 * math.pi * self.length))
 
-    def semi_axes(self, load: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def semi_axes(self, load: ArrayLike) -> tuple[Array, Array]:
         """Half the length and half the width b = 2 Q/(π l p) [m] of the contact at a load [N]."""
         Q = np.asarray(load, dtype=float)
         # b grows as Q^½: from the contact at 1 N, which exists at no load too
@@ -99,7 +100,7 @@ def roller_contact(
     return RollerContact(race, 2.0 / (roller_diameter * (1.0 + side * gamma)), roller_length)
 
 
-def profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
     """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
 
     Its reference profile: 0.00035 D ln(1/(1 − (2x/l)²)), and of rollers longer than 2.5 D straight
@@ -111,7 +112,7 @@ def profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np
     return np.asarray(-size * diameter * np.log1p(-(part**2)))
 
 
-def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> NDArray[np.float64]:
+def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
     """The same of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44)."""
     return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
 

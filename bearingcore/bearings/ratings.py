@@ -24,11 +24,12 @@ import math
 from functools import cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.hertz import race_contact, spherical_contact
 from bearingcore.bearings.kind import ISO_76_BALLS, ISO_76_SELF_ALIGNING
+from bearingcore.common.arrays import Array
 
 MATERIAL_FACTOR = 1.3
 """b_m of ISO 281 for deep-groove, angular-contact and self-aligning ball bearings of today."""
@@ -55,7 +56,7 @@ def groove_ratio(f_i: float, f_e: float) -> float:
     return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
 
 
-def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> NDArray[np.float64]:
+def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> Array:
     """f_c of Lundberg and Palmgren, with the 38.2 that meets the table of ISO 281."""
     g = np.asarray(gamma, dtype=float)
     B = 1.04 * ((1.0 - g) / (1.0 + g)) ** 1.72 * groove_ratio(f_i, f_e) ** 0.41
@@ -64,14 +65,14 @@ def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> NDArray[np.floa
     return 38.2 * shape * groove * (1.0 + B ** (10.0 / 3.0)) ** -0.3
 
 
-def self_aligning_capacity_factor(gamma: ArrayLike) -> NDArray[np.float64]:
+def self_aligning_capacity_factor(gamma: ArrayLike) -> Array:
     """f_c of ISO 281 for self-aligning ball bearings, between the numbers of its table."""
     return np.interp(np.asarray(gamma, dtype=float), _SELF_ALIGNING_GAMMA, _SELF_ALIGNING_FACTOR)
 
 
 def dynamic_rating(
     factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
-) -> NDArray[np.float64]:
+) -> Array:
     """C_r [N] of `rows` rows of balls [m] with the factor f_c and the cosine of α."""
     D = 1e3 * np.asarray(ball_diameter, dtype=float)
     size = np.where(D <= LARGE_BALL, D**1.8, 3.647 * D**1.4)
@@ -86,7 +87,7 @@ def roller_dynamic_rating(
     pitch_diameter: float,
     cosine: float = 1.0,
     rows: int = 1,
-) -> NDArray[np.float64]:
+) -> Array:
     """C_r [N] of `rows` rows of rollers; lengths in m, with the cosine of α.
 
     f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
@@ -104,7 +105,7 @@ def roller_dynamic_rating(
 
 def roller_static_rating_per_length(
     n_rollers: ArrayLike, roller_diameter: ArrayLike, pitch_diameter: float, cosine: float = 1.0
-) -> NDArray[np.float64]:
+) -> Array:
     """C_0r [N] of a row of rollers [m] over the length [m] of a roller that touches."""
     D = np.asarray(roller_diameter, dtype=float)
     gamma = D * cosine / pitch_diameter
@@ -113,13 +114,13 @@ def roller_static_rating_per_length(
 
 def static_rating(
     factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
-) -> NDArray[np.float64]:
+) -> Array:
     """C_0r [N] of `rows` rows of balls [m] with the factor f_0 and the cosine of α."""
     D = 1e3 * np.asarray(ball_diameter, dtype=float)
     return np.asarray(factor) * rows * np.asarray(n_balls, dtype=float) * D**2 * cosine
 
 
-def static_factor(gamma: ArrayLike, self_aligning: bool = False) -> NDArray[np.float64]:
+def static_factor(gamma: ArrayLike, self_aligning: bool = False) -> Array:
     """f_0 of ISO 76 for ball bearings, between hundredths of γ.
 
     What a ball carries at the pressure that the standard allows, by Hertz, on whichever race

@@ -5,9 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bearingcore.bearings.drawing import Derived
 from bearingcore.bearings.kind import ISO_76_ROLLERS, Kind, Picture, Variant
 from bearingcore.bearings.line_contact import (
@@ -17,6 +14,7 @@ from bearingcore.bearings.line_contact import (
     series_factor,
 )
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
@@ -115,7 +113,7 @@ class Roller(Kind):
     directions: tuple[str, ...] = ("x", "y")
     needed_directions: tuple[str, ...] = ("x", "y")
     carries = "cylindrical rollers carry radial loads only"
-    left_out = "cylindrical rollers carry nothing along the others"
+    left_out = "cylindrical rollers carry nothing along the shaft and resist no tilt"
     shoulders = ()
     tilt_unknown = (
         "Tilt of the rollers: not known, as rollers stay parallel to the shaft in this model. A "
@@ -166,7 +164,7 @@ class Roller(Kind):
             race, bearing.ball_diameter, bearing.pitch_diameter, length_of(bearing)
         )
 
-    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
         return profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
     def volume(self, bearing: Bearing) -> float:

@@ -24,9 +24,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bearingcore.bearings import inside
 from bearingcore.bearings.contact import Contact
 from bearingcore.bearings.kind import DIRECTIONS, Picture, Variant
@@ -38,9 +35,11 @@ from bearingcore.bearings.line_contact import (
 from bearingcore.bearings.roller import Roller, length_of, rollers
 from bearingcore.bearings.rows import USUAL_DISTANCE, arrangement_of
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 if TYPE_CHECKING:
     from bearingcore.bearings.bearing import Bearing
+
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
@@ -168,7 +167,7 @@ class Tapered(Roller):
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
         return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
 
-    def profile_drop(self, bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
         return tapered_profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
 

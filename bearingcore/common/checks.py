@@ -10,8 +10,9 @@ import reprlib
 from typing import Any, SupportsFloat, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError, FieldTypeError, Interval, MissingError
 
 T = TypeVar("T")
@@ -110,7 +111,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
     return round(x)
 
 
-def finite(field: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
+def finite(field: str, values: ArrayLike, unit: str) -> Array:
     """`values` as a row of finite floats (n,), a copy; else ValueError."""
     allowed = f"finite numbers [{unit}]"
     try:

@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from bearingcore.common.arrays import Array
 
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 """SI prefixes by their power of ten."""
@@ -121,7 +123,7 @@ def decibels(level: float, digits: int = 2) -> str:
     return f"{number(level, digits)} dB"
 
 
-def level_difference(power: ArrayLike, reference: ArrayLike) -> NDArray[np.float64]:
+def level_difference(power: ArrayLike, reference: ArrayLike) -> Array:
     """10 log10(power/reference) [dB]; NaN where one of them is nothing: there is no such level."""
     both = np.broadcast_arrays(np.asarray(power, dtype=float), np.asarray(reference, dtype=float))
     known = (both[0] > 0.0) & (both[1] > 0.0)

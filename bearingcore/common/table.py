@@ -11,7 +11,7 @@ import csv
 import dataclasses
 import io
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -190,10 +190,17 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return _cut(f"ResultTable({', '.join(self)})")
 
 
-def table_of(*columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, str]) -> ResultTable:
-    """A table of (name, unit, numbers) or (name, unit, numbers, meaning)."""
+def table_of(
+    *columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, str], of: Sequence[Any] = ()
+) -> ResultTable:
+    """A table of (name, unit, numbers) or (name, unit, numbers, meaning).
+
+    Instead of its numbers a column may have the name of an attribute `of` each of some values.
+    """
     made = []
     for name, unit, values, *meaning in columns:
+        if isinstance(values, str):
+            values = [getattr(one, values) for one in of]
         made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
     return ResultTable(made)
 

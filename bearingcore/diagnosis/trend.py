@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent, without_extent
+from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
@@ -87,8 +87,8 @@ class TrendPoint:
     peak: float
     crest_factor: float
     kurtosis: float
-    lines: NDArray[np.float64]
-    noise: NDArray[np.float64]
+    lines: Array
+    noise: Array
     fault: str
     probability: float
     extent: MeasuredExtent
@@ -120,24 +120,24 @@ class Trend:
         last = max(len(self.points) - 1, 0)
         checks.whole_number("baseline", self.baseline, at_least=0, at_most=last)
 
-    def column(self, name: str) -> NDArray[np.float64]:
+    def column(self, name: str) -> Array:
         """Attribute of all points (k,) or (k, 4)."""
         return np.array([getattr(point, name) for point in self.points], dtype=float)
 
     @property
-    def clear_lines(self) -> NDArray[np.float64]:
+    def clear_lines(self) -> Array:
         """Amplitudes (k, 4) [m/s²] of lines that are more than noise; NaN for the others."""
         lines, noise = self.column("lines"), self.column("noise")
         return np.where(lines > noise, lines, math.nan)
 
     @property
-    def rms_change(self) -> NDArray[np.float64]:
+    def rms_change(self) -> Array:
         """Root mean square (k,) over that of the baseline."""
         rms = self.column("rms")
         return np.asarray(rms / rms[self.baseline])
 
     @property
-    def hours(self) -> NDArray[np.float64]:
+    def hours(self) -> Array:
         """Time (k,) since the first recording [h], by dates in all names; NaN without."""
         times = [time_in(point.name) for point in self.points]
         first = times[0] if times else None
@@ -245,7 +245,7 @@ def trend_point(
     bearing = None if bearing is None else bearing_of(bearing)
     column = recording.directions.index(direction)
     speed = _known_speed(shaft_speed)
-    fault, probability, extent = CANNOT_TELL, math.nan, without_extent()
+    fault, probability, extent = CANNOT_TELL, math.nan, MeasuredExtent()
     lines = noise = np.full(len(LINES), math.nan)
     if bearing is not None:
         answer = diagnose(recording, bearing, shaft_speed)
@@ -316,7 +316,7 @@ def _line_amplitudes(
     shaft_speed: float,
     column: int,
     band: tuple[float, float],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array]:
     """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²]."""
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 

@@ -6,17 +6,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import level_difference, number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.motion import SETTLING, Motion, simulate
 from bearingcore.dynamics.step_rate import fine_step_rate
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import spectrum
-
-Array = NDArray[np.float64]
 
 BUDGET = 0.1
 """[dB]"""

@@ -1,15 +1,16 @@
-"""Balls with mass in a simulated motion: where they start, what resonates, how finely to step."""
+"""Balls with mass in a motion: start, resonances, steps, loads, free flight, strikes."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common.arrays import Array, runs
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import floor_bytes
 from bearingcore.scene.packing import PackedMotion, PackedScene, pack
@@ -18,14 +19,13 @@ from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.positions import equilibrium_over_all
 from bearingcore.statics.status import StaticStatus
 
-Array = NDArray[np.float64]
+STEPS_A_CONTACT_CYCLE, LEAST_STEPS_A_CYCLE = 5.0, 2.2
+"""Steps in a period of the contact resonance, by default, and those that Runge-Kutta steps of order
+4 need at least."""
 
-STEPS_A_CONTACT_CYCLE = 5.0
-"""Steps in a period of the contact resonance, by default; stable down to 2.2."""
-
-STABLE_DECAY = 2.6
-"""Decay of a ball's motion in its contacts, times the step, that is taken; 2.785 is the limit of
-Runge-Kutta steps of order 4."""
+STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
+"""Decay of a ball's motion in its contacts, times the step: that is taken, and the limit of such
+steps."""
 
 
 LIGHTLY = 0.1
@@ -150,21 +150,30 @@ def contact_resonance_band(scene: Scene) -> tuple[float, float]:
     return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
 
 
-def fastest_decay(packed: PackedMotion) -> float:
-    """The fastest decay [1/s] of a ball's motion between its contacts, 0 where it is undamped."""
-    races = _balls(packed).races
-    return float((races.damping.sum(axis=0) / races.mass).max())
-
-
 def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
     """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
 
     As many as the contact resonance of the heaviest loaded ball and its decay need.
     """
-    decay, heaviest = fastest_decay(packed), heaviest_load(packed)
-    resonance = max(resonances(packed.scene, heaviest))
-    needed = max(STEPS_A_CONTACT_CYCLE * resonance, decay / STABLE_DECAY)
+    needed = _steps_needed(packed, STEPS_A_CONTACT_CYCLE, STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
+
+
+def least_step_rate(packed: PackedMotion) -> float:
+    """Steps a second [Hz] below which a ball jumps about between its contacts, ever faster.
+
+    Contacts that let go keep that finite, so that a motion of fewer steps may end and look like
+    one, with ten or ten thousand times its vibration.
+    """
+    return _steps_needed(packed, LEAST_STEPS_A_CYCLE, GREATEST_DECAY)
+
+
+def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
+    """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
+    races = _balls(packed).races
+    fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
+    resonance = max(resonances(packed.scene, heaviest_load(packed)))
+    return max(a_cycle * resonance, fastest / decay)
 
 
 def loads_of_races(
@@ -202,3 +211,64 @@ def loads_of_races(
         loads[race] = races.factor[race] * np.maximum(reached, 0.0) ** contacts.exponent
     loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
     return loads
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A ball that touches neither race from `begin` to `end` [s], counted from 0."""
+
+    ball: int
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Strike:
+    """A ball that comes down onto a race it did not touch.
+
+    `time` [s] is that of the first touch, `load` [N] the first peak of the contact's load, reached
+    at `peak` [s]: what comes later is no longer the strike.
+    """
+
+    ball: int
+    race: str
+    time: float
+    load: float
+    peak: float
+
+
+def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
+    """Free flights of balls with loads (2, n, N_b) [N] at inner and outer race, times (n,) [s].
+
+    As `Motion.race_loads` gives them. A flight that is under way at an end is cut there.
+    """
+    free = np.asarray((loads <= 0.0).all(axis=0))
+    return tuple(
+        Flight(ball, float(time[first]), float(time[end - 1]))
+        for ball in range(free.shape[1])
+        for first, end in zip(*runs(free[:, ball]), strict=True)
+    )
+
+
+def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
+    """All strikes of balls with such loads, in the order of time.
+
+    A contact that is closed at the first time has not been seen to strike.
+    """
+    found = []
+    for index, race in enumerate(RACES_OF_LOADS):
+        for ball in range(loads.shape[2]):
+            load = loads[index, :, ball]
+            for first, end in zip(*runs(load > 0.0), strict=True):
+                if first == 0:
+                    continue
+                falls = np.flatnonzero(np.diff(load[first:end]) <= 0.0)
+                peak = first + int(falls[0]) if falls.size else end - 1
+                found.append(
+                    Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
+                )
+    return tuple(sorted(found, key=lambda strike: (strike.time, strike.ball)))
+
+
+RACES_OF_LOADS = ("inner", "outer")
+"""In the order of the loads."""

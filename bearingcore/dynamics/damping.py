@@ -18,12 +18,13 @@ DAMPING_OVER_STIFFNESS = 1e-5
 0.25e-5 to 2.5e-5 s."""
 
 
-def _of_healthy(packed: PackedScene) -> tuple[object, ...]:
-    """All that the static state of a scene without its defects depends on."""
-    return packed.scene.bearing, packed.scene.load, packed.dofs
-
-
-@lru_cache_by_bytes(512, 1_000_000, lambda *_: 1000, _of_healthy)
+# by all that the static state of a scene without its defects depends on
+@lru_cache_by_bytes(
+    512,
+    1_000_000,
+    lambda *_: 1000,
+    lambda packed: (packed.scene.bearing, packed.scene.load, packed.dofs),
+)
 def _mean_stiffness_a_ball(packed: PackedScene) -> float:
     """mean(k_xx + k_yy) / mean(loaded balls) [N/m] without defects, over a period of the curves."""
     angles = np.arange(120) * (packed.scene.bearing.period / 120)

@@ -17,11 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from numpy.typing import NDArray
 
 from bearingcore import kernels
-
-Array = NDArray[np.float64]
+from bearingcore.common.arrays import Array
 
 PASSED = 0.4
 """Of the sample rate, and of the step rate: up to here spectra of sampled accelerations are right

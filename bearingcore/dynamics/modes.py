@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.damping import contact_damping
@@ -30,8 +31,6 @@ from bearingcore.statics.positions import (
     extremes,
     positions_of,
 )
-
-Array = NDArray[np.float64]
 
 MIXED = 0.25
 """Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
@@ -75,14 +74,14 @@ class Modes:
 
     scene: Scene
     dofs: tuple[str, ...]
-    cage_angles: NDArray[np.float64]
-    frequency: NDArray[np.float64]
-    damping_ratio: NDArray[np.float64]
-    undamped_frequency: NDArray[np.float64]
-    shape: NDArray[np.float64]
+    cage_angles: Array
+    frequency: Array
+    damping_ratio: Array
+    undamped_frequency: Array
+    shape: Array
     label: tuple[str, ...]
     body: tuple[str, ...]
-    mean_shape: NDArray[np.float64]
+    mean_shape: Array
     cost: str = ""
     state: Equilibrium | None = field(default=None, repr=False, compare=False)
 
@@ -109,13 +108,8 @@ class Modes:
         NaN for both where no angle has an answer. Nothing between the angles counts, nor other
         turns of the shaft: see `frequency_bands`.
         """
-        return dict(zip(self.label, map(_band, self.frequency.T), strict=True))
-
-
-def _band(frequency: NDArray[np.float64]) -> tuple[float, float]:
-    """Least and greatest of the frequencies (n,) that are known."""
-    known = frequency[np.isfinite(frequency)]
-    return (float(known.min()), float(known.max())) if known.size else (math.nan, math.nan)
+        ends = zip(*(end.tolist() for end in least_and_greatest(self.frequency, 0)), strict=True)
+        return dict(zip(self.label, ends, strict=True))
 
 
 def modes(
@@ -272,9 +266,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     )  # fmt: skip
 
 
-def undamped_bands(
-    scene: Scene, terms: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], list[tuple[str, ...]]]:
+def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple[str, ...]]]:
     """Least and greatest undamped frequency of each mode over n cage angles, for r scenes.
 
     They are those of `modes_at(...).undamped_frequency`, found many matrices at a time without the
@@ -325,11 +317,7 @@ def undamped_bands(
     return least, greatest, labels
 
 
-def _frequencies_like(
-    template: NDArray[np.float64],
-    terms: NDArray[np.float64],
-    support: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:
     """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
 
     `terms` (nd (nd + 1)/2, n) are the upper triangles of the bearing's stiffness, all known.
@@ -379,14 +367,12 @@ def highest_frequency_of(packed: PackedScene) -> float:
     return float(frequency.max())
 
 
-def two_body_matrix(
-    bearing: NDArray[np.float64], support: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def two_body_matrix(bearing: Array, support: Array) -> Array:
     """[B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
     return np.block([[bearing, -bearing], [-bearing, bearing + np.diag(support)]])
 
 
-def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
+def loaded_directions(state: Equilibrium) -> Array:
     """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
     alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
     radial, axial = np.cos(alpha), np.sin(alpha)
@@ -407,7 +393,7 @@ def loaded_directions(state: Equilibrium) -> NDArray[np.float64]:
     return np.swapaxes(e, 1, 2) @ e
 
 
-def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
+def _assignment(likeness: Array) -> NDArray[np.int64]:
     """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
     from scipy.optimize import (
         linear_sum_assignment,
@@ -416,7 +402,7 @@ def _assignment(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
     return np.asarray(linear_sum_assignment(-likeness)[1])
 
 
-def _matched(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
+def _matched(likeness: Array) -> NDArray[np.int64]:
     """(n, m) which column belongs to each row of likeness (n, m, columns), none taken twice.
 
     Mostly the greatest of each row will do; where two rows want the same one, the assignment of
@@ -429,12 +415,7 @@ def _matched(likeness: NDArray[np.float64]) -> NDArray[np.int64]:
     return best
 
 
-def _follow(
-    frequency: NDArray[np.float64],
-    shape: NDArray[np.float64],
-    template: NDArray[np.float64],
-    mass: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _follow(frequency: Array, shape: Array, template: Array, mass: Array) -> tuple[Array, Array]:
     """Modes reordered so that each column is one mode: the one most like its template.
 
     frequency (n, m), shape (n, m, m) and template (m, m), all of unit modal mass, so that the
@@ -451,9 +432,7 @@ def _follow(
     )
 
 
-def _undamped(
-    K: NDArray[np.float64], mass: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
     """Natural frequencies (..., m) [Hz], rising, and shapes (..., m, m) of unit modal mass."""
     root = np.sqrt(mass)
     values, vectors = np.linalg.eigh(K / (root[:, None] * root))
@@ -461,12 +440,7 @@ def _undamped(
     return frequency, np.swapaxes(vectors, -1, -2) / root
 
 
-def _damped(
-    K: NDArray[np.float64],
-    C: NDArray[np.float64],
-    mass: NDArray[np.float64],
-    shape: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
     """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
 
     State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
@@ -487,12 +461,7 @@ def _damped(
     return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
 
 
-def _nearly_damped(
-    K: NDArray[np.float64],
-    C: NDArray[np.float64],
-    mass: NDArray[np.float64],
-    shape: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
     """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
 
     In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
@@ -520,7 +489,7 @@ def _nearly_damped(
 
 
 def _labels(
-    template: NDArray[np.float64], mass: NDArray[np.float64], dofs: tuple[str, ...]
+    template: Array, mass: Array, dofs: tuple[str, ...]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Direction and number of each mode, two modes a direction, and the body that moves most.
 

@@ -6,14 +6,15 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
+    least_step_rate,
     loads_of_races,
     march_balls,
     place_parts,
@@ -88,12 +89,12 @@ class Motion:
     step_rate: float
     status: MotionStatus
     right_hand_side_calls: int
-    time: NDArray[np.float64]
-    ball_load: NDArray[np.float64] | None
-    history: NDArray[np.float64] = field(repr=False)
-    ball_place: NDArray[np.float64] | None = field(default=None, repr=False)
+    time: Array
+    ball_load: Array | None
+    history: Array = field(repr=False)
+    ball_place: Array | None = field(default=None, repr=False)
     detail: str = ""
-    filtered: NDArray[np.float64] | None = field(default=None, repr=False)
+    filtered: Array | None = field(default=None, repr=False)
 
     @property
     def completed(self) -> bool:
@@ -106,41 +107,41 @@ class Motion:
         return f"{self.status}{self.detail}"
 
     @cached_property
-    def cage_angle(self) -> NDArray[np.float64]:
+    def cage_angle(self) -> Array:
         """(n,) [rad], 0 at the start."""
         return self.scene.cage_speed * self.time
 
     @cached_property
-    def inner_displacement(self) -> NDArray[np.float64]:
+    def inner_displacement(self) -> Array:
         """(n, len(dofs)) [m, rad]"""
         return self._sampled("inner", 0)
 
     @cached_property
-    def outer_displacement(self) -> NDArray[np.float64]:
+    def outer_displacement(self) -> Array:
         """(n, len(dofs)) [m, rad]"""
         return self._sampled("outer", 0)
 
     @cached_property
-    def inner_velocity(self) -> NDArray[np.float64]:
+    def inner_velocity(self) -> Array:
         """(n, len(dofs)) [m/s, rad/s]"""
         return self._sampled("inner", 1)
 
     @cached_property
-    def outer_velocity(self) -> NDArray[np.float64]:
+    def outer_velocity(self) -> Array:
         """(n, len(dofs)) [m/s, rad/s]"""
         return self._sampled("outer", 1)
 
     @cached_property
-    def inner_acceleration(self) -> NDArray[np.float64]:
+    def inner_acceleration(self) -> Array:
         """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
         return self._accelerations("inner")
 
     @cached_property
-    def outer_acceleration(self) -> NDArray[np.float64]:
+    def outer_acceleration(self) -> Array:
         """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
         return self._accelerations("outer")
 
-    def instant_acceleration(self, body: str) -> NDArray[np.float64]:
+    def instant_acceleration(self, body: str) -> Array:
         """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
 
         As the forces of the instant give it, unfiltered: for balances, not for spectra.
@@ -163,7 +164,7 @@ class Motion:
         return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
     @cached_property
-    def ball_position(self) -> NDArray[np.float64]:
+    def ball_position(self) -> Array:
         """(n, 2, N_b) [m] radial and axial place of each ball.
 
         Against that of the unloaded ball that touches the outer race, the rings concentric.
@@ -173,76 +174,62 @@ class Motion:
         ValueError
             for balls without mass, which have no place of their own.
         """
-        place = self._with_mass()
+        place = self.ball_place
+        if place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
         full = np.zeros((len(place), 2, place.shape[2]))
         full[:, : place.shape[1]] = place
         return full
 
     @cached_property
-    def ball_load_inner(self) -> NDArray[np.float64]:
+    def ball_load_inner(self) -> Array:
         """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
         return self.race_loads()[0]
 
     @cached_property
-    def ball_load_outer(self) -> NDArray[np.float64]:
+    def ball_load_outer(self) -> Array:
         """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
         return self.race_loads()[1]
 
-    def race_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+    def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
         Of balls without mass both are the same.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        if self.ball_place is None:
-            loads = self._ball_loads(packed, start, stop)
-            return np.stack([loads, loads])
-        return self._race_loads(packed, self.ball_place, start, stop)
+        return np.stack(self._loads(None, start, stop))
 
-    def ball_loads(self, start: int = 0, stop: int | None = None) -> NDArray[np.float64]:
+    def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
 
         Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
         that a figure of contact forces needs.
         """
-        packed = packing.pack(self.scene, self.dofs, balls=self.ball_place is not None)
-        return self._ball_loads(packed, start, stop)
+        return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
         """The same motion with the loads of its balls."""
-        return replace(self, ball_load=self._ball_loads(packed, 0, None))
+        return replace(self, ball_load=self._loads(packed, 0, None)[1])
 
-    def _race_loads(
-        self, packed: PackedScene, place: NDArray[np.float64], start: int, stop: int | None
-    ) -> NDArray[np.float64]:
+    def _loads(
+        self, packed: PackedScene | None, start: int, stop: int | None
+    ) -> tuple[Array, Array]:
+        """Loads at both races; `packed` is the scene, where it is packed already."""
+        place, speed, rate = self.ball_place, self.scene.cage_speed, self.sample_rate
+        packed = packed or packing.pack(self.scene, self.dofs, balls=place is not None)
         first, last = slice(start, stop).indices(len(self.time))[:2]
-        turned = self.scene.cage_speed / self.sample_rate
-        begin = first * self.scene.cage_speed / self.sample_rate
-        return loads_of_races(packed, self.history[first:last], place[first:last], (begin, turned))
-
-    def _ball_loads(self, packed: PackedScene, start: int, stop: int | None) -> NDArray[np.float64]:
-        if self.ball_place is not None:
-            return self._race_loads(packed, self.ball_place, start, stop)[1]
-        samples = slice(start, stop).indices(len(self.time))[:2]
-        inner, outer = (
-            _sample(self.history, body, 0, self.sample_rate, self._history_rate, *samples)
-            for body in ("inner", "outer")
-        )
-        loads = kernels.elastic_loads(
-            inner - outer,
-            packed.load.active,
-            float(samples[0] * self.scene.cage_speed / self.sample_rate),
-            self.scene.cage_speed / self.sample_rate,
-            packed.contacts,
-            packed.path,
+        begin, turned = float(first * speed / rate), speed / rate
+        if place is not None:
+            rows = self.history[first:last], place[first:last]
+            at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
+            return at_inner, at_outer
+        inner, outer = (self._scaled(body, 0, first, last) for body in ("inner", "outer"))
+        loads = np.asarray(
+            kernels.elastic_loads(
+                inner - outer, packed.load.active, begin, turned, packed.contacts, packed.path
+            )
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
-        return np.asarray(loads)
-
-    def _with_mass(self) -> NDArray[np.float64]:
-        if self.ball_place is None:
-            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
-        return self.ball_place
+        return loads, loads
 
     def table(self) -> ResultTable:
         """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
@@ -265,7 +252,7 @@ class Motion:
         """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
         return self.step_rate if self.ball_place is None else self.sample_rate
 
-    def _accelerations(self, body: str) -> NDArray[np.float64]:
+    def _accelerations(self, body: str) -> Array:
         n, first = len(self.time), 0 if body == "inner" else 3
         if self.filtered is not None:  # of balls with mass not every step is kept
             scaled = self.filtered[first // 3]
@@ -275,11 +262,27 @@ class Motion:
             scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
         return scaled / packing.length_units(self.scene, self.dofs)
 
-    def _sampled(self, body: str, derivative: int) -> NDArray[np.float64]:
-        """A quantity of one body at the sample times, between steps by quintic interpolation."""
-        rate = self._history_rate
-        scaled = _sample(self.history, body, derivative, self.sample_rate, rate, 0, len(self.time))
+    def _sampled(self, body: str, derivative: int) -> Array:
+        """A quantity of one body at the sample times."""
+        scaled = self._scaled(body, derivative, 0, len(self.time))
         return scaled / packing.length_units(self.scene, self.dofs)
+
+    def _scaled(self, body: str, derivative: int, start: int, stop: int) -> Array:
+        """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled.
+
+        Between steps by quintic interpolation.
+        """
+        history, rate = self.history, self._history_rate
+        a_step, a_sample = _ratio(self.sample_rate, rate)
+        first = 0 if body == "inner" else 3
+        n = max(stop - start, 0)
+        if a_step == 1:
+            rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
+            return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
+        out = np.empty((n, history.shape[2]))
+        weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
+        kernels.between_steps(history, first, weights, start, out)
+        return out
 
 
 def simulate(
@@ -305,8 +308,8 @@ def simulate(
         whether to return the balls' loads too.
     step_rate
         [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
-        balls a multiple. None takes that of `default_step_rate`. Samples between steps come from
-        quintic interpolation.
+        balls a multiple and as many as keep a ball from jumping about between its contacts. None
+        takes that of `default_step_rate`. Samples between steps come from quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -351,6 +354,9 @@ def simulate(
             step_rate,
             f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
+    if with_mass and step_rate < (least := least_step_rate(packed)):
+        allowed = f"at least {least:.0f} Hz, or balls with mass jump about between their contacts"
+        raise checks.refuse("step_rate", step_rate, allowed, "Hz")
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
@@ -424,9 +430,7 @@ def simulate(
     return motion.with_ball_loads(packed) if ball_loads else motion
 
 
-def march_from(
-    packed: PackedMotion, rest: Equilibrium, h: float, history: NDArray[np.float64]
-) -> int | None:
+def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:
     """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
 
     Returns the number of steps after which all was finite; None where there is no static state.
@@ -456,7 +460,7 @@ def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.
     return kernels.System(rotor, packed.contacts, packed.path)
 
 
-def static_start(packed: PackedMotion, rest: Equilibrium) -> NDArray[np.float64] | None:
+def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
     """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
 
     `rest` is the static state at cage angle 0.
@@ -493,25 +497,3 @@ def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
             f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
         )
     return (whole, 1) if sample_rate > step_rate else (1, whole)
-
-
-def _sample(
-    history: NDArray[np.float64],
-    body: str,
-    derivative: int,
-    sample_rate: float,
-    step_rate: float,
-    start: int,
-    stop: int,
-) -> NDArray[np.float64]:
-    """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled."""
-    a_step, a_sample = _ratio(sample_rate, step_rate)
-    first = 0 if body == "inner" else 3
-    n = max(stop - start, 0)
-    if a_step == 1:
-        rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
-        return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
-    out = np.empty((n, history.shape[2]))
-    weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / step_rate)
-    kernels.between_steps(history, first, weights, start, out)
-    return out

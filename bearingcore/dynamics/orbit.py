@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.damping import packed_motion
@@ -101,7 +102,7 @@ class Orbit:
     residual: float
     iterations: int
     right_hand_side_calls: int
-    history: NDArray[np.float64] = field(repr=False)
+    history: Array = field(repr=False)
     cost: str = ""
 
     @property
@@ -122,7 +123,7 @@ class Orbit:
             ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
         )
 
-    def outer_acceleration(self, time: ArrayLike) -> NDArray[np.float64]:
+    def outer_acceleration(self, time: ArrayLike) -> Array:
         """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
 
         That of the instant, as the equations of motion give it: it jumps as balls touch, and
@@ -131,7 +132,7 @@ class Orbit:
         time = np.asarray(time, dtype=float).ravel() % self.period
         return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
 
-    def _states(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _states(self, time: Array) -> Array:
         """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
         parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
         # from the equations of motion: it jumps as balls touch, and no interpolation follows that
@@ -140,11 +141,11 @@ class Orbit:
         inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
         return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
 
-    def inner_displacement(self, time: ArrayLike) -> NDArray[np.float64]:
+    def inner_displacement(self, time: ArrayLike) -> Array:
         """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
         return self._sampled(time, 0, 0) / packing.length_units(self.scene, self.dofs)
 
-    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> NDArray[np.float64]:
+    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> Array:
         """Quintic interpolation in the periodic history, tilts times r_d."""
         steps = len(self.history) - 1
         at = np.asarray(time, dtype=float) / self.period * steps % steps
@@ -279,7 +280,8 @@ def orbit(
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     packed = packed_motion(scene)
-    steps = _steps_in(packed, period, step_rate)
+    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
+    steps = max(math.ceil(period * rate), 8)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:
         most = thousands(most_steps)
@@ -303,11 +305,6 @@ def orbit(
         if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
     return shooting.reported(found)
-
-
-def _steps_in(packed: PackedMotion, period: float, step_rate: float | None) -> int:
-    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
-    return max(math.ceil(period * rate), 8)
 
 
 def common_ball_passes(scene: Scene) -> int | None:
@@ -362,13 +359,13 @@ class _Shooting:
         omega = 2.0 * math.pi * highest_frequency_of(packed)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
 
-    def own(self, y: NDArray[np.float64]) -> NDArray[np.float64]:
+    def own(self, y: Array) -> Array:
         """A state of displacements and velocities in the variables that are marched."""
         own = y.copy()
         kernels.turn_smooth(own, 1.0, 0.0, self._system)
         return own
 
-    def marched(self, y: NDArray[np.float64], periods: int = 1) -> NDArray[np.float64]:
+    def marched(self, y: Array, periods: int = 1) -> Array:
         """P(y), or P of P, or more."""
         end = y.copy()
         for _ in range(periods):
@@ -378,9 +375,7 @@ class _Shooting:
             self._count()
         return end
 
-    def with_tangent(
-        self, y: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def with_tangent(self, y: Array) -> tuple[Array, Array]:
         """P(y) and its derivative."""
         both = np.concatenate([y, np.eye(y.size).ravel()])
         kernels.march(both, self._step, 0.0, self._system, self.history)
@@ -403,7 +398,7 @@ class _Shooting:
         )
         return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
-    def miss(self, y: NDArray[np.float64], end: NDArray[np.float64]) -> float:
+    def miss(self, y: Array, end: Array) -> float:
         """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
         size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
         if not (np.all(np.isfinite(end)) and math.isfinite(size)):
@@ -411,9 +406,7 @@ class _Shooting:
         return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
 
 
-def _newton(
-    nothing: Orbit, shooting: _Shooting, y: NDArray[np.float64], period: float, most: int
-) -> Orbit:
+def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: int) -> Orbit:
     end, tangent = shooting.with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
@@ -462,7 +455,7 @@ def _newton(
     )
 
 
-def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> NDArray[np.float64] | None:
+def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> Array | None:
     """The first state of another orbit; None where it moves along other directions or is none."""
     first = start.history[0]
     if start.dofs != dofs:

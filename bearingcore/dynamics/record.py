@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.motion import SETTLING, simulate
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
@@ -47,7 +48,7 @@ class Resonance:
     gain: tuple[float, ...]
     """amount added at its peak, along each direction, to the 1 of the direct path"""
 
-    def transfer(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def transfer(self, frequency: Array) -> NDArray[np.complex128]:
         """Amount added (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
         r = frequency / self.frequency
         return np.asarray(2j * self.damping * r / (1.0 - r**2 + 2j * self.damping * r))
@@ -173,9 +174,7 @@ def simulated_record(
     return Recording(signal, sample_rate, directions, "simulated, along a path", scene.shaft_speed)
 
 
-def wandering_clock(
-    time: NDArray[np.float64], wander: float, scene: Scene, rng: np.random.Generator
-) -> NDArray[np.float64]:
+def wandering_clock(time: Array, wander: float, scene: Scene, rng: np.random.Generator) -> Array:
     """Times [s] (n,) of a steady cage at which one whose speed wanders stands as at `time`.
 
     The speed is a sum of slow sines of a standard deviation `wander` over the record.
@@ -189,7 +188,7 @@ def wandering_clock(
     return np.asarray(time + np.concatenate(([0.0], np.cumsum(speed[:-1]) * (time[1] - time[0]))))
 
 
-def pink_noise(count: int, columns: int, rng: np.random.Generator) -> NDArray[np.float64]:
+def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
     """Noise (count, columns) of deviation 1 whose power falls with frequency."""
     transform = np.fft.rfft(rng.standard_normal((count, columns)), axis=0)
     number = np.arange(len(transform), dtype=float)
@@ -198,9 +197,7 @@ def pink_noise(count: int, columns: int, rng: np.random.Generator) -> NDArray[np
     return np.asarray(noise / noise.std(axis=0))
 
 
-def _at(
-    signal: NDArray[np.float64], rate: float, clock: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _at(signal: Array, rate: float, clock: Array) -> Array:
     """The signal (n, d) at other times [s] than those of its samples."""
     from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
     from scipy.signal import resample_poly
@@ -210,12 +207,8 @@ def _at(
 
 
 def _knocks(
-    scene: Scene,
-    effects: PathEffects,
-    clock: NDArray[np.float64],
-    time: NDArray[np.float64],
-    directions: tuple[str, ...],
-) -> NDArray[np.float64]:
+    scene: Scene, effects: PathEffects, clock: Array, time: Array, directions: tuple[str, ...]
+) -> Array:
     """Ringing (n, d), with a peak of about 1, each time that a ball reaches the far edge."""
     cage, ratio = scene.cage_speed, scene.bearing.cage_ratio
     left = [
@@ -242,7 +235,7 @@ def _knocks(
     return signal
 
 
-def _load_at(scene: Scene, places: NDArray[np.float64]) -> NDArray[np.float64]:
+def _load_at(scene: Scene, places: Array) -> Array:
     """Load of a ball of the healthy bearing at angles [rad], over the greatest."""
     state = equilibrium(scene.healthy())
     angle, load = state.ball_angle.ravel(), np.nan_to_num(state.ball_load.ravel())
@@ -251,9 +244,7 @@ def _load_at(scene: Scene, places: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.interp(places % (2.0 * math.pi), angle[order], share, period=2.0 * math.pi)
 
 
-def _through(
-    signal: NDArray[np.float64], rate: float, resonances: tuple[Resonance, ...]
-) -> NDArray[np.float64]:
+def _through(signal: Array, rate: float, resonances: tuple[Resonance, ...]) -> Array:
     """The signal (n, d) behind a path, each direction by its own gains."""
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.damping import contact_damping
 from bearingcore.dynamics.modes import loaded_directions
 from bearingcore.scene.scene import WITH_MASS, Scene
@@ -68,7 +69,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     return ross.BearingElement(n=node, frequency=speeds, **coefficients, **more)
 
 
-def _mean_matrices(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _mean_matrices(scene: Scene) -> tuple[Array, Array]:
     """Means over all positions of K_b and C_b, (5, 5), balls with mass where it is known."""
     if not scene.bearing.kind.mass_unknown:
         scene = scene.replace(balls=WITH_MASS)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -61,10 +62,10 @@ class SpeedRun:
 
     scene: Scene
     dofs: tuple[str, ...]
-    shaft_speed: NDArray[np.float64]
-    frequency: NDArray[np.float64]
-    density: NDArray[np.float64]
-    ball_pass_frequency: NDArray[np.float64]
+    shaft_speed: Array
+    frequency: Array
+    density: Array
+    ball_pass_frequency: Array
     from_orbit: NDArray[np.bool_]
     bands: dict[str, tuple[float, float]]
     completed: bool
@@ -147,7 +148,7 @@ def speed_run(
     inner = scene.defect_turns
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
 
-    def run_of(density: NDArray[np.float64], **more: Any) -> SpeedRun:
+    def run_of(density: Array, **more: Any) -> SpeedRun:
         return SpeedRun(
             scene=scene,
             dofs=dofs,
@@ -223,11 +224,7 @@ _NONE_LEFT = MotionStatus.TOO_MANY_STEPS + ": none is left of most_steps_in_all 
 
 
 def _steps_of_marching(
-    scene: Scene,
-    speeds: NDArray[np.float64],
-    duration: float,
-    sample_rate: float,
-    most_steps: int,
+    scene: Scene, speeds: Array, duration: float, sample_rate: float, most_steps: int
 ) -> float:
     """Steps that all speeds take if each is marched for so long [s]; 0 where none can be.
 

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore import kernels
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.motion import moving_system
-from bearingcore.dynamics.problem import Array, MotionProblem
+from bearingcore.dynamics.problem import MotionProblem
 from bearingcore.dynamics.status import MotionStatus
 
 

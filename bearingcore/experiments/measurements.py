@@ -216,6 +216,7 @@ def measure(
     words
         of a refusal, for `Measurements.refused`.
     """
+    scene = scene.replace(balls=MASSLESS)
     found = Measurements(preset, this_machine(c_loop))
     for k, name in enumerate(names):
         if cancelled():
@@ -229,20 +230,17 @@ def measure(
 
         watch = Watch(report, cancelled, show)
         try:
-            found = _with(found, name, scene, watch, slow)
+            if name == STABILITY:
+                chart = stability_chart(scene, duration=0.1, watch=watch)
+                found = replace(found, stability=chart)
+            elif name == ORBITS:
+                found = replace(found, orbits=orbits_over_speed(scene, watch))
+            else:
+                one = EXPERIMENTS[name](scene, watch, slow)
+                found = replace(found, experiments={**found.experiments, name: one})
         except CancelledError:
             break
         except ValueError as refused:
             found = replace(found, refused={**found.refused, name: words(refused)})
         shown(found)
     return found
-
-
-def _with(found: Measurements, name: str, scene: Scene, watch: Watch, slow: bool) -> Measurements:
-    scene = scene.replace(balls=MASSLESS)
-    if name == STABILITY:
-        return replace(found, stability=stability_chart(scene, duration=0.1, watch=watch))
-    if name == ORBITS:
-        return replace(found, orbits=orbits_over_speed(scene, watch))
-    one = EXPERIMENTS[name](scene, watch, slow)
-    return replace(found, experiments={**found.experiments, name: one})

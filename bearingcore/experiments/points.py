@@ -213,29 +213,26 @@ class Experiment:
         """
         points = self.points
         return table_of(
-            ("method", "", [p.method for p in points]),
-            ("setting", "", [p.setting for p in points]),
+            ("method", "", "method"),
+            ("setting", "", "setting"),
             *(
                 (
                     re.sub(r"\W+", "_", name).lower() + "_error",
                     self.unit(name),
-                    [_finite(p.errors.get(name, nan)) for p in points],
+                    [e if math.isfinite(e := p.errors.get(name, nan)) else nan for p in points],
                     meaning,
                 )
                 for name, meaning in self.errors.items()
             ),
-            ("time", "s", [p.seconds for p in points]),
-            ("evaluations", "", [p.evaluations for p in points], self.evaluations),
+            ("time", "s", "seconds"),
+            ("evaluations", "", "evaluations", self.evaluations),
             ("status", "", [p.status + self._unbounded(p) for p in points]),
-            ("reference", "", [p.against for p in points]),
+            ("reference", "", "against"),
+            of=points,
         )
 
 
 nan = math.nan
-
-
-def _finite(value: float) -> float:
-    return value if math.isfinite(value) else nan
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import scientific
-from bearingcore.dynamics.problem import Array, MotionProblem
+from bearingcore.dynamics.problem import MotionProblem
 from bearingcore.experiments.integrators import HAS_CVODE, by_cvode, history_of, intervals
 from bearingcore.experiments.points import Reference
 from bearingcore.signals.spectrum_difference import spectrum_difference

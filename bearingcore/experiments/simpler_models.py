@@ -9,12 +9,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_comparison import compare_motions
-from bearingcore.dynamics.curves import curve_errors, stiffness_curves, swings
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import common_ball_passes, orbit
@@ -23,8 +22,6 @@ from bearingcore.scene.scene import DOF_NAMES, MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum_difference import BAND, density_difference, spectrum_difference
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles
-
-Array = NDArray[np.float64]
 
 SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
 """Quantities of errors: the housing's settled acceleration [dB], stiffness over the cage angle, or
@@ -43,6 +40,12 @@ one that takes longer [s] is not repeated."""
 
 N_ANGLES = 361
 """Cage angles over a period of the curves as they are drawn."""
+
+
+_TERMS = np.triu_indices(5)
+
+LEAST_SWING = 0.01
+"""Errors are taken over a curve's swing, but not over less than this part of its size."""
 
 
 @dataclass(frozen=True)
@@ -111,13 +114,14 @@ class Alternatives:
         decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
         shares = [math.nan if of else error for error, of in zip(errors, spectral, strict=True)]
         return table_of(
-            ("model", "", [row.name for row in self.rows]),
-            ("error_of", "", [row.quantity for row in self.rows]),
+            ("model", "", "name"),
+            ("error_of", "", "quantity"),
             ("spectrum_error", "dB", decibels, "greatest, where the spectrum counts"),
             ("swing_error", "1", shares, "over the swing"),
-            ("time", "s", [row.seconds for row in self.rows], "of computing it"),
-            ("own_time", "s", [row.own_seconds for row in self.rows], "of the scene's own model"),
-            ("note", "", [row.note for row in self.rows]),
+            ("time", "s", "seconds", "of computing it"),
+            ("own_time", "s", "own_seconds", "of the scene's own model"),
+            ("note", "", "note"),
+            of=self.rows,
         )
 
 
@@ -152,32 +156,34 @@ class _Measure:
         self.scene = scene
         self.calls = 0
         self.state, self.static_seconds = self._static(scene, N_ANGLES)
+        self.own: Motion  # the scene's, once it was marched
+        self.own_seconds = self.band = math.nan
 
     def rows(self) -> Iterator[Alternative]:
         """One after the other."""
         for dofs in fewer_directions(self.scene):
-            yield self._curves_of_directions(dofs)
+            found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
+            yield self._curves(f"directions {' '.join(dofs)}", found, self.state, seconds)
         yield from (self._cage_angles(n) for n in (121, 1441))
         try:
-            own, seconds = self._march(self.scene)
+            self.own, self.own_seconds = self._march(self.scene)
         except ValueError as error:
             yield Alternative("motion", SPECTRUM, math.nan, math.nan, math.nan, f"none: {error}")
             return
+        self.band = BAND * highest_natural_frequency(self.scene)
         for dofs in fewer_directions(self.scene):
-            row = self._other_march(
-                f"directions {' '.join(dofs)}", self.scene.replace(dofs=dofs), own, seconds
-            )
+            row = self._other_march(f"directions {' '.join(dofs)}", self.scene.replace(dofs=dofs))
             yield replace(row, changes={"dofs": dofs})
-        yield from self._edges(own, seconds)
+        yield from self._edges()
         for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
-            rate = factor * own.step_rate
-            row = self._other_march(words, self.scene, own, seconds, rate)
+            rate = factor * self.own.step_rate
+            row = self._other_march(words, self.scene, rate)
             yield replace(row, changes={"step_rate": rate})
         other = MASSLESS if self.scene.balls == WITH_MASS else WITH_MASS
-        yield replace(self._balls(own, seconds), changes={"balls": other})
+        yield replace(self._balls(), changes={"balls": other})
         if self.scene.balls == MASSLESS:
-            yield self._orbit(own, seconds)
-        yield self._quasi_static(own, seconds)
+            yield self._orbit()
+        yield self._quasi_static()
 
     # Curves
 
@@ -186,19 +192,24 @@ class _Measure:
         found = static_state(scene, default_cage_angles(scene, n))
         return found, time.thread_time() - began
 
-    def _curves_of_directions(self, dofs: tuple[str, ...]) -> Alternative:
-        found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
-        error = _curve_error(found, self.state)
-        name = f"directions {' '.join(dofs)}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds)
+    def _curves(
+        self, name: str, found: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
+    ) -> Alternative:
+        """Error over the swing that 99 % of the cage angles keep below."""
+        error = curve_errors(
+            found.cage_angles,
+            stiffness_curves(found),
+            expected.cage_angles,
+            stiffness_curves(expected),
+        )
+        greatest = float(np.quantile(error, 0.99)) if error.size else math.nan
+        return Alternative(name, CURVES, greatest, seconds, self.static_seconds, note)
 
     def _cage_angles(self, n: int) -> Alternative:
         found, seconds = self._static(self.scene, n)
         coarse, fine = sorted((self.state, found), key=lambda state: state.cage_angles.size)
-        error = _curve_error(coarse, fine)
-        name = f"{found.cage_angles.size} cage angles"
         note = f"drawn: {self.state.cage_angles.size}"
-        return Alternative(name, CURVES, error, seconds, self.static_seconds, note)
+        return self._curves(f"{found.cage_angles.size} cage angles", coarse, fine, seconds, note)
 
     # Motions
 
@@ -216,78 +227,73 @@ class _Measure:
         self.calls += found.right_hand_side_calls
         return found, seconds
 
-    def _difference(self, found: Motion, own: Motion) -> float:
+    def _spectrum(self, name: str, error: float, seconds: float, note: str = "") -> Alternative:
+        return Alternative(name, SPECTRUM, error, seconds, self.own_seconds, note)
+
+    def _without(self, name: str, why: object) -> Alternative:
+        return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
+
+    def _difference(self, found: Motion) -> float:
         """Of settled spectra [dB], in the directions that both have."""
         late = [
             motion.outer_acceleration[
                 len(motion.time) // 2 :,
-                [motion.dofs.index(dof) for dof in own.dofs if dof in found.dofs],
+                [motion.dofs.index(dof) for dof in self.own.dofs if dof in found.dofs],
             ]
-            for motion in (found, own)
+            for motion in (found, self.own)
         ]
-        band = BAND * highest_natural_frequency(self.scene)
-        return spectrum_difference(late[0], late[1], own.sample_rate, band)
+        return spectrum_difference(late[0], late[1], self.own.sample_rate, self.band)
 
-    def _other_march(
-        self,
-        name: str,
-        scene: Scene,
-        own: Motion,
-        own_seconds: float,
-        step_rate: float | None = None,
-    ) -> Alternative:
+    def _other_march(self, name: str, scene: Scene, step_rate: float | None = None) -> Alternative:
         try:
             found, seconds = self._march(scene, step_rate)
         except ValueError as refused:
-            return _without(name, own_seconds, refused)
-        error = self._difference(found, own)
-        note = f"{with_prefix(found.step_rate, 'Hz')}, drawn: {with_prefix(own.step_rate, 'Hz')}"
-        return Alternative(name, SPECTRUM, error, seconds, own_seconds, note)
+            return self._without(name, refused)
+        drawn = with_prefix(self.own.step_rate, "Hz")
+        note = f"{with_prefix(found.step_rate, 'Hz')}, drawn: {drawn}"
+        return self._spectrum(name, self._difference(found), seconds, note)
 
-    def _edges(self, own: Motion, own_seconds: float) -> Iterator[Alternative]:
+    def _edges(self) -> Iterator[Alternative]:
         """The other models of the edges of all defects."""
         defects = self.scene.defects
         for edge in EDGES if defects else ():
             if any(one.edge != edge for one in defects):
                 scene = self.scene.replace(defect=tuple(replace(d, edge=edge) for d in defects))
-                row = self._other_march(f"{edge} edges", scene, own, own_seconds)
+                row = self._other_march(f"{edge} edges", scene)
                 yield replace(row, changes={"edge": edge} if len(defects) == 1 else {})
 
-    def _balls(self, own: Motion, own_seconds: float) -> Alternative:
+    def _balls(self) -> Alternative:
         heavy = self.scene.balls == WITH_MASS
         name = "massless balls" if heavy else "balls with mass"
         try:
             found, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
         except ValueError as refused:
-            return _without(name, own_seconds, refused)
-        pair = (found, own) if heavy else (own, found)
-        comparison = compare_motions(*pair)
-        counts = comparison.edges[1:] <= BAND * highest_natural_frequency(self.scene)
-        added = np.abs(comparison.added[counts])
+            return self._without(name, refused)
+        comparison = compare_motions(*((found, self.own) if heavy else (self.own, found)))
+        added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
-        return Alternative(name, SPECTRUM, error, seconds, own_seconds, comparison.sentence)
+        return self._spectrum(name, error, seconds, comparison.sentence)
 
-    def _orbit(self, own: Motion, own_seconds: float) -> Alternative:
-        name = "periodic orbit"
+    def _orbit(self) -> Alternative:
+        name, own = "periodic orbit", self.own
         if common_ball_passes(self.scene) is None:
-            return _without(name, own_seconds, "the motion never repeats itself")
+            return self._without(name, "the motion never repeats itself")
         began = time.thread_time()
         found = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began
         self.calls += found.right_hand_side_calls
         if not found.stable:
             why = "unstable" if found.multipliers.size else found.status
-            return replace(_without(name, own_seconds, why), seconds=seconds)
+            return replace(self._without(name, why), seconds=seconds)
         half = len(own.time) // 2
-        band = BAND * highest_natural_frequency(self.scene)
         since, rate = float(own.time[half]), own.sample_rate
         settled = own.spectrum(since=since)
         lines = found.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
-        error = density_difference(lines, settled, band)
-        return Alternative(name, SPECTRUM, error, seconds, own_seconds)
+        return self._spectrum(name, density_difference(lines, settled, self.band), seconds)
 
-    def _quasi_static(self, own: Motion, own_seconds: float) -> Alternative:
+    def _quasi_static(self) -> Alternative:
         """The inner ring at rest at every instant, against the ring that moves."""
+        own = self.own
         half = len(own.time) // 2
         angles = self.scene.cage_speed * own.time[half:]
         began = time.thread_time()
@@ -304,18 +310,7 @@ class _Measure:
         apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing
         error = float(apart.max()) if np.isfinite(apart).all() else math.nan
         note = "no vibration at all: the rings are at rest at every cage angle"
-        return Alternative("quasi-static", DISPLACEMENT, error, seconds, own_seconds, note)
-
-
-def _curve_error(found: Equilibrium, expected: Equilibrium) -> float:
-    """Error over the swing that 99 % of the cage angles keep below."""
-    error = curve_errors(
-        found.cage_angles,
-        stiffness_curves(found),
-        expected.cage_angles,
-        stiffness_curves(expected),
-    )
-    return float(np.quantile(error, 0.99)) if error.size else math.nan
+        return Alternative("quasi-static", DISPLACEMENT, error, seconds, self.own_seconds, note)
 
 
 def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
@@ -326,5 +321,45 @@ def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
     return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
 
 
-def _without(name: str, own_seconds: float, why: object) -> Alternative:
-    return Alternative(name, SPECTRUM, math.nan, math.nan, own_seconds, f"not computed: {why}")
+def stiffness_curves(state: Equilibrium) -> Array:
+    """(n, 15) the terms of the stiffness, in their units; NaN where there is no answer."""
+    return state.stiffness[:, *_TERMS]
+
+
+def swings(values: Array) -> Array:
+    """(m,) what errors of curves (n, m) are taken over: swings, or LEAST_SWING of the size.
+
+    A term that symmetry makes zero is measured by the size of its neighbours: 1 where nothing is.
+    """
+    known = values[np.isfinite(values).all(axis=1)]
+    if not known.size:
+        return np.ones(values.shape[1])
+    size = np.abs(known).max(axis=0)
+    swing = np.maximum(np.ptp(known, axis=0), LEAST_SWING * size)
+    if values.shape[1] == 15:  # stiffness: a term counts over the diagonal ones of its directions
+        rows, columns = _TERMS
+        diagonal = size[rows == columns]
+        swing = np.maximum(swing, 1e-6 * np.sqrt(diagonal[rows] * diagonal[columns]))
+    return np.where(swing > 0.0, swing, 1.0)
+
+
+def curve_errors(angles: Array, values: Array, dense: Array, expected: Array) -> Array:
+    """Error of straight lines between cage angles: the greatest of all curves, over its swing.
+
+    Parameters
+    ----------
+    angles : (n,) [rad], values : (n, m)
+        cage angles, rising, and the curves there.
+    dense : (k,) [rad], expected : (k, m)
+        the same at far more angles.
+
+    Returns
+    -------
+    (≤ k,)
+        at those of the far more angles where all curves have an answer.
+    """
+    lines = np.stack(
+        [np.interp(dense, angles, values[:, i]) for i in range(values.shape[1])], axis=1
+    )
+    error = np.abs(lines - expected) / swings(expected)
+    return np.asarray(error[np.isfinite(error).all(axis=1)].max(axis=1, initial=0.0))

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import scientific
 from bearingcore.experiments.points import (
     NOT_WATCHED,
@@ -32,8 +33,6 @@ from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
 from bearingcore.statics.passes import drops_at, path_kinks
-
-Array = NDArray[np.float64]
 
 STATIC_ERRORS = {
     "stiffness": "greatest error of a stiffness term over the size of the term, or of its "
@@ -86,7 +85,7 @@ def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     load = float(np.linalg.norm(force[active]))
     if load > 0.0:
         reach = packed.clearance[0] / packed.line_r[0]
-        reach += packing.typical_compression(scene.bearing, load)
+        reach += packed.compression(load)
         guess[active] = reach * force[active] / load
     drop = drops_at(scene, angles)
     return StaticProblem(
@@ -408,7 +407,8 @@ def statics_experiment(
     for k, (case, problem) in enumerate(problems.items()):
         report(k / len(problems))
         truths[case] = static_reference(problem)
-    _refuse_without(truths[""].known, scene)
+    if not truths[""].known.any():
+        raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
     for name in SOLVERS:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
             SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
@@ -438,12 +438,6 @@ def statics_experiment(
         watch,
         begin=0.1,
     )
-
-
-def _refuse_without(known: NDArray[np.bool_], scene: Scene) -> None:
-    """Raise ValueError where no cage angle has an equilibrium."""
-    if not known.any():
-        raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
 
 
 HARD_CASES = ("all balls just touching", "a ball at an edge", "clearance closed")

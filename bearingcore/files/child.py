@@ -18,9 +18,9 @@ from threading import Thread, Timer
 from typing import IO, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 PROCESSOR_SECONDS = 10
 """[s] of computing that reading a file may take."""
@@ -57,7 +57,7 @@ def read_file(
     text_only: bool = False,
     most_numbers: int = MOST_NUMBERS,
     most_columns: int = MOST_COLUMNS,
-) -> tuple[dict[str, Any], NDArray[np.float64]]:
+) -> tuple[dict[str, Any], Array]:
     """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
 
     Parameters
@@ -127,9 +127,7 @@ def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
         pipe.close()
 
 
-def _received(
-    pipe: IO[bytes], most_numbers: int
-) -> tuple[dict[str, Any], NDArray[np.float64]] | None:
+def _received(pipe: IO[bytes], most_numbers: int) -> tuple[dict[str, Any], Array] | None:
     """Output of the process, limited in size; None where it ended early."""
     line = pipe.readline(LONGEST_ANSWER)
     if not line.endswith(b"\n"):

@@ -180,9 +180,9 @@ _FORCES = {**FORCES, "hundred_N": 100.0}
 
 @dataclass(frozen=True)
 class Known:
-    """Facts that follow for a file from its look; see `Collection`. The load is in N."""
+    """Facts that follow for a file from its look, as those of `row`, in SI units."""
 
-    collection: str = ""
+    row: Collection = Collection("", "")
     why: str = ""
     unit: Finding[str] | None = None
     sample_rate: Finding[float] | None = None
@@ -190,10 +190,6 @@ class Known:
     load: Finding[float] | None = None
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
-    place: str = ""
-    places: tuple[str, ...] = ()
-    directions: tuple[str, ...] = ()
-    signals: str = ""
 
 
 def recognize(
@@ -251,7 +247,7 @@ def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Name
         elif text is not None:
             force = _guess(float(text) * _FORCES[group], f"the file's name, {why}")
     return Known(
-        row.name,
+        row,
         why,
         _guess(row.unit, f"{why}, which is in {row.unit}") if row.unit else None,
         _guess(row.sample_rate, f"{why}, which was sampled so") if row.sample_rate else None,
@@ -259,10 +255,6 @@ def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Name
         force,
         _guess(row.bearing, why) if row.bearing else None,
         _guess(row.orders, why) if row.orders else None,
-        row.place,
-        row.places,
-        row.directions,
-        row.signals,
     )
 
 

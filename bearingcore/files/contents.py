@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number
 from bearingcore.files import facts
 from bearingcore.files.channels import (
@@ -80,7 +80,7 @@ class FileColumns:
     """
 
     names: tuple[str, ...]
-    columns: NDArray[np.float64] = field(repr=False)
+    columns: Array = field(repr=False)
     sample_rate: float | None = None
     scalars: Mapping[str, float] = field(default_factory=dict)
     name: str = ""
@@ -161,7 +161,8 @@ def contents_of(table: FileColumns) -> FileContents:
         *facts.named_in(table.remarks),
         *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
     ]
-    clock = 0 if table.headed and not _headed_clock(table.names) else clock_columns(table.columns)
+    hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
+    clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
     known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
@@ -178,7 +179,7 @@ def contents_of(table: FileColumns) -> FileContents:
         moving,
         "as given" if by_hand else known.why or ("as the headings say" if headed else ""),
         table.name,
-        known.place,
+        known.row.place,
     )
     if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
         choice = Choice(
@@ -198,15 +199,11 @@ def contents_of(table: FileColumns) -> FileContents:
         said,
         facts.bearing_frequencies_in(named),
         facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
-        known.collection,
+        known.row.name,
         known.bearing,
         known.orders,
         facts.designation_in([*table.remarks, *(f"{k}: {v}" for k, v in table.texts.items())]),
     )
-
-
-def _headed_clock(names: Sequence[str]) -> bool:
-    return names[0].strip().lower() in ("hour", "hours", "h", "stunde")
 
 
 def _columns(
@@ -226,17 +223,18 @@ def _columns(
         for index, unit in zip(signals, said, strict=True):
             role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
             columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    if known.signals:
+    if known.row.signals:
         columns = [
-            column if re.fullmatch(known.signals, column.name) else Column(column.name, OTHER)
+            column if re.fullmatch(known.row.signals, column.name) else Column(column.name, OTHER)
             for column in columns
         ]
-    if known.places:
+    if known.row.places:
         columns = [
             dataclasses.replace(column, place=place)
-            for column, place in zip(columns, known.places, strict=True)
+            for column, place in zip(columns, known.row.places, strict=True)
         ]
-    for index, axis in enumerate(known.directions, len(columns) - len(known.directions)):
+    along = known.row.directions
+    for index, axis in enumerate(along, len(columns) - len(along)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
@@ -339,13 +337,13 @@ def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
     )
 
 
-def _counts(time: NDArray[np.float64], column: Column) -> bool:
+def _counts(time: Array, column: Column) -> bool:
     """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
     whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
     return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
 
 
-def _moves(signal: NDArray[np.float64]) -> bool:
+def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size > 0 and bool(np.ptp(finite) > 0.0)
 
@@ -390,7 +388,7 @@ def _unit(
     return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
 
 
-def _unit_by_level(signals: NDArray[np.float64], all_signals: NDArray[np.float64]) -> Finding[str]:
+def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
     """The unit in which signals are more like those of bearings; gravity may be on any of all."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files

@@ -14,8 +14,8 @@ from itertools import islice, pairwise, takewhile
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.files.units import (
     FORCES,
     SPEEDS,
@@ -80,7 +80,7 @@ class Named:
 _STEADY = 0.02
 
 
-def is_steady(values: NDArray[np.float64]) -> bool:
+def is_steady(values: Array) -> bool:
     """Whether numbers, such as those of a speed, vary so little that they count as one."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 
@@ -252,8 +252,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     if found:
         first = found[0]
         if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
-            reason = f"{first.reason}, which names another one too"
-            return dataclasses.replace(first, reason=reason, stated=False)
+            return _doubted(first)
         if LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
         if LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
@@ -314,9 +313,13 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         return None
     first = next((one for one in found if one.stated), found[-1])
     if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
-        reason = f"{first.reason}, which names another one too"
-        return dataclasses.replace(first, reason=reason, stated=False)
+        return _doubted(first)
     return first
+
+
+def _doubted(first: Finding[float]) -> Finding[float]:
+    reason = f"{first.reason}, which names another one too"
+    return dataclasses.replace(first, reason=reason, stated=False)
 
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:

@@ -6,12 +6,14 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import json
+import math
 import re
 import warnings
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -19,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
 from bearingcore.files.facts import is_steady
-from bearingcore.files.octave import walk_octave
 from bearingcore.files.text import read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -35,7 +37,7 @@ MOST_SCALARS = 200
 LONGEST_TEXT = 1000
 """[characters] of words that are kept."""
 
-Answer = tuple[dict[str, Any], NDArray[np.float64]]
+Answer = tuple[dict[str, Any], Array]
 
 
 def read(
@@ -64,29 +66,10 @@ def read(
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     found = Variables()
-    known = libraries.library_for(name, content)
-    kind: str
-    walk: Any
-    if b"\x89HDF\r\n\x1a\n" in (content[:8], content[512:520]):  # MATLAB 7.3 puts text before it
-        kind, walk = "HDF5 file", _walk_hdf5
-    elif known is not None:
-        kind, walk = known
-    elif content[:4] == b"PK\x03\x04":
-        kind, walk = "NumPy file", libraries.npz
-    elif re.match(rb"# Created by Octave", content):
-        kind, walk = "text of Octave", _walk_octave
-    elif re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
-        kind, walk = "JSON file", lambda _, found: _walk_json(values, "", found, 0)
-    elif content[:6] == b"Octave":
-        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
-    elif (
-        content[:6] == b"MATLAB"
-        or content[126:128] in (b"IM", b"MI")
-        or name.lower().endswith(".mat")
-    ):
-        kind, walk = "MATLAB file", _walk_matlab
-    else:
+    known = _format_of(name, content)
+    if known is None:
         return read_text(name, content, most_numbers, most_columns)
+    kind, walk = known
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -98,6 +81,36 @@ def read(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
     return found.table(name, kind, most_numbers, most_columns)
+
+
+Walk = Callable[[bytes, "Variables"], None]
+"""Puts the variables of a content into the second argument."""
+
+
+def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
+    """Name and reader of a format, by the first bytes; None of text with numbers.
+
+    Raises
+    ------
+    FieldError
+        where the format's library is not installed.
+    """
+    for mark, kind, walk, package in _FORMATS:
+        if re.match(mark, content, re.DOTALL):
+            if package and importlib.util.find_spec(package.lower()) is None:
+                raise checks.refuse(
+                    "file",
+                    name,
+                    f"a {kind} only where the package {package} is installed (pip install "
+                    f"{package}); else export it as CSV from the program that wrote it",
+                )
+            return kind, walk
+    if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
+        return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+    if content[:6] == b"Octave":
+        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
+    marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
+    return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
 
 
 def _unzipped_alone(name: str, content: bytes) -> bytes:
@@ -256,10 +269,6 @@ def _check_depth(depth: int) -> None:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
-def _walk_octave(content: bytes, found: Variables) -> None:
-    walk_octave(content, found.add)
-
-
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
 
 
@@ -358,3 +367,99 @@ def _as_in_matlab(data: Any) -> NDArray[Any]:
     if kind == b"char" and values.dtype.kind in "iu":
         return np.array("".join(map(chr, values.T.ravel()[:LONGEST_TEXT].tolist())))
     return values.astype(bool) if kind == b"logical" else values
+
+
+# -- Octave's text, which its `save` writes where no other is asked for ----------------------------
+
+
+def _walk_octave(content: bytes, found: Variables) -> None:
+    """Each value has a head of lines such as "# type: matrix"."""
+    text = _Lines(content.decode("latin-1").splitlines())
+    while text.skip_to("name"):
+        _octave(text, text.said("name"), found, 0)
+
+
+class _Lines:
+    """Lines that are read one after another."""
+
+    def __init__(self, lines: list[str]) -> None:
+        self._lines, self._place = lines, 0
+
+    def skip_to(self, key: str) -> bool:
+        """Whether there is another line with this key; it is the next one."""
+        while self._place < len(self._lines):
+            if self._lines[self._place].startswith(f"# {key}:"):
+                return True
+            self._place += 1
+        return False
+
+    def said(self, key: str) -> str:
+        """The word of the next line with this key."""
+        if not self.skip_to(key):
+            raise ValueError(key)
+        return self.take(1)[0].partition(":")[2].strip()
+
+    def take(self, count: int) -> list[str]:
+        """The next lines."""
+        if count < 0 or self._place + count > len(self._lines):
+            raise ValueError("the end of the text")
+        self._place += count
+        return self._lines[self._place - count : self._place]
+
+    def numbers(self, count: int) -> np.ndarray:
+        """The numbers of the next lines in a row."""
+        return np.array(" ".join(self.take(count)).split(), dtype=float)
+
+    def numbers_after(self, key: str) -> np.ndarray:
+        """The numbers of the line after the one that begins so."""
+        while not self.take(1)[0].startswith(f"# {key}"):
+            pass
+        return self.numbers(1)
+
+    def holds(self, key: str) -> bool:
+        """Whether the next line has this key."""
+        return self._lines[self._place].startswith(f"# {key}:")
+
+
+def _octave(text: _Lines, path: str, found: Variables, depth: int) -> None:
+    """A value of any type; those that are no numbers or words are passed over."""
+    _check_depth(depth)
+    kind = text.said("type")
+    if "complex" in kind or "sparse" in kind:
+        return
+    if kind in ("scalar struct", "cell"):
+        keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
+        inside = math.prod(int(text.said(key)) for key in keys)
+        for index in range(inside):
+            name = text.said("name")
+            part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
+            _octave(text, part, found, depth + 1)
+    elif kind in ("string", "sq_string"):
+        if int(text.said("elements")):
+            found.add(path, np.array([text.take(2)[1]]))
+    elif kind.endswith("scalar"):
+        found.add(path, text.numbers(1))
+    elif kind.endswith("range"):
+        base, limit, step = text.numbers_after("base, limit, increment")
+        found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
+    elif kind.endswith("matrix") and text.holds("rows"):
+        shape = int(text.said("rows")), int(text.said("columns"))
+        found.add(path, text.numbers(shape[0]).reshape(shape))
+    elif kind.endswith("matrix") and text.holds("ndims"):  # of whole numbers, or of more dimensions
+        text.said("ndims")
+        sizes = text.numbers(1).astype(int).tolist()
+        found.add(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))
+
+
+_FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
+    # MATLAB 7.3 puts text before HDF5
+    (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
+    (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
+    (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
+    (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
+    (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
+    (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
+    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", libraries.uff, "pyuff"),
+    (rb"# Created by Octave", "text of Octave", _walk_octave, ""),
+)
+"""Formats by their first bytes, what reads each, and the package that it needs."""

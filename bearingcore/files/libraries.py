@@ -5,12 +5,10 @@ Runs in the process of `child` alone. The libraries come with the extra `files`.
 
 from __future__ import annotations
 
-import importlib.util
 import io
 import os
 import re
 import zipfile
-from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from unittest.mock import patch
@@ -36,27 +34,6 @@ _DOCUMENT = re.compile(
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
-
-
-def library_for(name: str, content: bytes) -> tuple[str, Callable[[bytes, Variables], None]] | None:
-    """Name and reader of the format of a file, by its first bytes; None where it is none of these.
-
-    Raises
-    ------
-    FieldError
-        where the format's library is not installed.
-    """
-    for mark, kind, walk, package in _KINDS:
-        if re.match(mark, content, re.DOTALL):
-            if package and importlib.util.find_spec(package[0]) is None:
-                raise checks.refuse(
-                    "file",
-                    name,
-                    f"a {kind} only where the package {package[1]} is installed (pip install "
-                    f"{package[1]}); else export it as CSV from the program that wrote it",
-                )
-            return kind, walk
-    return None
 
 
 def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
@@ -111,7 +88,8 @@ def is_npz(content: bytes) -> bool:
     return bool(names) and all(name.endswith(".npy") for name in names)
 
 
-def _npy(content: bytes, found: Variables) -> None:
+def npy(content: bytes, found: Variables) -> None:
+    """The array of NumPy's `save`."""
     array = np.load(io.BytesIO(content), allow_pickle=False)
     found.add("" if array.dtype.names else "array", array)
 
@@ -131,7 +109,8 @@ def in_seconds(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return values / np.timedelta64(1, "s")
 
 
-def _frame(content: bytes, found: Variables) -> None:
+def data_frame(content: bytes, found: Variables) -> None:
+    """Columns of numbers, dates and durations of a data frame."""
     import pandas as pd
 
     if content[:4] == b"PAR1":
@@ -150,7 +129,8 @@ def _frame(content: bytes, found: Variables) -> None:
             found.add(f"{name} [s]" if dated else str(name), column)
 
 
-def _tdms(content: bytes, found: Variables) -> None:
+def tdms(content: bytes, found: Variables) -> None:
+    """Channels of all groups, and what the file says of each."""
     from nptdms import TdmsFile
 
     with TdmsFile.read(io.BytesIO(content)) as file:
@@ -165,7 +145,8 @@ def _tdms(content: bytes, found: Variables) -> None:
                 found.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 
-def _uff(content: bytes, found: Variables) -> None:
+def uff(content: bytes, found: Variables) -> None:
+    """Signals over time, data set 58."""
     import pyuff
 
     # it takes names of files alone, and this process writes none
@@ -193,12 +174,3 @@ def _uff(content: bytes, found: Variables) -> None:
 
 
 _AXES = {1: "x", 2: "y", 3: "z"}
-
-_KINDS: tuple[tuple[bytes, str, Callable[[bytes, Variables], None], tuple[str, str] | None], ...]
-_KINDS = (
-    (rb"\x93NUMPY", "NumPy file", _npy, None),
-    (rb"PAR1", "Parquet file", _frame, ("pyarrow", "pyarrow")),
-    (rb"ARROW1", "Feather file", _frame, ("pyarrow", "pyarrow")),
-    (rb"TDSm", "TDMS file", _tdms, ("nptdms", "npTDMS")),
-    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", _uff, ("pyuff", "pyuff")),
-)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array, runs
 from bearingcore.common.numbers import count, number, thousands, with_prefix
 from bearingcore.files.facts import GREATEST_STATED, LEAST_STATED
 from bearingcore.files.units import TIMES
@@ -69,7 +70,7 @@ _SINCE_1970 = 1e9, 2.6e9
 """[s] from 2001 to 2052, counted as computers do."""
 
 
-def times_of(time: NDArray[np.float64], unit: str | None = None, *, sure: bool = False) -> Sampling:
+def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
     """Sample rate and faults of a column of times whose unit may not be known.
 
     Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
@@ -107,15 +108,14 @@ _PARTS = ("s", "ms", "µs", "ns", "d")
 
 def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
     """First and last (excluded) of the longest stretch that is true all along."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
-    if not edges.size:
+    starts, ends = runs(good)
+    if not starts.size:
         return 0, 0
-    starts, ends = edges[::2], edges[1::2]
     longest = int((ends - starts).argmax())
     return int(starts[longest]), int(ends[longest])
 
 
-def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
+def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)
     if not np.isfinite(time).all():
@@ -145,7 +145,7 @@ def sampling_of(time: NDArray[np.float64], unit: float = 1.0) -> Sampling:
     return _with_jumps(time, steps, unit)
 
 
-def _even(time: NDArray[np.float64]) -> tuple[float, float] | None:
+def _even(time: Array) -> tuple[float, float] | None:
     """Rate and its error, in the column's unit, of times in even steps, or None."""
     n = len(time)
     step = float(time[-1] - time[0]) / (n - 1)
@@ -170,7 +170,7 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
     return near if abs(near - rate) <= 1.2 * error else rate
 
 
-def _rounded(time: NDArray[np.float64], steps: NDArray[np.float64]) -> float | None:
+def _rounded(time: Array, steps: Array) -> float | None:
     """Grain to which times were rounded where this is more than a step, else None."""
     if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
         return None
@@ -180,7 +180,7 @@ def _rounded(time: NDArray[np.float64], steps: NDArray[np.float64]) -> float | N
     return grain if stray.max() <= 1.01 * grain else None
 
 
-def _rounded_times(grain: float, time: NDArray[np.float64], unit: float) -> Sampling:
+def _rounded_times(grain: float, time: Array, unit: float) -> Sampling:
     n = len(time)
     rate = (n - 1) / float(time[-1] - time[0])
     error = 2.0 * rate * grain / float(time[-1] - time[0])
@@ -197,7 +197,7 @@ def _rounded_times(grain: float, time: NDArray[np.float64], unit: float) -> Samp
     return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
 
 
-def _with_jumps(time: NDArray[np.float64], steps: NDArray[np.float64], unit: float) -> Sampling:
+def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     """Times that jump: the longest part between two jumps."""
     n = len(time)
     usual = float(np.median(steps[steps > 0.0]))
@@ -230,12 +230,7 @@ def _with_jumps(time: NDArray[np.float64], steps: NDArray[np.float64], unit: flo
 
 
 def _jumps(
-    steps: NDArray[np.float64],
-    jumps: NDArray[np.intp],
-    usual: float,
-    first: int,
-    last: int,
-    shared: bool,
+    steps: Array, jumps: NDArray[np.intp], usual: float, first: int, last: int, shared: bool
 ) -> str:
     """Sentence on jumps; where rows share times the number of missing samples is not known."""
     back = int((steps[jumps] <= 0.0).sum())
@@ -258,7 +253,7 @@ def _jumps(
     )
 
 
-def clock_columns(columns: NDArray[np.float64]) -> int:
+def clock_columns(columns: Array) -> int:
     """Number of columns, from the first on, that are hours, minutes, seconds (and parts of them).
 
     4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
@@ -282,7 +277,7 @@ def clock_columns(columns: NDArray[np.float64]) -> int:
     return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
 
 
-def clock_time(columns: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+def clock_time(columns: Array, count: int) -> Array:
     """Seconds since the first row of `count` columns that `clock_columns` found."""
     hour, minute, second = columns[:, :3].T
     whole = 3600.0 * hour + 60.0 * minute + second

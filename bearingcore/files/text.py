@@ -19,9 +19,9 @@ from itertools import islice
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
 from bearingcore.files.facts import named_in, names_a_fact, units_said
@@ -65,7 +65,7 @@ MOST_SIGNALS_MIXED = 32
 
 def read_text(
     name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], NDArray[np.float64]]:
+) -> tuple[dict[str, Any], Array]:
     """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
@@ -90,10 +90,11 @@ def read_text(
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
-    style, width, begin, remarks = _beginning(name, content)
+    style, begin, remarks = _beginning(name, content)
+    width = style.width
     if width > min(LONG_ROW, most_columns):
         fewer = most_columns if width > most_columns else LONG_ROW
-        turned = _rows(content[begin:], style, width, min(fewer, width))
+        turned = _rows(content[begin:], style, min(fewer, width))
         if turned is not None and turned[0].size <= most_numbers:
             columns, names = turned
             return _about(columns, names or _headings(remarks, style, columns), remarks)
@@ -104,13 +105,13 @@ def read_text(
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
     most_rows = most_numbers // width + 1
-    body, notes = _without_a_cut_line(content[begin:], style, width)
-    read = _numbers(body, style, width, most_rows)
+    body, notes = _without_a_cut_line(content[begin:], style)
+    read = _numbers(body, style, most_rows)
     if read is None:
         above = content.count(b"\n", 0, begin) + 1
-        body, more = _mended(name, body, style, width, above)
+        body, more = _mended(name, body, style, above)
         notes += more
-        read = _numbers(body, style, width, most_rows)
+        read = _numbers(body, style, most_rows)
         if read is None:
             raise checks.refuse("file", name, READABLE)
     if read.size > most_numbers:
@@ -140,8 +141,8 @@ def _of_two_bytes(start: bytes) -> str:
 
 
 def _about(
-    columns: NDArray[np.float64], headings: list[str] | None, remarks: list[str], *more: list[Any]
-) -> tuple[dict[str, Any], NDArray[np.float64]]:
+    columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
+) -> tuple[dict[str, Any], Array]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
     kept = [line[:LONGEST_REMARK] for line in remarks]
     fields = {"names": names, "remarks": kept, "headed": headings is not None}
@@ -216,10 +217,11 @@ def _day(text: str) -> int:
 
 @dataclass(frozen=True)
 class _Style:
-    """Style of lines of numbers; None as delimiter: blanks."""
+    """Style of lines of numbers, `width` in each; None as delimiter: blanks."""
 
     delimiter: str | None
     decimal_comma: bool
+    width: int = 0
     stamps: tuple[int, ...] = ()
     words: tuple[int, ...] = ()
     clock: Callable[[re.Match[str]], str] | None = field(default=None, compare=False)
@@ -299,30 +301,27 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
     return found
 
 
-def _style(lines: Sequence[str], above: str) -> tuple[_Style, int] | None:
-    """Style of the first line, and its columns; None where it holds anything but numbers.
+def _style(lines: Sequence[str], above: str) -> _Style | None:
+    """Style of the first line; None where it holds anything but numbers.
 
     The lines that follow, and the headings `above`, decide where more than one way would do.
     """
-    found: list[tuple[int, _Style, int]] = []
+    found: list[tuple[int, _Style]] = []
     for style in _STYLES:
         if style.delimiter is not None and style.delimiter not in lines[0]:
             continue
         made = _fitted(style, lines)
         if made is not None:
-            fits, full, width = made
-            headed = width > 1 and len(_cells(above, style.delimiter)) == width
-            found.append((fits + headed * len(lines), full, width))
-    if not found:
-        return None
-    _, best, width = max(found, key=lambda made: made[0])
-    return best, width
+            fits, full = made
+            headed = full.width > 1 and len(_cells(above, style.delimiter)) == full.width
+            found.append((fits + headed * len(lines), full))
+    return max(found, key=lambda made: made[0])[1] if found else None
 
 
-def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | None:
-    """Number of lines that a style reads, the style in full, and the columns of the first."""
+def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
+    """Number of lines that a style reads, and the style in full, as wide as the first."""
     clocked = style.stamp.search(lines[0]) is not None
-    trial = _Style(style.delimiter, style.decimal_comma, clock=_Clock() if clocked else None)
+    trial = dataclasses.replace(style, clock=_Clock() if clocked else None)
     plain = trial.plain("\n".join(lines)).split("\n")
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
@@ -345,7 +344,7 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style, int] | No
     cells = _cells(marked, style.delimiter)[:width]
     stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
     clock = _Clock() if clocked else None
-    return fits, _Style(style.delimiter, style.decimal_comma, stamps, words, clock), width
+    return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
 
 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
@@ -387,8 +386,8 @@ def _decoded(line: bytes) -> str:
         return line.decode("cp1252", "replace").rstrip("\r\n")
 
 
-def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
-    """Style of numbers, columns, the first byte of numbers, and the lines above them."""
+def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
+    """Style of numbers, the first byte of them, and the lines above."""
     remarks: list[str] = []
     words, begin, place = 0, "", 0
     for line in io.BytesIO(content):
@@ -404,7 +403,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, int, list[str]]:
             numbered = _is_numbered(sample)
             found = None if numbered else _style(sample, remarks[-1] if remarks else "")
             if found is not None:
-                return *_one_column(*found, sample, remarks), place, remarks
+                return _one_column(found, sample, remarks), place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
             if words > MOST_HEADINGS:
@@ -432,20 +431,17 @@ def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
             yield text
 
 
-def _one_column(
-    style: _Style, width: int, lines: Sequence[str], remarks: Sequence[str]
-) -> tuple[_Style, int]:
+def _one_column(style: _Style, lines: Sequence[str], remarks: Sequence[str]) -> _Style:
     """One column of numbers with commas, where a heading of one word is above pairs."""
-    if style.delimiter == "," and width == 2 and remarks and not re.search(r"[,;\t]", remarks[-1]):
+    pairs = style.delimiter == "," and style.width == 2
+    if pairs and remarks and not re.search(r"[,;\t]", remarks[-1]):
         whole = all(_TWO_WHOLE.fullmatch(line.replace('"', "")) for line in lines)
         if whole and len({_cells(line, ",")[0] for line in lines}) < len(lines):
-            return _Style(None, True), 1
-    return style, width
+            return _Style(None, True, 1)
+    return style
 
 
-def _headings(
-    remarks: Sequence[str], style: _Style, columns: NDArray[np.float64]
-) -> list[str] | None:
+def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
     """The names of the columns, out of the last line above them that fits; each with its unit.
 
     A line of units alone may be between the names and the numbers. Columns without a name are
@@ -539,7 +535,7 @@ def _unit_alone(cell: str) -> str | None:
 _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
 
 
-def _names(line: str, style: _Style, columns: NDArray[np.float64]) -> list[str] | None:
+def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     """The cells of a heading, by any delimiter, if there are as many as columns.
 
     Names of columns of words, and of rows, need not be there.
@@ -579,17 +575,18 @@ def _is_a_value(cells: Sequence[str]) -> bool:
     return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
 
 
-def _counts_rows(column: NDArray[np.float64]) -> bool:
+def _counts_rows(column: Array) -> bool:
     return len(column) > 1 and column[0] in (0.0, 1.0) and bool(np.all(np.diff(column) == 1.0))
 
 
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[np.float64] | None:
+def _numbers(body: bytes, style: _Style, most_rows: int) -> Array | None:
     """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
     import pandas as pd
 
+    width = style.width
     plain = style.plain(body.decode("latin-1"))
     if "%" in plain or "\n " in plain:
         plain = re.sub(r"(?m)^(?: +\r?|%.*)$\n?", "", plain)
@@ -625,15 +622,14 @@ def _numbers(body: bytes, style: _Style, width: int, most_rows: int) -> NDArray[
     columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
     lines = io.BytesIO(body)
-    if unsure and next(_wrong_lines(lines, style, width), None) is not None:
+    if unsure and next(_wrong_lines(lines, style), None) is not None:
         return None  # pandas fills short lines
     return columns[:, :width]
 
 
-def _wrong_lines(
-    lines: Iterable[bytes], style: _Style, width: int
-) -> Iterator[tuple[int, str, str]]:
+def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, str, str]]:
     """Lines that are not `width` numbers and gaps: number from 0, the line, what it lacks."""
+    width = style.width
     for index, line in enumerate(lines):
         text = _decoded(line)
         if not text.strip() or text[0] in "#%":
@@ -649,26 +645,24 @@ def _wrong_lines(
             yield index, text.strip(), "" if comment else f"{width} columns as in the first"
 
 
-def _without_a_cut_line(body: bytes, style: _Style, width: int) -> tuple[bytes, list[str]]:
+def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
     """Many lines without the last one where that is cut off, and a sentence on it."""
     last = body.rstrip().rfind(b"\n") + 1
     # another clock: the time begins with the first line
     other = dataclasses.replace(style, clock=None if style.clock is None else _Clock())
-    wrong = next(_wrong_lines([body[last:]], other, width), None)
+    wrong = next(_wrong_lines([body[last:]], other), None)
     if wrong is None or not wrong[2] or body.count(b"\n") <= FEWEST_SAMPLES:
         return body, []
     text = re.sub(r"[^ -\uffff]", "", wrong[1])[:40]
     return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
 
 
-def _mended(
-    name: str, body: bytes, style: _Style, width: int, above: int
-) -> tuple[bytes, list[str]]:
+def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, list[str]]:
     """Lines with gaps in place of a few that hold no numbers, and sentences on them.
 
     The first line has the number `above`.
     """
-    lines = body.splitlines(keepends=True)
+    lines, width = body.splitlines(keepends=True), style.width
     few, many = (
         int(share * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
         for share in (MOST_WRONG, MOST_MISSING)
@@ -676,11 +670,15 @@ def _mended(
     wrong: list[tuple[int, str, str]] = []
     words: set[str] = set()  # in place of numbers in lines that are whole
     torn = 0
-    for index, text, allowed in _wrong_lines(lines, style, width):
+    for index, text, allowed in _wrong_lines(lines, style):
         cells = _decoded(lines[index]).split(style.delimiter)
         if allowed:
             wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
-            bad = [i for i, cell in enumerate(cells) if _is_word(cell, i, style)]
+            bad = [
+                i
+                for i, cell in enumerate(cells)
+                if i not in style.words and _number(style.plain(cell).strip()) is None
+            ]
             if len(cells) in (width, width + 1) and bad:
                 words |= {cells[i].strip() for i in bad}
             else:
@@ -700,14 +698,9 @@ def _mended(
     return b"".join(lines), [f"{number} numbers ({first}), which count as missing."]
 
 
-def _is_word(cell: str, index: int, style: _Style) -> bool:
-    return index not in style.words and _number(style.plain(cell).strip()) is None
-
-
-def _rows(
-    body: bytes, style: _Style, width: int, most_rows: int
-) -> tuple[NDArray[np.float64], list[str] | None] | None:
+def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:
     """Signals that are written in a row each, as columns with their names; None for others."""
+    width = style.width
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
     plain = [style.plain(line).rstrip(" ") for line in lines]
     rows = [_row(line, style.delimiter, style.words) for line in plain]

@@ -14,8 +14,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import count as counted
 from bearingcore.common.numbers import number
 from bearingcore.units import INCH, STANDARD_GRAVITY
@@ -186,7 +186,7 @@ def kind_of(unit: str) -> str:
     return "other"
 
 
-def differentiated(signal: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64]:
+def differentiated(signal: Array, sample_rate: float) -> Array:
     """The rate of change of columns (n, d) at `sample_rate` [Hz], exact for what is sampled well.
 
     Multiplies the spectrum by i·2πf; the signal is continued by turning it about its ends, so that
@@ -212,7 +212,7 @@ Of a sine, which stays longest at its peaks, it is 2.4 times.
 """
 
 
-def cut_off(signal: NDArray[np.float64]) -> str:
+def cut_off(signal: Array) -> str:
     """A sentence where the peaks of a signal (n,) are cut off by its recorder, else ""."""
     most, limits = 0, []
     for sign in (1.0, -1.0):

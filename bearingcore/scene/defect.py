@@ -18,12 +18,13 @@ from itertools import pairwise
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.rows import MOST_ROWS
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.floor import MeasuredFloor, RoughFloor, measured_floor
 
@@ -95,11 +96,7 @@ class Defect:
 
     @classmethod
     def measured(
-        cls,
-        angle: ArrayLike,
-        depth: ArrayLike,
-        race: str = "outer",
-        edge: str = "exact",
+        cls, angle: ArrayLike, depth: ArrayLike, race: str = "outer", edge: str = "exact"
     ) -> Self:
         """A defect with a measured floor: angles [rad] around the race, depths [m] below it."""
         floor, extent, deepest, center = measured_floor(angle, depth)
@@ -144,7 +141,7 @@ class Defect:
         if isinstance(self.floor, RoughFloor):
             self.floor.check_length(self.extent * self.raceway_radius(bearing))
 
-    def edge_row(self, bearing: Bearing) -> NDArray[np.float64]:
+    def edge_row(self, bearing: Bearing) -> Array:
         """Path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
         R, r_b, h = self.raceway_radius(bearing), bearing.ball_radius, self.depth
         # where there is no edge left the floor is everywhere
@@ -169,7 +166,7 @@ class Defect:
         factor = 0.25 if self.edge == "published" else 1.0
         return math.sqrt(drop * (2.0 * r_b - drop) / factor) / R
 
-    def surface(self, angle: ArrayLike, bearing: Bearing) -> NDArray[np.float64]:
+    def surface(self, angle: ArrayLike, bearing: Bearing) -> Array:
         """Actual depth [m] of the race at angles [rad], cage angle 0: what was cut."""
         away = _wrapped(np.asarray(angle, dtype=float) - self.center)
         inside = np.abs(away) <= 0.5 * self.extent
@@ -180,9 +177,7 @@ class Defect:
         radius = self.raceway_radius(bearing)
         return np.where(inside, self.floor.surface(away, self.extent, self.depth, radius), 0.0)
 
-    def path(
-        self, ball_angle: ArrayLike, bearing: Bearing, cage_angle: ArrayLike = 0.0
-    ) -> NDArray[np.float64]:
+    def path(self, ball_angle: ArrayLike, bearing: Bearing, cage_angle: ArrayLike = 0.0) -> Array:
         """Drop d(φ) [m] of the ball's centre at the ball angles [rad] (Eq. 6, mended).
 
         `cage_angle` [rad] says how far the cage has turned, and with it the shaft: it moves an
@@ -193,14 +188,12 @@ class Defect:
         return drop_into((self,), bearing, ball_angle, cage_angle)
 
 
-def _wrapped(angle: NDArray[np.float64]) -> NDArray[np.float64]:
+def _wrapped(angle: Array) -> Array:
     """Angles [rad] brought to −π … π."""
     return angle - TWO_PI * np.floor(angle / TWO_PI + 0.5)
 
 
-def edge_drop(
-    s: NDArray[np.float64], defect: Defect, bearing: Bearing, deepest: float
-) -> NDArray[np.float64]:
+def edge_drop(s: Array, defect: Defect, bearing: Bearing, deepest: float) -> Array:
     """Drop [m] at the angle s [rad] from a corner, of a ball that nothing else holds up.
 
     Infinite where the ball has lost the corner, and where it would hang below `deepest` [m].
@@ -225,16 +218,12 @@ def floor_bytes(defects: tuple[Defect, ...]) -> int:
     return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
 
 
-def _bytes_of_tables(
-    found: kernels.Path,
-    defects: tuple[Defect, ...],
-    bearing: Bearing,
-) -> int:
-    return found.defects.nbytes + found.tables.nbytes + floor_bytes(defects)
-
-
 # of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
-@lru_cache_by_bytes(256, 64_000_000, _bytes_of_tables)
+@lru_cache_by_bytes(
+    256,
+    64_000_000,
+    lambda found, defects, _: sum(part.nbytes for part in found) + floor_bytes(defects),
+)
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
 
@@ -249,8 +238,8 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """
     if not bearing.rows_are_alike:
         return _paths_of_rows(defects, bearing)
-    rows: list[NDArray[np.float64]] = []
-    tables: list[NDArray[np.float64]] = []
+    rows: list[Array] = []
+    tables: list[Array] = []
     size = 0
     for group in _touching(tuple(defect for defect in defects if not defect.is_none)):
         first = group[0]
@@ -295,7 +284,7 @@ def drop_into(
     ball_angle: ArrayLike,
     cage_angle: ArrayLike = 0.0,
     row: int = 0,
-) -> NDArray[np.float64]:
+) -> Array:
     """Drop [m] of a ball's centre at the ball angles [rad] into all of the defects.
 
     `cage_angle` [rad] says how far the cage has turned, `row` which row's ball it is; shapes
@@ -336,11 +325,11 @@ TABLE_STEP = 1e-4
 R_o²/r_b (step²)/8, about 1e-10 m, and the bend where a ball reaches the floor is off by 1e-8 m."""
 
 
-def _nodes(half: float) -> NDArray[np.float64]:
+def _nodes(half: float) -> Array:
     return np.linspace(-half, half, 2 * max(math.ceil(half / TABLE_STEP), 2) + 1)
 
 
-def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, NDArray[np.float64]]:
+def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, Array]:
     """Center, half extent [rad] and tabulated path [m] of square defects that run together.
 
     The joint profile is a staircase. The ball's centre is held up by the floor beneath it and by
@@ -385,7 +374,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, N
     return first.center + middle, half, path
 
 
-def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, NDArray[np.float64]]:
+def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, Array]:
     """Center, half extent [rad] and tabulated path [m] over a floor that is not flat.
 
     The path is the surface with the ball's circle rolled over it, a grey-scale morphological

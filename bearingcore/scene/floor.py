@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 
 SAMPLES_A_LENGTH = 10
@@ -67,9 +68,7 @@ class RoughFloor:
                 length=length,
             )
 
-    def surface(
-        self, angle: NDArray[np.float64], extent: float, depth: float, radius: float
-    ) -> NDArray[np.float64]:
+    def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
         """Depth [m] at angles [rad] from the middle of a defect on a race of `radius` [m].
 
         It is never above the healthy race.
@@ -82,7 +81,7 @@ class RoughFloor:
 
 
 @lru_cache_by_bytes(16, 64_000_000, lambda heights, *_: heights.nbytes)
-def _roughness(seed: int, reach: int) -> NDArray[np.float64]:
+def _roughness(seed: int, reach: int) -> Array:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package
 
@@ -134,9 +133,7 @@ class MeasuredFloor:
             raise checks.refuse("floor depths", "not all from 0 to 1", "0 to 1")
         checks.keep(self, places=tuple(places.tolist()), depths=tuple(depths.tolist()))
 
-    def surface(
-        self, angle: NDArray[np.float64], extent: float, depth: float, radius: float
-    ) -> NDArray[np.float64]:
+    def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
         """Depth [m] at angles [rad] from the middle of a defect."""
         return depth * np.interp(angle / (0.5 * extent), self.places, self.depths)
 

@@ -6,9 +6,9 @@ import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,6 @@ class Load:
         return (self.mx, self.my) != (0.0, 0.0)
 
     @property
-    def vector(self) -> NDArray[np.float64]:
+    def vector(self) -> Array:
         """(Fx, Fy, Fz, Mx, My), shape (5,) [N, N·m]."""
         return np.array([self.fx, self.fy, self.fz, self.mx, self.my])

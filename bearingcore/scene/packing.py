@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import path_tables
 from bearingcore.scene.scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.units import STANDARD_GRAVITY
-
-Array = NDArray[np.float64]
 
 SMALL_TILT = 0.2
 """[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
@@ -213,11 +212,6 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
         weight=each(own.ball_mass * STANDARD_GRAVITY if weight else 0.0 for own in owns),
     )
-
-
-def typical_compression(bearing: Bearing, load: float) -> float:
-    """Compression [m] of one contact of a bearing that carries a load [N]."""
-    return contacts(bearing).compression(load)
 
 
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 
 BODIES = ("inner", "outer")
 
@@ -47,7 +47,7 @@ class Support:
             }
             checks.keep_number(self, field.name, optional=field.default is None, **least)
 
-    def _numbers(self, names: Mapping[str, str]) -> NDArray[np.float64]:
+    def _numbers(self, names: Mapping[str, str]) -> Array:
         """Numbers by direction; where one is not known all that are not are named."""
         for dof, name in names.items():
             if getattr(self, name) is None:
@@ -70,20 +70,20 @@ class Support:
         held = f", or scene.replace(dofs={known}) to hold the others" if known else ""
         return f". Give {', '.join(every)} of the support{held}"
 
-    def stiffness(self, dofs: Iterable[str]) -> NDArray[np.float64]:
+    def stiffness(self, dofs: Iterable[str]) -> Array:
         """Stiffness to ground along `dofs` [N/m, N·m/rad]. ValueError where it is not known."""
         return self._numbers({dof: f"stiffness_{dof}" for dof in dofs})
 
-    def damping(self, dofs: Iterable[str]) -> NDArray[np.float64]:
+    def damping(self, dofs: Iterable[str]) -> Array:
         """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
         return self._numbers({dof: f"damping_{dof}" for dof in dofs})
 
-    def inertias(self, dofs: Iterable[str]) -> NDArray[np.float64]:
+    def inertias(self, dofs: Iterable[str]) -> Array:
         """`inertia` of both bodies, the inner one first: (2 len(dofs),)."""
         names = tuple(dofs)
         return np.concatenate([self.inertia(body, names) for body in BODIES])
 
-    def inertia(self, body: str, dofs: Iterable[str]) -> NDArray[np.float64]:
+    def inertia(self, body: str, dofs: Iterable[str]) -> Array:
         """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
         return self._numbers({dof: f"{body}_{_inertia(dof)}" for dof in dofs})
 

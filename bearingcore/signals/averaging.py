@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.signals.order_tracking import followed, smooth_lag
 from bearingcore.signals.resampling import oversampled
 from bearingcore.signals.shaft_tones import without_shaft_tones
@@ -64,18 +65,18 @@ class BallPasses:
     frequency: float
     n_passes: int
     harmonics: NDArray[np.complex128]
-    power: NDArray[np.float64]
-    noise_power: NDArray[np.float64]
+    power: Array
+    noise_power: Array
     prominence: float = math.inf
-    begins: NDArray[np.float64] | None = None
+    begins: Array | None = None
 
     @property
-    def scatter(self) -> NDArray[np.float64]:
+    def scatter(self) -> Array:
         """Variance (N, d) of `harmonics`, from the differences between passes."""
         around = self.power - np.abs(self.harmonics) ** 2
         return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
 
-    def waveform(self, n: int) -> NDArray[np.float64]:
+    def waveform(self, n: int) -> Array:
         """The mean pass as n samples (n, d)."""
         full = np.zeros((n // 2 + 1, self.harmonics.shape[1]), dtype=complex)
         count = min(len(self.harmonics), n // 2)
@@ -83,12 +84,12 @@ class BallPasses:
         return np.asarray(np.fft.irfft(full, n, axis=0) * n)
 
     @property
-    def harmonic_frequency(self) -> NDArray[np.float64]:
+    def harmonic_frequency(self) -> Array:
         """(N,) [Hz]"""
         return np.asarray(self.frequency * np.arange(1, len(self.harmonics) + 1), dtype=float)
 
 
-def coefficients(passes: NDArray[np.float64], count: int) -> NDArray[np.complex128]:
+def coefficients(passes: Array, count: int) -> NDArray[np.complex128]:
     """Coefficients (passes, count, d) at the harmonics 1 … count of signals (passes, n, d)."""
     return np.fft.rfft(passes, axis=1)[:, 1 : count + 1] / passes.shape[1]
 
@@ -110,7 +111,7 @@ def _margin(nominal: float, lowest: float) -> int:
 
 
 def average_passes(
-    signal: NDArray[np.float64],
+    signal: Array,
     sample_rate: float,
     nominal: float,
     slip: float,
@@ -173,7 +174,9 @@ def average_passes(
     )
     if shaft is not None:
         signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
-    signal, sample_rate = _upsampled(signal, sample_rate, widest)
+    # with so many samples a cycle that a spline follows the signal
+    factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
+    signal, sample_rate = oversampled(signal, factor), factor * sample_rate
     # the filter rings at both ends of the signal: the passes there are left out
     n_passes = math.floor((len(signal) - 1) / sample_rate * frequency) - 2 * margin
     n = math.ceil(max(sample_rate, 4.0 * widest) / frequency)
@@ -181,7 +184,7 @@ def average_passes(
     count = math.floor(widest / frequency)
     place = np.arange(n_passes * n) / n
 
-    def passes(lags: NDArray[np.float64] | None) -> NDArray[np.complex128]:
+    def passes(lags: Array | None) -> NDArray[np.complex128]:
         late = 0.0 if lags is None else smooth_lag(lags)(place) / (2.0 * math.pi)
         time = np.clip((margin + place + late) / frequency, 0.0, (len(signal) - 1) / sample_rate)
         return coefficients(curve(time).reshape(n_passes, n, signal.shape[1]), count)
@@ -201,9 +204,7 @@ def average_passes(
     return BallPasses(frequency, n_passes, mean, power, noise, prominence, begins)
 
 
-def load_zone_weights(
-    passes: NDArray[np.complex128], turns: float, slip: float
-) -> NDArray[np.float64]:
+def load_zone_weights(passes: NDArray[np.complex128], turns: float, slip: float) -> Array:
     """Loudness (n,) of ball passes whose damage turns through the load zone, over its mean.
 
     How much of the mean pass each holds, every coefficient by its own scatter, is fitted by a mean
@@ -234,9 +235,7 @@ def load_zone_weights(
     return np.asarray(best / best.mean())
 
 
-def _weighted(
-    each: NDArray[np.complex128], weights: NDArray[np.float64]
-) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+def _weighted(each: NDArray[np.complex128], weights: Array) -> tuple[NDArray[np.complex128], Array]:
     """The pass m that fits passes x as w m with least squares, and as `power` what its scatter
     among n equal passes would be.
     """
@@ -247,9 +246,7 @@ def _weighted(
     return mean, np.abs(mean) ** 2 + len(each) * variance
 
 
-def _coloured(
-    mean: NDArray[np.complex128], power: NDArray[np.float64], floor: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _coloured(mean: NDArray[np.complex128], power: Array, floor: Array) -> Array:
     """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an octave
     around each harmonic, as what moves irregularly differs too. Never below the floor (d,).
     """
@@ -262,17 +259,7 @@ def _coloured(
     return np.asarray(np.minimum(np.maximum(noise, floor), power))
 
 
-def _upsampled(
-    signal: NDArray[np.float64], sample_rate: float, highest: float
-) -> tuple[NDArray[np.float64], float]:
-    """The signal with so many samples a cycle that a spline follows it."""
-    factor = max(math.ceil(SAMPLES_A_CYCLE * highest / sample_rate), 1)
-    return oversampled(signal, factor), factor * sample_rate
-
-
-def _noise_density(
-    signal: NDArray[np.float64], sample_rate: float, lowest: float
-) -> NDArray[np.float64]:
+def _noise_density(signal: Array, sample_rate: float, lowest: float) -> Array:
     """Density (d,) [(unit)²/Hz] of broad-band noise: the quiet tenth of the smoothed spectrum."""
     from scipy.signal import welch
 
@@ -285,12 +272,7 @@ def _noise_density(
 
 
 def _ball_pass_frequency(
-    signal: NDArray[np.float64],
-    sample_rate: float,
-    nominal: float,
-    slip: float,
-    lowest: float,
-    highest: float,
+    signal: Array, sample_rate: float, nominal: float, slip: float, lowest: float, highest: float
 ) -> tuple[float, float]:
     """The frequency whose harmonics are highest, and their height over the others."""
     from scipy.fft import next_fast_len
@@ -306,7 +288,7 @@ def _ball_pass_frequency(
         max(1, math.ceil(lowest / nominal)), math.floor(highest / (nominal * (1.0 + slip))) + 1
     )
 
-    def comb(frequencies: NDArray[np.float64]) -> NDArray[np.float64]:
+    def comb(frequencies: Array) -> Array:
         return height[np.rint(frequencies[:, None] * (order / step)).astype(int)].sum(axis=1)
 
     # a tenth of a line's width at the highest harmonic

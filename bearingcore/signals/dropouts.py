@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array, runs
+
 LEAST_RUN = 16
 """Equal samples in a row from which a sensor is taken to have dropped out."""
 
@@ -36,11 +38,9 @@ class SignalFaults:
     clipped_share: float
 
 
-def signal_faults(samples: NDArray[np.float64]) -> SignalFaults:
+def signal_faults(samples: Array) -> SignalFaults:
     """Dropouts and clipping of a signal (n,)."""
-    same = np.diff(samples) == 0.0
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], same.view(np.int8), [0]))))
-    begins, ends = edges[::2], edges[1::2]  # runs of equal neighbours: samples begin .. end
+    begins, ends = runs(np.diff(samples) == 0.0)  # of equal neighbours: samples begin .. end
     dropped = np.zeros(len(samples), dtype=bool)
     low, high = float(samples.min()), float(samples.max())
     near = RAIL * (high - low)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.signals.whitening import whiten
 
 BAND_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16)
@@ -54,7 +55,7 @@ class Envelope(NamedTuple):
     """
 
     band: Band
-    values: NDArray[np.float64]
+    values: Array
     rate: float
     kurtosis: float
 
@@ -72,7 +73,7 @@ def split(sample_rate: float, narrowest: float, into: Sequence[int] = BAND_COUNT
 
 
 def squared_envelopes(
-    samples: NDArray[np.float64],
+    samples: Array,
     sample_rate: float,
     bands: Sequence[Band],
     highest: float,
@@ -140,9 +141,7 @@ def squared_envelopes(
     return found
 
 
-def thinned(
-    values: NDArray[np.float64], rate: float, highest: float
-) -> tuple[NDArray[np.float64], float]:
+def thinned(values: Array, rate: float, highest: float) -> tuple[Array, float]:
     """The values without all above `highest` [Hz], and their new rate [Hz]."""
     from scipy.fft import irfft, next_fast_len, rfft
 

@@ -9,9 +9,10 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.recording import Recording
@@ -78,11 +79,11 @@ class Indicators:
     """
 
     directions: tuple[str, ...]
-    rms: NDArray[np.float64]
-    peak: NDArray[np.float64]
-    crest_factor: NDArray[np.float64]
-    kurtosis: NDArray[np.float64]
-    velocity_rms: NDArray[np.float64]
+    rms: Array
+    peak: Array
+    crest_factor: Array
+    kurtosis: Array
+    velocity_rms: Array
     band: tuple[float, float]
     velocity_reason: str
 
@@ -139,7 +140,7 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
 
 def velocity_rms(
     acceleration: ArrayLike, sample_rate: float, band: tuple[float, float] = SEVERITY_BAND
-) -> NDArray[np.float64]:
+) -> Array:
     """Root mean square of the velocity in a band [m/s], over the whole signal.
 
     The acceleration is added up, a drift (a parabola) is taken away, and cosines over the length
@@ -185,9 +186,7 @@ def velocity_rms(
     return np.asarray(found if samples.ndim > 1 else found[0])
 
 
-def _share_kept(
-    frequency: NDArray[np.float64], low: float, high: float, line: float
-) -> NDArray[np.float64]:
+def _share_kept(frequency: Array, low: float, high: float, line: float) -> Array:
     """Share (m,) of amplitudes that is kept: see KEPT_OUTSIDE, `line` [Hz] is 1/duration."""
     outside = np.maximum(np.maximum(low - frequency, frequency - high), 0.0)
     fading = np.clip(outside / (KEPT_OUTSIDE * line) - 1.0, 0.0, 1.0)

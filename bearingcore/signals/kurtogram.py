@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.signals.filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
@@ -29,8 +30,13 @@ FEWEST = 24.0
 DYNAMIC_RANGE = 1e-4
 """Bands whose density is this far below the strongest one's are not chosen (40 dB)."""
 
-CHANCE = 3.0
-"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice."""
+CHANCE = 7.0
+"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice: of
+many bands one is that lucky now and then, and a narrow one more than a Gaussian would be."""
+
+SCATTER = 3.6
+"""Variance of that kurtosis times duration and width: 4 ∫ sinc⁴ = 8/3 of a band of noise, and a
+third more of the median of eight pieces."""
 
 
 @shown_as_table
@@ -53,9 +59,9 @@ class Kurtogram(NamedTuple):
 
     bands: tuple[Band, ...]
     parts: NDArray[np.int_]
-    kurtosis: NDArray[np.float64]
-    density: NDArray[np.float64]
-    deviation: NDArray[np.float64]
+    kurtosis: Array
+    density: Array
+    deviation: Array
 
     def best(self, lowest: float = 0.0) -> Band:
         """The band for the envelope: the most impulsive one that is not too faint.
@@ -122,11 +128,11 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
         np.array([numbers[band] for band in kept]),
         np.array([_kurtosis(one.values) for one in found]),
         np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
-        np.sqrt(20.0 / (duration * widths)),
+        np.sqrt(SCATTER / (duration * widths)),
     )
 
 
-def _kurtosis(squared: NDArray[np.float64]) -> float:
+def _kurtosis(squared: Array) -> float:
     """Unevenness of a squared envelope, its ends left out: 0 for noise, -1 for a tone."""
     cut = len(squared) // 20
     pieces = np.array_split(squared[cut : len(squared) - cut], PIECES)

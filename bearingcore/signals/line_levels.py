@@ -6,8 +6,8 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.signals.whitening import local_median
 
 
@@ -29,14 +29,14 @@ class LineLevels(NamedTuple):
     """
 
     step: float
-    level: NDArray[np.float64]
-    depth: NDArray[np.float64]
+    level: Array
+    depth: Array
     averages: float
-    floor: NDArray[np.float64]
+    floor: Array
 
 
 def line_levels(
-    values: NDArray[np.float64], rate: float, segment: float, highest: float, surroundings: float
+    values: Array, rate: float, segment: float, highest: float, surroundings: float
 ) -> LineLevels:
     """Levels of the lines in a signal (n,), by Welch's method with half-overlapping Hann windows.
 
@@ -81,7 +81,7 @@ def line_levels(
 
 
 @lru_cache(maxsize=64)
-def hann(length: int) -> NDArray[np.float64]:
+def hann(length: int) -> Array:
     """Hann's window (length,), periodic."""
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
     window.setflags(write=False)

@@ -18,6 +18,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array, summit
+
 NEIGHBOURS = 3.0
 """Pairs of passes over which their delay is smoothed (standard deviation of a Gaussian)."""
 
@@ -40,8 +42,8 @@ LEAST_GAIN = 0.01
 
 
 def followed(
-    cut: Callable[[NDArray[np.float64]], NDArray[np.complex128]], n_passes: int, slip: float
-) -> NDArray[np.float64] | None:
+    cut: Callable[[Array], NDArray[np.complex128]], n_passes: int, slip: float
+) -> Array | None:
     """Lags (passes,) of the passes of a cage that wanders; None where it does not.
 
     Parameters
@@ -58,9 +60,7 @@ def followed(
     return lags if share >= _repeating(steady) + LEAST_GAIN else None
 
 
-def _settled(
-    cut: Callable[[NDArray[np.float64]], NDArray[np.complex128]], lags: NDArray[np.float64]
-) -> tuple[float, NDArray[np.float64]]:
+def _settled(cut: Callable[[Array], NDArray[np.complex128]], lags: Array) -> tuple[float, Array]:
     """Lags (passes,) laid over their mean until no more repeats, and the share that repeats."""
     each = cut(lags)
     share = _repeating(each)
@@ -76,7 +76,7 @@ def _settled(
     return share, lags
 
 
-def smooth_lag(lags: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+def smooth_lag(lags: Array) -> Callable[[Array], Array]:
     """Lag [rad] at any place, counted in passes from the first one's begin, from those of passes.
 
     Straight on beyond the middles of the first and the last pass.
@@ -88,7 +88,7 @@ def smooth_lag(lags: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDA
     ends = middles[[0, -1]]
     slopes = spline(ends, 1)
 
-    def at(place: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at(place: Array) -> Array:
         inside = np.clip(place, ends[0], ends[1])
         before, after = np.minimum(place - ends[0], 0.0), np.maximum(place - ends[1], 0.0)
         return np.asarray(spline(inside) + slopes[0] * before + slopes[1] * after)
@@ -102,7 +102,7 @@ def _repeating(each: NDArray[np.complex128]) -> float:
     return float((mean / np.maximum((np.abs(each) ** 2).mean(axis=0).sum(axis=0), 1e-300)).mean())
 
 
-def _added_up(each: NDArray[np.complex128], slip: float) -> NDArray[np.float64]:
+def _added_up(each: NDArray[np.complex128], slip: float) -> Array:
     """Lags (p,) [rad] from the delays between neighbours."""
     power = np.maximum((np.abs(each) ** 2).mean(axis=0), 1e-300)
     cross = (each[1:] * each[:-1].conj() / power).sum(axis=2)
@@ -114,7 +114,7 @@ def _added_up(each: NDArray[np.complex128], slip: float) -> NDArray[np.float64]:
     return np.concatenate(([0.0], np.cumsum(delay)))
 
 
-def _laid_over_the_mean(each: NDArray[np.complex128]) -> NDArray[np.float64]:
+def _laid_over_the_mean(each: NDArray[np.complex128]) -> Array:
     """Further lags (p,) [rad] by which passes, aligned roughly, fit their mean."""
     order = np.arange(1, each.shape[1] + 1)
     lags = np.zeros(len(each))
@@ -130,16 +130,14 @@ def _laid_over_the_mean(each: NDArray[np.complex128]) -> NDArray[np.float64]:
     return lags
 
 
-def _greatest(cross: NDArray[np.complex128], lag: NDArray[np.float64]) -> NDArray[np.float64]:
+def _greatest(cross: NDArray[np.complex128], lag: Array) -> Array:
     """The lag of a grid at which cross spectra (p, N) agree most, refined by a parabola."""
     order = np.arange(1, cross.shape[1] + 1)
     likeness = (cross @ np.exp(1j * np.outer(order, lag))).real
     best = np.clip(likeness.argmax(axis=1), 1, len(lag) - 2)
     row = np.arange(len(cross))
-    left, middle, right = (likeness[row, best + k] for k in (-1, 0, 1))
-    bend = left - 2.0 * middle + right
-    shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, -1.0), 0.0)
-    return np.asarray(lag[best] + np.clip(shift, -1.0, 1.0) * (lag[1] - lag[0]))
+    shift = summit(*(likeness[row, best + k] for k in (-1, 0, 1)))
+    return np.asarray(lag[best] + shift * (lag[1] - lag[0]))
 
 
 def _smoothed(values: NDArray[np.complex128], width: float) -> NDArray[np.complex128]:

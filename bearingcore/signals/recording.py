@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import count
 
 DIRECTIONS = ("x", "y")
@@ -44,7 +44,7 @@ class Recording:
         naming the field, its value and what is allowed.
     """
 
-    acceleration: NDArray[np.float64] = field(repr=False)
+    acceleration: Array = field(repr=False)
     sample_rate: float
     directions: tuple[str, ...] = ("x", "y")
     name: str = ""

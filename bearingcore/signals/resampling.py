@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import cast
 
-import numpy as np
-from numpy.typing import NDArray
+from bearingcore.common.arrays import Array
 
 SAMPLES_AROUND = 32
 """Samples of the signal on either side that a new one is made of: flat within 0.01 dB up to 0.45 of
 the sample rate, and 80 dB down from 0.55 on."""
 
 
-def oversampled(signal: NDArray[np.float64], factor: int) -> NDArray[np.float64]:
+def oversampled(signal: Array, factor: int) -> Array:
     """`factor` times as many samples of a signal (n, ...), the first of each group its own.
 
     By a windowed sinc. The signal is continued by its first and last sample.
@@ -23,4 +22,4 @@ def oversampled(signal: NDArray[np.float64], factor: int) -> NDArray[np.float64]
         return signal
     taps = firwin(2 * SAMPLES_AROUND * factor + 1, 1.0 / factor, window=("kaiser", 8.0))
     made = resample_poly(signal, factor, 1, axis=0, window=taps, padtype="line")  # type: ignore[call-overload]
-    return cast("NDArray[np.float64]", made)
+    return cast("Array", made)

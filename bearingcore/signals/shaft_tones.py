@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from bearingcore.common.arrays import Array
 
 HARMONICS = 12
 """Of the shaft that are looked at."""
@@ -19,9 +20,7 @@ STANDS_OUT = 4.0
 """Times the median of its surroundings from which a line counts as a tone."""
 
 
-def without_shaft_tones(
-    signal: NDArray[np.float64], sample_rate: float, shaft: float, passing: float
-) -> NDArray[np.float64]:
+def without_shaft_tones(signal: Array, sample_rate: float, shaft: float, passing: float) -> Array:
     """The signal (n, d) without those of the shaft's harmonics that are clear.
 
     Parameters
@@ -62,7 +61,7 @@ def without_shaft_tones(
     return np.asarray(signal - waves @ fitted)
 
 
-def _surroundings(height: NDArray[np.float64], middle: float, reach: float) -> float:
+def _surroundings(height: Array, middle: float, reach: float) -> float:
     """Median of a spectrum's heights within reach of a place."""
     near = height[max(0, int(middle - reach)) : int(middle + reach) + 1]
     return max(float(np.median(near)), 1e-300)

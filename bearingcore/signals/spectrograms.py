@@ -6,9 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.signals.resampling import oversampled
 
 OVERLAP = 0.75
@@ -33,9 +34,9 @@ class Spectrogram(NamedTuple):
     density : (k, m) [(unit of the signal)²/Hz] or [(unit)²/order]
     """
 
-    time: NDArray[np.float64]
-    frequency: NDArray[np.float64]
-    density: NDArray[np.float64]
+    time: Array
+    frequency: Array
+    density: Array
 
 
 def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spectrogram:

@@ -7,9 +7,10 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
@@ -28,15 +29,15 @@ class Spectrum(NamedTuple):
     density : (m,) or (m, k) [(unit of the signal)²/Hz]
     """
 
-    frequency: NDArray[np.float64]
-    density: NDArray[np.float64]
+    frequency: Array
+    density: Array
 
     def up_to(self, frequency: float) -> Spectrum:
         """The same, ending at a frequency [Hz]."""
         end = int(np.searchsorted(self.frequency, frequency, side="right"))
         return Spectrum(self.frequency[:end], self.density[:end])
 
-    def powers(self, edges: ArrayLike) -> NDArray[np.float64]:
+    def powers(self, edges: ArrayLike) -> Array:
         """Power (n,) or (n, k) [(unit of the signal)²] in bands between n + 1 edges [Hz]."""
         ends = np.searchsorted(self.frequency, edges)
         sums = [self.density[low:high].sum(axis=0) for low, high in pairwise(ends)]
@@ -156,7 +157,7 @@ def check_samples(name: str, signal: ArrayLike, most_samples: int) -> None:
         raise checks.refuse(f"number of samples of the {name}", int(count), allowed)
 
 
-def _samples(signal: ArrayLike, least: int, why: str, most: int) -> NDArray[np.float64]:
+def _samples(signal: ArrayLike, least: int, why: str, most: int) -> Array:
     """The signal as floats, or ValueError for a wrong shape, number, or a sample not finite."""
     check_samples("signal", signal, most)
     samples = np.asarray(signal, dtype=float)

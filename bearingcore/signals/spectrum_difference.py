@@ -7,9 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.signals.spectrum import Spectrum, spectrum
-
-Array = NDArray[np.float64]
 
 BAND = 1.25
 """Spectra of a motion count up to this times the highest natural frequency."""

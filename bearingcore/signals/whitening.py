@@ -11,11 +11,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
+
 LOUDEST = 3.0
 """Times the surroundings' root mean square that a single frequency may keep."""
 
 
-def local_median(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
+def local_median(values: Array, width: int) -> Array:
     """Running median (n,) of positive values, over `width` of them, smooth in between."""
     count = len(values)
     width = max(3, min(width, count))

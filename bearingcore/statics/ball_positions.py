@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import number, percent, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -27,8 +28,6 @@ from bearingcore.statics.equilibrium import (
 )
 from bearingcore.statics.shortage import explanation
 from bearingcore.statics.status import StaticStatus
-
-Array = NDArray[np.float64]
 
 BALANCED = 1e-8
 """Force left on a ball, over the greatest load, up to which its place counts as found."""

@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import thousands
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedScene
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, Scene
-from bearingcore.statics.load_capacity import is_unbounded
-from bearingcore.statics.shortage import explanation, moved
+from bearingcore.statics.shortage import explanation, is_unbounded, moved
 from bearingcore.statics.status import StaticStatus
 
 STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
@@ -93,19 +93,19 @@ class Equilibrium:
 
     scene: Scene
     dofs: tuple[str, ...]
-    cage_angles: NDArray[np.float64]
-    displacement: NDArray[np.float64]
-    ball_load: NDArray[np.float64]
-    stiffness: NDArray[np.float64]
+    cage_angles: Array
+    displacement: Array
+    ball_load: Array
+    stiffness: Array
     loaded_balls: NDArray[np.int64]
     status: NDArray[np.int8]
-    residual: NDArray[np.float64]
+    residual: Array
     iterations: NDArray[np.int64]
     evaluations: NDArray[np.int64]
-    state: NDArray[np.float64] = field(repr=False)
-    leads: NDArray[np.float64] = field(repr=False)
+    state: Array = field(repr=False)
+    leads: Array = field(repr=False)
     cost: str = ""
-    weights: NDArray[np.float64] | None = field(default=None, repr=False)
+    weights: Array | None = field(default=None, repr=False)
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -119,12 +119,12 @@ class Equilibrium:
         return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
 
     @property
-    def shaft_angles(self) -> NDArray[np.float64]:
+    def shaft_angles(self) -> Array:
         """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
 
     @property
-    def shares(self) -> NDArray[np.float64]:
+    def shares(self) -> Array:
         """(n,) share of the time of each angle: `weights`, or all alike."""
         n = len(self.cage_angles)
         return np.full(n, 1.0 / n) if self.weights is None else self.weights
@@ -134,13 +134,18 @@ class Equilibrium:
         """(n, N_b) True for balls that carry load from ring to ring."""
         return self.ball_load > 0.0
 
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race: Q_j, where balls have no mass."""
+        return self.ball_load
+
     @cached_property
-    def ball_angle(self) -> NDArray[np.float64]:
+    def ball_angle(self) -> Array:
         """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
         return packing.ball_angles(self.scene.bearing, self.cage_angles) % (2.0 * math.pi)
 
     @cached_property
-    def contact_angle(self) -> NDArray[np.float64]:
+    def contact_angle(self) -> Array:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         contacts = packing.contacts(self.scene.bearing)
         along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
@@ -151,7 +156,7 @@ class Equilibrium:
         angle = angle + np.where(contacts.fixed, 0.0, turned)
         return np.where(self.ball_load > 0.0, angle, math.nan)
 
-    def term(self, name: str) -> NDArray[np.float64]:
+    def term(self, name: str) -> Array:
         """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
         if name not in TERM_INDICES:
             raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
@@ -204,23 +209,16 @@ class Equilibrium:
 
         Least, mean in time and greatest, of the angles that have an equilibrium.
         """
-        known = np.isfinite(self.displacement)
-        ends = [
-            np.where(known.any(axis=0), end, math.nan)
-            for end in (
-                self.displacement.min(axis=0, initial=math.inf, where=known),
-                self.displacement.max(axis=0, initial=-math.inf, where=known),
-            )
-        ]
+        least, greatest = least_and_greatest(self.displacement, 0)
         return table_of(
             ("direction", "", list(DOF_NAMES)),
             ("unit", "", ["rad" if dof.startswith("r") else "m" for dof in DOF_NAMES]),
-            ("least", "", ends[0]),
+            ("least", "", least),
             ("mean", "", self._mean(self.displacement)),
-            ("greatest", "", ends[1]),
+            ("greatest", "", greatest),
         )
 
-    def _mean(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _mean(self, values: Array) -> Array:
         """Mean in time (...) of numbers (n, ...) over the angles at which all are known."""
         known = np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
         share = np.where(known, self.shares, 0.0)
@@ -237,7 +235,7 @@ class Equilibrium:
         return self.cost or words + explanation(status, self.scene, at, self.dofs, self.state[i])
 
 
-def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> NDArray[np.float64]:
+def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> Array:
     """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
 
     The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
@@ -371,12 +369,7 @@ def too_many_contacts(contacts: int, most: int) -> str:
     )
 
 
-def _not_begun(
-    packed: PackedScene,
-    angles: NDArray[np.float64],
-    leads: NDArray[np.float64],
-    cost: str,
-) -> Equilibrium:
+def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:
     """NaN everywhere, without the memory of it."""
     n = angles.size
 
@@ -405,10 +398,10 @@ def _not_begun(
 
 def _explain(
     packed: PackedScene,
-    angles: NDArray[np.float64],
+    angles: Array,
     status: NDArray[np.int8],
-    stiffness: NDArray[np.float64],
-    displacement: NDArray[np.float64],
+    stiffness: Array,
+    displacement: Array,
     failed: NDArray[np.int64],
 ) -> None:
     """Find the true reason of each failure: the free directions, or a load nothing can carry."""

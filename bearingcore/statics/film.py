@@ -49,9 +49,10 @@ from bearingcore.common import checks
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.limit import Limit
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.positions import state_of
 from bearingcore.statics.pressure import RACES, HeaviestBall, heaviest_balls
 
 TOUCHING, PARTED = 1.0, 3.0
@@ -136,25 +137,20 @@ class Film:
 
     def table(self) -> ResultTable:
         """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
-        races = (self.inner, self.outer)
         return table_of(
-            ("race", "", [film.race for film in races]),
+            ("race", "", "race"),
             (
                 "rolling_speed",
                 "m/s",
                 [self.rolling_speed] * 2,
                 "mean speed of both surfaces through the contact",
             ),
-            ("ball_load", "N", [film.load for film in races], "of the heaviest loaded ball"),
-            ("film_thickness", "m", [film.thickness for film in races], "where it is least"),
-            ("roughness", "m", [film.roughness for film in races], "of both surfaces together"),
-            (
-                "film_parameter",
-                "1",
-                [film.film_parameter for film in races],
-                "film thickness over roughness",
-            ),
-            ("sentence", "", [film.sentence for film in races]),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
+            ("film_thickness", "m", "thickness", "where it is least"),
+            ("roughness", "m", "roughness", "of both surfaces together"),
+            ("film_parameter", "1", "film_parameter", "film thickness over roughness"),
+            ("sentence", "", "sentence"),
+            of=(self.inner, self.outer),
         )
 
 
@@ -269,10 +265,7 @@ def film(
         )
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
-    if state is None:
-        state = over_all_positions(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state, static_state)
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
     return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
@@ -283,12 +276,12 @@ def _film_of(
 ) -> Film:
     """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
     eta, xi = oil
-    load, own = ball.load, scene.bearing.of_row(ball.row)
+    own = scene.bearing.of_row(ball.row)
     contacts = {race: own.race_contact(race) for race in RACES}
     u = rolling_speed(own, scene.shaft_speed)
     films = {}
     for race, contact in contacts.items():
-        h = math.nan
+        h, load = math.nan, ball.load_on(race)
         if load > 0.0:
             modulus = contact.modulus
             radius = rolling_radius(own, race)
@@ -304,30 +297,24 @@ def _film_of(
 def _race_film(
     race: str, load: float, k: float, h: float, sigma: float, *, element: str
 ) -> RaceFilm:
-    name = f"film, {race} race"
     ratio = h / sigma
-    if math.isnan(h):
-        why = (
-            "no cage angle has a static equilibrium"
-            if math.isnan(load)
-            else f"no {element} is loaded"
-        )
-        return RaceFilm(
-            race, load, k, h, sigma, ratio, "", f"{name.capitalize()}: not known, as {why}."
-        )
     if ratio < TOUCHING:
         kind, so = LUBRICATION[0], "their peaks carry the load and wear"
     elif ratio < PARTED:
         kind, so = LUBRICATION[1], "their peaks touch now and then"
     else:
         kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
-    if h == 0.0:
-        standing = f"The shaft is at rest and draws no oil between {element} and {race} race."
-        return RaceFilm(race, load, k, h, sigma, ratio, kind, standing)
-    sentence = (
-        f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
-        f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
-        f"({with_prefix(sigma, 'm')}): "
-        f"{kind} lubrication, {so}."
-    )
+    if math.isnan(h):
+        why = f"no {element} is loaded"
+        if math.isnan(load):
+            why = "no cage angle has a static equilibrium"
+        kind, sentence = "", f"Film, {race} race: not known, as {why}."
+    elif h == 0.0:
+        sentence = f"The shaft is at rest and draws no oil between {element} and {race} race."
+    else:
+        sentence = (
+            f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
+            f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
+            f"({with_prefix(sigma, 'm')}): {kind} lubrication, {so}."
+        )
     return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

@@ -35,15 +35,13 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.roller import length_of
+from bearingcore.common.arrays import Array
 from bearingcore.scene.packing import pack
 from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.passes import drops_at
-
-Array = NDArray[np.float64]
 
 LAMINAE = 30
 """n_s, as few as the standard allows."""

@@ -49,10 +49,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from bearingcore.bearings.ball import USUAL_GROOVES
 from bearingcore.bearings.bearing import Bearing
@@ -282,19 +284,18 @@ def life(
         )
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     rows = range(len(scene.bearing.all_rows))
-    ratings = [race_ratings(scene.bearing, C, k) for k in rows]
+    rated = np.array([race_ratings(scene.bearing, C, k) for k in rows])
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
     healthy = _loads(healthy_scene, positions, turning_race)
     loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L_healthy = million_revolutions(contact, *_races(ratings, healthy))
-    rated, carried = _races(ratings, loads)
+    L_healthy = million_revolutions(contact, rated, healthy.of_rows)
+    carried = loads.of_rows
     L = million_revolutions(contact, rated, carried)
-    Q_ci, Q_ce = ratings[0]
+    Q_ci, Q_ce = rated[0].tolist()
     # what all rows together do to a race, as a load on that of the first row
-    Q_ei, Q_ee = (
-        rating * _together(contact, rated[race::2], carried[race::2])
-        for race, rating in enumerate(ratings[0])
-    )
+    chain = contact.load_exponent * contact.scatter
+    parts = (carried / rated).T.tolist()
+    Q_ei, Q_ee = Q_ci * together(parts[0], chain), Q_ce * together(parts[1], chain)
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
     P = 0.0 if math.isinf(L) else C * L ** (-1.0 / contact.rating_exponent)
@@ -315,27 +316,9 @@ def life(
         status=loads.status,
         sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C)
         + (f" Rating {long_number(C)} N, {rating_source}." if rating_source != GIVEN else ""),
-        rows=tuple(
-            million_revolutions(contact, rated[2 * k : 2 * k + 2], carried[2 * k : 2 * k + 2])
-            for k in rows
-        ),
+        rows=tuple(million_revolutions(contact, rated[k], carried[k]) for k in rows),
         rating_source=rating_source,
     )
-
-
-def _races(
-    ratings: Sequence[tuple[float, float]], loads: RaceLoads
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Ratings and loads [N] of all races: inner and outer one of the first row, of the second."""
-    rated = tuple(rating for row in ratings for rating in row)
-    carried = tuple(load for row in zip(loads.inner, loads.outer, strict=True) for load in row)
-    return rated, carried
-
-
-def _together(contact: ContactLife, ratings: Sequence[float], loads: Sequence[float]) -> float:
-    """Load over rating that tires one race as much as these tire several."""
-    parts = [load / rating for load, rating in zip(loads, ratings, strict=True)]
-    return together(parts, contact.load_exponent * contact.scatter)
 
 
 def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> tuple[float, float]:
@@ -346,21 +329,15 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     """
     own = bearing.of_row(row)
     cosine = math.cos(own.contact_angle)
+    each = [1.0] if bearing.rows_are_alike else _ratings_alone(bearing)
+    part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * _part_of_rating(bearing, row) / (own.n_balls * cosine),
+        dynamic_load_rating * part / (own.n_balls * cosine),
         own.ball_diameter * cosine / own.pitch_diameter,
         1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
-
-
-def _part_of_rating(bearing: Bearing, row: int) -> float:
-    """Rating of a row over the mean of all rows."""
-    if bearing.rows_are_alike:
-        return 1.0
-    each = _ratings_alone(bearing)
-    return each[row] * len(each) / sum(each)
 
 
 def _ratings_alone(bearing: Bearing) -> list[float]:
@@ -470,15 +447,14 @@ def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
     return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law, turning_race)
 
 
-def million_revolutions(
-    contact: ContactLife, ratings: Sequence[float], loads: Sequence[float]
-) -> float:
+def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLike) -> float:
     """L_10r [10⁶ turns] from Q_ci, Q_ce and Q_ei, Q_ee [N] (ISO 16281); infinite under no load.
 
     Of several rows those of all of them. L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e).
     """
     p, e = contact.load_exponent, contact.scatter
-    failing = sum((load / rating) ** (p * e) for load, rating in zip(loads, ratings, strict=True))
+    parts = np.ravel(np.asarray(loads) / np.asarray(ratings)).tolist()
+    failing = sum(part ** (p * e) for part in parts)
     return math.inf if failing == 0.0 else float(failing ** (-1.0 / e))
 
 

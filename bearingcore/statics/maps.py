@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
@@ -28,11 +29,8 @@ from bearingcore.statics.equilibrium import (
     default_cage_angles,
     too_many_contacts,
 )
-from bearingcore.statics.load_capacity import is_unbounded
-from bearingcore.statics.shortage import explanation
+from bearingcore.statics.shortage import explanation, is_unbounded
 from bearingcore.statics.status import StaticStatus
-
-Array = NDArray[np.float64]
 
 GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""

@@ -7,10 +7,11 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import RACES, Defect, drop_into
 from bearingcore.scene.packing import contacts, path
 from bearingcore.scene.scene import Scene
@@ -43,7 +44,7 @@ def ball_drop(
     cage_angle: ArrayLike = 0.0,
     race: str | None = None,
     row: int = 0,
-) -> NDArray[np.float64]:
+) -> Array:
     """Drop d(φ) [m] of ball centres at `ball_angle` [rad] over all defects of a scene.
 
     `cage_angle` [rad] moves inner-race defects. `race` takes the drop into that race alone;
@@ -55,17 +56,14 @@ def ball_drop(
     return drop_into(defects, scene.bearing, ball_angle, cage_angle, row)
 
 
-def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> NDArray[np.float64]:
+def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> Array:
     """Drop [m] of each ball of the bearing with the cage at an angle [rad], row after row."""
     return drops_at(scene, np.array([cage_angle]), race)[0]
 
 
 def drops_at(
-    scene: Scene,
-    cage_angles: NDArray[np.float64],
-    race: str | None = None,
-    leads: NDArray[np.float64] | None = None,
-) -> NDArray[np.float64]:
+    scene: Scene, cage_angles: Array, race: str | None = None, leads: Array | None = None
+) -> Array:
     """Drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row.
 
     leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
@@ -124,7 +122,7 @@ def shortest_passage(scene: Scene) -> float:
     return min(passages, default=math.inf)
 
 
-def path_kinks(scene: Scene, first: float, last: float) -> NDArray[np.float64]:
+def path_kinks(scene: Scene, first: float, last: float) -> Array:
     """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
 
     The path of a ball has a corner, or its curvature jumps, there and only there, as long as

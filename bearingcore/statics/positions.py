@@ -34,6 +34,8 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.bearings.bearing import Bearing
+from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.common.byte_cache import lru_cache_by_bytes
 from bearingcore.scene.defect import Defect, floor_bytes
 from bearingcore.scene.packing import PackedScene, pack
@@ -46,8 +48,6 @@ from bearingcore.statics.equilibrium import (
     without_defects,
 )
 
-Array = NDArray[np.float64]
-
 TWO_PI = 2.0 * math.pi
 
 ALL_AROUND = {"balls": 4, "rollers": 1}
@@ -56,7 +56,10 @@ stiffness of a roller jumps as it comes to carry."""
 
 SINKING = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0, 1.25, 1.5, 2.0, 3.0)
 """Drops at which nodes are put on an edge, over the greatest compression of a ball in the bearing
-without defects: about there it lets go."""
+without defects: about there it lets go. With clearance a light load follows it further."""
+
+FARTHEST_ASIDE = math.radians(80.0)
+"""Angle from the load's line up to which a ball is taken to carry beside a defect."""
 
 ON_A_FLOOR = 96
 """Nodes in a ball spacing where a floor is not flat, so that its path bends everywhere, or where
@@ -135,6 +138,20 @@ def over_all_positions(
     return dataclasses.replace(state, weights=found.weights)
 
 
+def state_of(
+    scene: Scene,
+    state: Equilibrium | None,
+    solve: Callable[..., Equilibrium] | None = None,
+) -> Equilibrium:
+    """A static equilibrium that is given for a scene, else what `over_all_positions` finds.
+
+    ValueError for the equilibrium of another scene.
+    """
+    if state is not None and state.scene != scene:
+        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    return over_all_positions(scene, solve=solve) if state is None else state
+
+
 def equilibrium_over_all(
     packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
 ) -> Equilibrium:
@@ -149,11 +166,12 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
     return positions_of(pack(scene), n)
 
 
-def _bytes_of(found: Positions, packed: PackedScene, _: int) -> int:
-    return 24 * found.weights.size + floor_bytes(packed.scene.defects)
-
-
-@lru_cache_by_bytes(64, 16_000_000, _bytes_of, lambda packed, n: (packed.scene, n))
+@lru_cache_by_bytes(
+    64,
+    16_000_000,
+    lambda found, packed, _: 24 * found.weights.size + floor_bytes(packed.scene.defects),
+    lambda packed, n: (packed.scene, n),
+)
 def positions_of(packed: PackedScene, n: int) -> Positions:
     """The positions of a scene that is packed.
 
@@ -262,7 +280,12 @@ def _nodes(packed: PackedScene, race: str) -> Array:
 def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Array:
     """Angles [rad] of a ball at both edges, where it meets the floor, and on the way there."""
     half = 0.5 * defect.extent
-    drops = {min(share * compression, defect.depth) for share in SINKING} | {defect.depth}
+    # with clearance the ring follows a ball that sinks until those beside the defect carry
+    aside = math.cos(min(half + bearing.ball_spacing, FARTHEST_ASIDE))
+    followed = compression + max(bearing.radial_clearance, 0.0) * (1.0 / aside - 1.0)
+    sizes = (compression, followed) if followed > 2.0 * compression else (compression,)
+    drops = {min(share * size, defect.depth) for share in SINKING for size in sizes}
+    drops.add(defect.depth)
     whole = defect.extent >= TWO_PI
     inwards = [0.0 if whole else defect.edge_width(bearing, drop) for drop in drops]
     away = half - np.minimum(inwards, half)

@@ -22,8 +22,9 @@ from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.scene.scene import Scene
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import Equilibrium
-from bearingcore.statics.positions import over_all_positions
+from bearingcore.statics.positions import state_of
 
 RACES = ("inner", "outer")
 
@@ -34,8 +35,8 @@ class HeaviestBall:
 
     Attributes
     ----------
-    load [N]
-        Q.
+    load, inner_load [N]
+        Q, and that at the inner race, where balls with mass press less than on the outer one.
     cage_angle, ball_angle [rad]
         φ_c and the ball's own φ_j at that moment.
     row
@@ -46,6 +47,11 @@ class HeaviestBall:
     cage_angle: float
     ball_angle: float
     row: int = 0
+    inner_load: float = math.nan
+
+    def load_on(self, race: str) -> float:
+        """Load [N] on a race; the greatest on the inner one may be that of another ball."""
+        return self.inner_load if race == "inner" else self.load
 
 
 def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
@@ -67,6 +73,7 @@ def _heaviest(state: Equilibrium, balls: slice) -> HeaviestBall:
         float(state.cage_angles[i]),
         float(state.ball_angle[i, ball]),
         state.scene.bearing.row_of_ball(ball)[0],
+        float(np.nanmax(state.inner_load[:, balls])),
     )
 
 
@@ -115,30 +122,25 @@ class ContactPressures:
 
     def table(self) -> ResultTable:
         """A row a race: load and place of the ball, semi-axes, pressure."""
-        races = (self.inner, self.outer)
         return table_of(
-            ("race", "", [contact.race for contact in races]),
-            ("ball_load", "N", [contact.load for contact in races], "of the heaviest loaded ball"),
+            ("race", "", "race"),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
             ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
             (
                 "semi_axis_across",
                 "m",
-                [contact.semi_axis_across for contact in races],
+                "semi_axis_across",
                 "of the contact ellipse, across the rolling",
             ),
             (
                 "semi_axis_along",
                 "m",
-                [contact.semi_axis_along for contact in races],
+                "semi_axis_along",
                 "of the contact ellipse, along the rolling",
             ),
-            (
-                "greatest_pressure",
-                "Pa",
-                [contact.greatest_pressure for contact in races],
-                "in the middle of the ellipse",
-            ),
+            ("greatest_pressure", "Pa", "greatest_pressure", "in the middle of the ellipse"),
             ("status", "", [self.reason or "known"] * 2),
+            of=(self.inner, self.outer),
         )
 
 
@@ -154,7 +156,8 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     scene
         what to look at; its bearing needs its groove radii.
     state
-        its static equilibrium, if it is there already; None computes it at all positions.
+        its static equilibrium, if it is there already; None computes it at all positions, of balls
+        with mass under their centrifugal load (`static_state`).
 
     Raises
     ------
@@ -162,10 +165,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
         for a bearing without groove radii, or the equilibrium of another scene.
     """
     checks.instance("scene", scene, Scene)
-    if state is None:
-        state = over_all_positions(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state, static_state)
     found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     worst = max(
         found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
@@ -177,8 +177,8 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
 def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
     found = {}
     for race in RACES:
-        contact = bearing.race_contact(race)
-        a, b = contact.semi_axes(ball.load)
-        p = contact.greatest_pressure(ball.load)
-        found[race] = RacePressure(race, ball.load, float(a), float(b), float(p))
+        contact, load = bearing.race_contact(race), ball.load_on(race)
+        a, b = contact.semi_axes(load)
+        p = contact.greatest_pressure(load)
+        found[race] = RacePressure(race, load, float(a), float(b), float(p))
     return ContactPressures(ball, found["inner"], found["outer"])

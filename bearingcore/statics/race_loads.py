@@ -43,22 +43,19 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium
 from bearingcore.statics.laminae import carried, strips
 from bearingcore.statics.status import StaticStatus
-
-Array = NDArray[np.float64]
 
 PANELS, PANELS_ON_AN_EDGE = 16, 6
 """Panels in a ball spacing, and between an edge and where a ball meets the floor: somewhere in
@@ -96,6 +93,11 @@ class RaceLoads(NamedTuple):
     heaviest: float
     status: int = StaticStatus.CONVERGED
     reason: str = ""
+
+    @property
+    def of_rows(self) -> Array:
+        """(rows, 2) [N] of the inner and the outer race of each row."""
+        return np.stack([self.inner, self.outer], axis=1)
 
 
 def snapshot_loads(
@@ -229,16 +231,11 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
             corners += np.arange(at, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
-    x, w = _gauss(POINTS)
+    x, w = np.polynomial.legendre.leggauss(POINTS)
     half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])
     places = middle[:, None] + half[:, None] * x
     weights = half[:, None] * w / period
     return places.ravel(), weights.ravel()
-
-
-@lru_cache(maxsize=8)
-def _gauss(n: int) -> tuple[Array, Array]:
-    return np.polynomial.legendre.leggauss(n)
 
 
 def _corners(defect: Defect, bearing: Bearing) -> list[float]:

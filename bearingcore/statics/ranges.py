@@ -8,14 +8,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import ANGLES_A_PERIOD, STIFFNESS_TERMS, Equilibrium
 from bearingcore.statics.equilibrium import equilibrium as massless_equilibrium
 from bearingcore.statics.positions import ROUNDS, extremes, over_all_positions, positions
-
-Array = NDArray[np.float64]
 
 BALL_LOAD = "ball_load"
 """Name of the load [N] of the ball that carries most, besides those of `STIFFNESS_TERMS`."""
@@ -81,15 +79,7 @@ def static_ranges(
 def ranges_of(state: Equilibrium) -> StaticRanges:
     """The ends of a state at equally spaced angles over a period, its ends included."""
     names = [*STIFFNESS_TERMS, BALL_LOAD]
-    numbers = _numbers(state, names)
-    known = np.isfinite(numbers)
-    ends = [
-        np.where(known.any(axis=1), end, math.nan)
-        for end in (
-            numbers.min(axis=1, initial=math.inf, where=known),
-            numbers.max(axis=1, initial=-math.inf, where=known),
-        )
-    ]
+    ends = least_and_greatest(_numbers(state, names), 1)
     weights = np.ones(len(state.cage_angles))
     weights[[0, -1]] = 0.5
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends)

@@ -1,4 +1,12 @@
-"""Why a scene has no equilibrium, in words: what it lacks, or what its contacts do not allow."""
+"""Why a scene has no equilibrium: whether contacts can carry its load, and what it lacks.
+
+Quantity                                                        | Symbol | Name     | Unit
+--------------------------------------------------------------- | ------ | -------- | ----
+load, moments over r_d                                          | F      | load     | N
+direction in which the ring moves, tilts times r_d              | w      |          |
+gradients of a ball's motion along its unloaded line of contact | e_j    | pressing |
+and across it                                                   | t_j    |          |
+"""
 
 from __future__ import annotations
 
@@ -7,17 +15,22 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore import kernels
+from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number, with_prefix
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.load_capacity import is_unbounded
 from bearingcore.statics.passes import drops_at
 from bearingcore.statics.status import StaticStatus
 
-Array = NDArray[np.float64]
-
 _Z, _TILTS = 2, (3, 4)
 _TILTS_HELD = "the shaft's other bearing, or tilts that are held"
+
+
+EPSILON = float(np.finfo(float).eps)
+
+ROUNDING = 1e-13
+"""A gradient below this is that of a ball which is across the direction to a digit."""
 
 
 def explanation(
@@ -82,7 +95,7 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
         return _TILTS_HELD
     if facing == 0.0 or _Z not in active:
         return ""
-    thrust = _thrust(scene, math.hypot(*force[:2]), facing * force[_Z])
+    thrust = _thrust(scene, cage_angle, facing * force[_Z])
     if carries(active, pressed):
         return f"the shaft's other bearing, or {thrust}"
     if level.size < active.size and carries(level, pressed):
@@ -90,16 +103,25 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
     return ""
 
 
-def _thrust(scene: Scene, radial: float, thrust: float) -> str:
-    """Clause on the thrust that rows lack beside a radial load and a thrust [N] one way."""
+def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
+    """Clause on the thrust that rows lack beside the radial load and a thrust [N] one way.
+
+    A row holds F_r with F_r tan α where one element is on the load's line; where it is between two
+    both carry, and the fewer there are the more: cos(β/2 − γ)/cos(β/2) times as much, β the
+    spacing, γ the angle from the one before the line.
+    """
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
     else:
         words = f"more axial load: with {with_prefix(thrust, 'N')} the inner ring leaves the outer"
-    if radial == 0.0 or len(scene.bearing.all_rows) > 1:
+    bearing, load = scene.bearing, scene.load
+    radial = math.hypot(load.fx, load.fy)
+    if radial == 0.0 or len(bearing.all_rows) > 1:
         return words
-    least = with_prefix(radial * math.tan(scene.bearing.contact_angle), "N")
-    return f"{words}, and over {least} must hold it against the radial load"
+    half, first = 0.5 * bearing.ball_spacing, packing.ball_angles(bearing, np.array([cage_angle]))
+    past = (math.atan2(load.fy, load.fx) - float(first[0, 0])) % bearing.ball_spacing
+    least = radial * math.tan(bearing.contact_angle) * math.cos(half - past) / math.cos(half)
+    return f"{words}, and over {with_prefix(least, 'N')} must hold it against the radial load"
 
 
 def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
@@ -127,3 +149,52 @@ def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
         "the inner ring would move out of the outer one, past the "
         f"{with_prefix(float(one.distance.min()), 'm')} between the groove centres"
     )
+
+
+def descent_direction(
+    contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
+) -> tuple[Array, float]:
+    """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
+
+    A ball stays free for ever just when it moves straight back along its unloaded line of contact,
+    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers, whose line of
+    contact is fixed, may move across it as well, so that e_j·w ≤ 0 is all of it. The nearest of
+    them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
+    of the load is 0 where contacts can carry all of it.
+    """
+    from scipy.optimize import nnls  # imported late: slow to import
+
+    nothing = np.zeros(len(active)), 0.0
+    if not load.any():
+        return nothing
+    phi = contacts.angles_at(np.array([cage_angle]))[0]
+    c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
+    arm, reach = contacts.arm, contacts.reach
+    radial = np.stack([c, s, zero, -arm * s, arm * c], axis=1)[:, active]
+    axial = np.stack([zero, zero, one, reach * s, -reach * c], axis=1)[:, active]
+    ca, sa = contacts.line_r[:, None], contacts.line_z[:, None]
+    across = (axial * ca - radial * sa)[~contacts.fixed]
+    across[np.abs(across) < ROUNDING] = 0.0
+    _, sizes, vectors = np.linalg.svd(across)
+    held = np.count_nonzero(sizes > 1e-10)
+    still = vectors[held:]
+    if not len(still):
+        return nothing
+    pressing = still @ (radial * ca + axial * sa).T
+    # what is left free is known to a digit times how unevenly the rest is held
+    unevenness = sizes[0] / sizes[held - 1] if held else 1.0
+    pressing[np.abs(pressing) < max(ROUNDING, 10.0 * EPSILON * unevenness)] = 0.0
+    along = still @ load / np.linalg.norm(load)
+    taken, _ = nnls(pressing, along, maxiter=100 * pressing.shape[1])
+    left = along - pressing @ taken
+    return left @ still, float(np.linalg.norm(left))
+
+
+def is_unbounded(
+    contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
+) -> bool:
+    """True where some motion does work on the load and never presses a ball.
+
+    The energy then falls without end. `load` belongs to the active directions.
+    """
+    return descent_direction(contacts, cage_angle, active, load)[1] > kernels.RESIDUAL_LIMIT

@@ -92,7 +92,8 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
     if not known.size and not against > 0.0:
         return unknown(name, 0.0, "N", "no cage angle has a static equilibrium")
     value = max(float(known.max(initial=0.0)), against, 0.0)
-    which = f"Each row of {bearing.kind.elements}" if bearing.rows else _row_of(bearing)
+    alone = f"A row of {bearing.kind.elements} at {math.degrees(bearing.contact_angle):.1f}°"
+    which = f"Each row of {bearing.kind.elements}" if bearing.rows else alone
     fact = f"{which} carries thrust one way only"
     if value > 0.0:
         fact += (
@@ -101,11 +102,6 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
         )
         return Limit(name, value, 0.0, "N", True, f"{fact}.")
     return Limit(name, 0.0, 0.0, "N", False, f"{fact}, and is pressed that way.")
-
-
-def _row_of(bearing: Bearing) -> str:
-    angle = math.degrees(bearing.contact_angle)
-    return f"A row of {bearing.kind.elements} at {angle:.1f}°"
 
 
 def _too_little(scene: Scene, state: Equilibrium, induced: float) -> Limit:

@@ -47,8 +47,9 @@ from bearingcore.bearings.drawing import center_distance
 from bearingcore.bearings.hertz import in_series
 from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.packing import contacts
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
@@ -56,7 +57,7 @@ from bearingcore.statics.film import TOUCHING, Film
 from bearingcore.statics.gyroscopic import gyroscopic_limit
 from bearingcore.statics.limit import NO_DRAWING, NO_MOTION, NO_OIL, Limit, unknown, upper_limit
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
-from bearingcore.statics.positions import over_all_positions, positions
+from bearingcore.statics.positions import over_all_positions, positions, state_of
 from bearingcore.statics.pressure import RACES, heaviest_balls
 from bearingcore.statics.thrust import thrust_limits
 from bearingcore.statics.tilts import free_tilts, held_tilts
@@ -146,21 +147,25 @@ def limits(
     checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
         checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
-    if state is None:
-        state = state_of_limits(scene)
-    elif state.scene != scene:
-        raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
+    state = state_of(scene, state_of_limits(scene) if state is None else state)
     if film is not None and film.scene != scene:
         raise checks.refuse("film", "the film of another scene", "that of this scene")
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
-    at_rest = [(bearing.of_row(ball.row), ball.load) for ball in heaviest_balls(state)]
+    heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    at_rest = [(own, ball.load) for own, ball in heaviest]
     in_motion = []
     if dynamic_load is not None:
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
         in_motion = [(own, load) for own, _ in bearing.unlike_rows]
     found: list[Limit | None] = [
-        _pressure(bearing, f"contact pressure, {race} race", at_rest, (race,), NO_STATE)
+        _pressure(
+            bearing,
+            f"contact pressure, {race} race",
+            [(own, ball.load_on(race)) for own, ball in heaviest],
+            (race,),
+            NO_STATE,
+        )
         for race in RACES
     ]
     if turns:
@@ -214,8 +219,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
 
 NOT_IN_STATICS = "the static model leaves it out"
 NOT_IN_STATICS_WITH_MASS = (
-    "the loads and stiffness of balls with mass hold it, maps, natural frequencies and life leave "
-    "it out"
+    "the loads and stiffness of balls with mass hold it, these limits, maps, natural frequencies "
+    "and life leave it out"
 )
 
 NO_STATE = "no cage angle has a static equilibrium"
@@ -275,12 +280,7 @@ def _worst(found: Iterable[Limit]) -> Limit:
     return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
-def _shoulder_of(
-    bearing: Bearing,
-    loads: NDArray[np.float64],
-    angles: NDArray[np.float64],
-    height: float | None,
-) -> Limit:
+def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | None) -> Limit:
     """Contact angle of loaded balls, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
@@ -296,8 +296,8 @@ def _shoulder_of(
     reach, angles = angles[carries], angles[carries]
     known = bearing.knows_contacts
     if known:
-        contacts = map(bearing.race_contact, bearing.kind.shoulders)
-        half = [contact.semi_axes(loads[carries])[0] for contact in contacts]
+        ellipses = map(bearing.race_contact, bearing.kind.shoulders)
+        half = [ellipse.semi_axes(loads[carries])[0] for ellipse in ellipses]
         spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
@@ -329,7 +329,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     loads = state.ball_load[:, balls]
     lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
     carried = _known(state) & np.isfinite(lightest)
-    load = _median(lightest[carried], state.shares[carried])
+    load = weighted_quantile(lightest[carried], state.shares[carried], 0.5)
     if not load > 0.0:
         return unknown(name, limit, "", "no ball is known to carry load")
     force = bearing.centrifugal_load(scene.shaft_speed)
@@ -344,15 +344,6 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
     )
     within = f", less than the {percent(limit)} that matter."
     return upper_limit(name, share, limit, "", fact, beyond, within)
-
-
-def _median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> float:
-    """Median of numbers (n,) with weights (n,); NaN of none."""
-    if not values.size:
-        return math.nan
-    order = np.argsort(values)
-    below = np.cumsum(weights[order]) - 0.5 * weights[order]
-    return float(np.interp(0.5 * weights.sum(), below, values[order]))
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
@@ -397,7 +388,7 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
 
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
-    compression = typical_compression(bearing, load)
+    compression = contacts(bearing).compression(load)
     apart = center_distance(bearing.groove_center_distance)
     share = compression / apart
     most = percent(GREATEST_COMPRESSION)

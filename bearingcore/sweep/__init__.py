@@ -15,6 +15,7 @@ from bearingcore.sweep.outputs import LIFE as LIFE
 from bearingcore.sweep.outputs import MASS as MASS
 from bearingcore.sweep.outputs import MODES as MODES
 from bearingcore.sweep.outputs import OUTPUTS as OUTPUTS
+from bearingcore.sweep.outputs import PRESSURE as PRESSURE
 from bearingcore.sweep.outputs import SECONDS as SECONDS
 from bearingcore.sweep.outputs import STATICS as STATICS
 from bearingcore.sweep.outputs import Settings as Settings

@@ -26,13 +26,11 @@ from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
     IN_ROWS,
     LIFE,
-    MASS,
     MODE,
     MODES,
-    MOTION,
-    ORBIT,
+    MOVING,
     OUTPUTS,
-    RECORD,
+    PRESSURE,
     SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
@@ -173,16 +171,10 @@ class Grid:
             return (*part, len(self.settings.record_time))
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
-    def values_at(self, index: Sequence[int]) -> dict[str, Any]:
-        """Values of the axes at an index."""
-        return {
-            axis.name: axis.values[i].item() if axis.name not in WORDS else str(axis.values[i])
-            for axis, i in zip(self.axes, index, strict=True)
-        }
-
     def scene_at(self, index: Sequence[int]) -> Scene:
         """The scene at an index; ValueError where there can be none."""
-        return self.scene.replace(**self.values_at(index))
+        pairs = zip(self.axes, index, strict=True)
+        return self.scene.replace(**{axis.name: axis.values[i].item() for axis, i in pairs})
 
     # ---------------------------------------------------------------------------- regions
 
@@ -194,7 +186,7 @@ class Grid:
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
             seconds = sum(table[need] for need in self.needs)
-            if len(self.dofs) > 2 and set(self.needs) & {MOTION, ORBIT, MASS, RECORD}:
+            if len(self.dofs) > 2 and set(self.needs) & MOVING:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
         left = max(scenes, 1)
@@ -234,7 +226,8 @@ class Grid:
         """Codes of STATUSES and the outputs of all scenes, in this thread."""
         status = np.zeros(self.shape, dtype=np.int8)
         numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
-        for at, codes, found in self._rows() if self.in_rows else self._scenes():
+        each = ((at, *self._scene(at)) for at in np.ndindex(*self.shape))
+        for at, codes, found in self._rows() if self.in_rows else each:
             status[at] = codes
             for name in self.outputs:
                 if name in found:
@@ -242,10 +235,6 @@ class Grid:
         for values in numbers.values():
             values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
         return status, numbers
-
-    def _scenes(self) -> Iterator[tuple[Any, Any, Numbers]]:
-        for at in np.ndindex(*self.shape):
-            yield at, *self._scene(at)
 
     def _scene(self, index: Sequence[int]) -> tuple[Any, Numbers]:
         try:
@@ -295,7 +284,11 @@ class Grid:
                 for axis in self.axes
                 if axis.name in ("extent", "depth")
             }
-            if not _or_none(self.scene, largest, lambda scene: scene.defects):
+            try:
+                damaged = bool(self.scene.replace(**largest).defects)
+            except ValueError:
+                damaged = True  # there can be none, which is refused below
+            if not damaged:
                 raise checks.refuse(
                     "over",
                     of_defect[0],
@@ -317,16 +310,18 @@ class Grid:
     def _try(self, index: Sequence[int]) -> None:
         """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
         scene = self.scene_at(index)
-        if set(self.needs) & {MODES, MOTION, ORBIT, MASS, RECORD}:
+        if set(self.needs) & {MODES, *MOVING}:
             dofs = scene.active_dofs
             scene.support.stiffness(dofs)
             if self.needs != (MODES,):
                 scene.support.damping(dofs)
             for body in ("inner", "outer"):
                 scene.support.inertia(body, dofs)
+        if PRESSURE in self.needs:
+            scene.bearing.race_contact("inner")
         if LIFE in self.needs:
             race_ratings(scene.bearing, 1.0)
-        if set(self.needs) & {MOTION, ORBIT, MASS, RECORD} and scene.shaft_speed == 0.0:
+        if set(self.needs) & MOVING and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
     # ---------------------------------------------------------------------------- in words
@@ -412,14 +407,6 @@ def _even(n: int, most: int) -> int:
     """The least part size that cuts n into as few parts as parts of size `most` do."""
     parts = -(-n // min(most, n))
     return -(-n // parts)
-
-
-def _or_none(scene: Scene, changes: dict[str, Any], ask: Any) -> Any:
-    """`ask` of the changed scene; True where there can be none, which is refused later."""
-    try:
-        return ask(scene.replace(**changes))
-    except ValueError:
-        return True
 
 
 def _short(value: object) -> str:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import fnmatch
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import BandSearch, undamped_bands
@@ -24,6 +25,7 @@ from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.speed_runs import SETTLING_SHARE
 from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
 from bearingcore.signals.recording import DIRECTIONS
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import (
     STIFFNESS_TERMS,
     TERM_SYMBOLS,
@@ -49,13 +51,13 @@ from bearingcore.sweep.status import (
     SweepStatus,
 )
 
-Array = NDArray[np.float64]
+STATICS, PRESSURE, LIFE, MODES = "statics", "pressure", "life", "modes"
+MOTION, ORBIT, MASS, RECORD = "motion", "orbit", "mass", "record"
+MOVING = frozenset({MOTION, ORBIT, MASS, RECORD})
+"""Computations of motions."""
 
-STATICS, LIFE, MODES, MOTION, ORBIT, MASS = "statics", "life", "modes", "motion", "orbit", "mass"
-RECORD = "record"
-
-SECONDS = {STATICS: 4e-4, LIFE: 1e-3, MODES: 5e-4, MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2}
-SECONDS[RECORD] = 0.1
+SECONDS = {STATICS: 4e-4, PRESSURE: 4e-4, LIFE: 1e-3, MODES: 5e-4}
+SECONDS |= {MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2, RECORD: 0.1}
 """Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
 a task. Five directions cost about ten times as much, but for statics, modes and life; with a
 defect of the inner race statics and modes take thirty times as long, life fifteen times."""
@@ -85,7 +87,8 @@ class Output:
         for lists and axes: the heading that it stands under, and a few words. With a number for
         each mode, "{}" stands for the mode in the label.
     needs
-        which computation: "statics", "life", "modes", "motion" or "orbit".
+        which computation: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
+        "record".
     dof
         the direction that must be free for it; empty where none.
     per_mode, per_sample
@@ -146,7 +149,7 @@ def _table() -> dict[str, Output]:
             f"greatest contact pressure of a ball on the {race} race {over}",
             "Balls",
             f"contact pressure, {race} race",
-            LIFE,
+            PRESSURE,
         )
     not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
     for unit, name in (("1", "turns"), ("h", "hours")):
@@ -260,7 +263,9 @@ class Settings:
     ----------
     cage_angles
         how many in a period, ends included. With an inner-race defect a quarter as many to a ball
-        spacing all around, at each place where a ball meets an edge.
+        spacing all around, at each place where a ball meets an edge; then least and greatest are
+        looked for between them too. Else they are those at these angles: where few balls carry,
+        as of a light or tilting load, stiffness may dip or rise by some per cent more in between.
     duration
         [s] of simulated motions, whose first half is left out as transient, and of records.
     sample_rate
@@ -314,49 +319,36 @@ def of_scene(
     if STATICS in needs or MODES in needs:
         found = static_ranges(
             scene,
-            [name for name in (*STIFFNESS_TERMS, BALL_LOAD) if _ends_of(name) & set(outputs)],
+            [
+                name
+                for name in (*STIFFNESS_TERMS, BALL_LOAD)
+                if {f"{name}_least", f"{name}_greatest"} & set(outputs)
+            ],
             settings.cage_angles,
             rounds=ROUNDS if scene.defect_turns else 0,
         )
         code, numbers = _of_ranges(found)
         ended.append(STATUSES[int(code)])
-    try:
-        if LIFE in needs:
-            ended.append(_life(scene, settings, numbers))
-        if MODES in needs:
-            numbers |= _bands_over_all_positions(found, labels, settings.cage_angles)
-        if MOTION in needs:
-            ended.append(_motion(scene, settings, numbers))
-        if RECORD in needs:
-            numbers |= _record(scene, settings)
-        if MASS in needs:
-            if settings.band_high > PASSED * settings.sample_rate:
-                raise checks.refuse(
-                    "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
-                )
-            share = mass_share(
-                scene,
-                settings.band_low,
-                settings.band_high,
-                settings.duration,
-                settings.sample_rate,
-            )
-            numbers["mass_share"] = np.array(share)
-        if ORBIT in needs:
-            motion = orbit(scene)
-            numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
-            ended.append(OF_ORBIT[motion.status])
-    except ValueError:
-        ended.append(SweepStatus.COMPUTATION_REFUSED)
-    except (ArithmeticError, np.linalg.LinAlgError):
-        ended.append(SweepStatus.ARITHMETIC_FAILED)
+    computations: dict[str, Callable[[], SweepStatus]] = {
+        PRESSURE: lambda: _pressure(scene, settings, numbers),
+        LIFE: lambda: _life(scene, settings, numbers),
+        MODES: lambda: _bands_over_all_positions(found, labels, settings.cage_angles, numbers),
+        MOTION: lambda: _motion(scene, settings, numbers),
+        RECORD: lambda: _record(scene, settings, numbers),
+        MASS: lambda: _mass(scene, settings, numbers),
+        ORBIT: lambda: _orbit(scene, numbers),
+    }
+    for name, compute in computations.items():
+        if name not in needs:
+            continue
+        try:  # each by itself: what one of them refuses leaves the others as they are
+            ended.append(compute())
+        except ValueError:
+            ended.append(SweepStatus.COMPUTATION_REFUSED)
+        except (ArithmeticError, np.linalg.LinAlgError):
+            ended.append(SweepStatus.ARITHMETIC_FAILED)
     known = SweepStatus.COMPLETE
     return next((status for status in ended if status is not known), known).code, numbers
-
-
-def _ends_of(name: str) -> set[str]:
-    """Outputs that are the ends of a number of `static_ranges`."""
-    return {f"{name}_least", f"{name}_greatest"}
 
 
 def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
@@ -373,12 +365,16 @@ def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
     return code, numbers
 
 
-def _bands_over_all_positions(found: StaticRanges, labels: tuple[str, ...], n: int) -> Numbers:
-    """Edges (len(labels),) of the bands of one scene."""
+def _bands_over_all_positions(
+    found: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
+) -> SweepStatus:
+    """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
     scene = found.state.scene
     if not scene.defect_turns:
         terms = np.stack([found.state.term(name) for name in STIFFNESS_TERMS])
-        return {name: values[0] for name, values in _bands(scene, terms[:, None], labels).items()}
+        of_one = _bands(scene, terms[:, None], labels)
+        numbers |= {name: values[0] for name, values in of_one.items()}
+        return SweepStatus.COMPLETE
     search = BandSearch(found.state)
 
     def at(cage_angles: Array, shaft_angles: Array) -> Array:
@@ -386,10 +382,9 @@ def _bands_over_all_positions(found: StaticRanges, labels: tuple[str, ...], n: i
 
     ends = extremes(positions(scene, n), search.frequencies(found.state), at)
     edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
-    return {
-        f"band_{which}": np.array([own.get(label, math.nan) for label in labels])
-        for which, own in zip(("least", "greatest"), edges, strict=True)
-    }
+    for which, own in zip(("least", "greatest"), edges, strict=True):
+        numbers[f"band_{which}"] = np.array([own.get(label, math.nan) for label in labels])
+    return SweepStatus.COMPLETE
 
 
 IN_ROWS = frozenset({STATICS, MODES})
@@ -464,7 +459,7 @@ def _statics(
 
 
 def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
-    """Put life and pressures into `numbers`; say what became of them.
+    """Put the life into `numbers`; say what became of it.
 
     Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
     lives, where nothing is carried, are not known to a map.
@@ -477,9 +472,6 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     numbers["life_turns"] = np.array(turns if known else math.nan)
     numbers["life_hours"] = np.array(found.hours if known else math.nan)
     numbers["life_share_of_healthy"] = np.array(found.share_of_healthy if known else math.nan)
-    pressures = contact_pressures(scene, over_all_positions(scene, settings.cage_angles))
-    for contact in (pressures.inner, pressures.outer):
-        numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)
     if math.isinf(turns):
         return SweepStatus.NOTHING_TOUCHES
     if known and math.isnan(found.hours):
@@ -487,11 +479,40 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     return OF_STATICS[StaticStatus(found.status)]
 
 
-def _record(scene: Scene, settings: Settings) -> Numbers:
-    """Records (n,) along each direction."""
+def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put the pressures on both races into `numbers`; say what became of them."""
+    state = over_all_positions(scene, settings.cage_angles, static_state)
+    pressures = contact_pressures(scene, state)
+    for contact in (pressures.inner, pressures.outer):
+        numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)
+    return OF_STATICS[StaticStatus(int(state.status.max()))]
+
+
+def _mass(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put the share that the balls' mass adds into `numbers`."""
+    if settings.band_high > PASSED * settings.sample_rate:
+        raise checks.refuse(
+            "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
+        )
+    band = settings.band_low, settings.band_high
+    share = mass_share(scene, *band, settings.duration, settings.sample_rate)
+    numbers["mass_share"] = np.array(share)
+    return SweepStatus.COMPLETE
+
+
+def _orbit(scene: Scene, numbers: Numbers) -> SweepStatus:
+    """Put the largest multiplier of the orbit into `numbers`; say what became of it."""
+    motion = orbit(scene)
+    numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
+    return OF_ORBIT[motion.status]
+
+
+def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put records (n,) along each direction into `numbers`."""
     made = simulated_record(scene, None, settings.duration, settings.sample_rate)
     pairs = zip(made.directions, made.acceleration.T, strict=True)
-    return {f"record_{name}": signal for name, signal in pairs}
+    numbers |= {f"record_{name}": signal for name, signal in pairs}
+    return SweepStatus.COMPLETE
 
 
 def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:

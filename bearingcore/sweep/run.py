@@ -8,7 +8,7 @@ import logging
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -111,28 +111,7 @@ def sweep(
         where the scheduler cannot be reached or is lost. What is finished is in the store.
     """
     needs_extra()
-    return run(
-        Grid.of(scene, over, outputs, settings),
-        client=client,
-        store=store,
-        workers=workers,
-        processes=processes,
-        scenes_per_task=scenes_per_task,
-        progress=progress,
-    )
-
-
-def run(
-    grid: Grid,
-    *,
-    client: Client | str | None,
-    store: str | os.PathLike[str] | None,
-    workers: int | None,
-    processes: bool,
-    scenes_per_task: int | None,
-    progress: Progress | None,
-) -> xarray.Dataset:
-    """`sweep` of a grid."""
+    grid = Grid.of(scene, over, outputs, settings)
     if scenes_per_task is not None:
         scenes_per_task = checks.whole_number(
             "scenes_per_task", scenes_per_task, at_least=1, at_most=10_000_000
@@ -140,24 +119,26 @@ def run(
     if workers is not None:
         workers = checks.whole_number("workers", workers, at_least=1, at_most=1000)
     region_shape = grid.region_shape(scenes_per_task)
+    cluster = _cluster(client, workers, processes)
     if store is None:
-        return _in_memory(grid, region_shape, client, workers, processes, progress)
+        return _in_memory(grid, region_shape, cluster, progress)
     path = stores.local_path(store)
     try:
-        return _in_store(path, grid, region_shape, client, workers, processes, progress)
+        return _in_store(path, grid, region_shape, cluster, progress)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EDQUOT):
             raise
         raise OSError(error.errno, FULL, str(path)) from None
 
 
+Cluster = AbstractContextManager["Client"]
+
+
 def _in_store(
     path: Path,
     grid: Grid,
     region_shape: tuple[int, ...],
-    client: Client | str | None,
-    workers: int | None,
-    processes: bool,
+    cluster: Cluster,
     progress: Progress | None,
 ) -> xarray.Dataset:
     region_shape = stores.prepare(path, grid, region_shape)
@@ -166,9 +147,9 @@ def _in_store(
         for index in np.ndindex(*grid.region_counts(region_shape))
     )
     done = _Progress(grid.size, progress)
-    with _cluster(client, workers, processes) as cluster:
+    with cluster as client:
         seen = False
-        for region, computed in _finished(cluster, stores.finish, regions):
+        for region, computed in _finished(client, stores.finish, regions):
             if not (seen or stores.is_finished(region)):
                 raise checks.refuse(
                     "store",
@@ -189,12 +170,7 @@ def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
 
 
 def _in_memory(
-    grid: Grid,
-    region_shape: tuple[int, ...],
-    client: Client | str | None,
-    workers: int | None,
-    processes: bool,
-    progress: Progress | None,
+    grid: Grid, region_shape: tuple[int, ...], cluster: Cluster, progress: Progress | None
 ) -> xarray.Dataset:
     import xarray
 
@@ -212,8 +188,8 @@ def _in_memory(
     )
     parts = ((place, grid.part(place)) for place in places)
     done = _Progress(grid.size, progress)
-    with _cluster(client, workers, processes) as cluster:
-        for (place, part), (codes, found) in _finished(cluster, _compute, parts):
+    with cluster as client:
+        for (place, part), (codes, found) in _finished(client, _compute, parts):
             status[place] = codes
             for name, values in found.items():
                 numbers[name][place] = values

@@ -31,8 +31,9 @@ class SweepStatus(Status):
     COMPUTATION_REFUSED = (
         "computation_refused",
         "this cannot be computed here: the shaft must turn, mass, stiffness and damping be "
-        "known in each direction that moves, for life and pressure the groove radii, and balls "
-        "be massless for orbits",
+        "known in each direction that moves, for life and pressure the groove radii, for life a "
+        "rating, which hybrid and self-aligning bearings have from the catalogue, and balls be "
+        "massless for orbits",
     )
     NO_STATIC_START = "no_static_start", "there is no static state to start from"
     MOTION_DIVERGED = "motion_diverged", "the motion does not stay finite"

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 _FILE_DIAGNOSED = """
 import asyncio, io, math
 from bearing_explorer.diagnosis.upload import PIECE
@@ -58,8 +60,8 @@ async def main():
     assert session.shown == "overview"
     session.start()
     session.show_tab({"show": "load"})
-    take(halves.explorer.requests.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
-    halves.explorer.requests.simulate("20")  # of the other half: nothing comes
+    take(halves.explorer.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
+    halves.explorer.simulate("20")  # of the other half: nothing comes
     while session._drawn_mark < 4 or not session._loop.idle:
         await asyncio.sleep(0.05)
     [drawn] = [view for view in session.views_made() if view.name == "depth-profile"]
@@ -81,10 +83,12 @@ def _without(half: str, script: str) -> str:
     return done.stdout.strip().splitlines()[-1]
 
 
+@pytest.mark.proof
 def test_a_file_is_diagnosed_without_the_half_of_the_scene() -> None:
     assert _without("explorer", _FILE_DIAGNOSED) == "outer race"
 
 
+@pytest.mark.proof
 def test_the_scene_is_changed_and_drawn_without_the_half_of_the_signal() -> None:
     assert _without("diagnosis", _SCENE_CHANGED) == "8e-05"
 

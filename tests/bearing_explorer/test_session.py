@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.messages import LinksChange, SceneChange
 from bearing_explorer.explorer.views.alternatives import OtherModels, takeable
-from bearing_explorer.kit.half import Section
 from bearing_explorer.kit.messages import take
+from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 
 from bearingcore import presets
@@ -93,12 +93,12 @@ def session(
 
 def changing(message: object) -> Callable[[SceneSession], None]:
     """The controls send a message, which is checked where it arrives."""
-    return lambda explorer: take(explorer.requests.change_scene, SceneChange, message)
+    return lambda explorer: take(explorer.change_scene, SceneChange, message)
 
 
 def linking(message: object) -> Callable[[SceneSession], None]:
     """The bar above the controls sends one."""
-    return lambda explorer: take(explorer.requests.change_links, LinksChange, message)
+    return lambda explorer: take(explorer.change_links, LinksChange, message)
 
 
 def showing(tab: str) -> Callable[[SceneSession], None]:
@@ -124,9 +124,17 @@ def test_a_slider_reaches_the_view_on_screen_and_no_other(news: list[dict]) -> N
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
 
 
+def test_the_first_picture_of_a_change_has_the_limits_of_its_scene() -> None:
+    """A typed load may be far over them; those of a drag that goes on follow each second."""
+    explorer = session(rest=True)
+    moving = explorer.content
+    assert moving.moving
+    assert [explorer._limits_due(moving) for _ in range(3)] == [True, False, False]
+
+
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:
     explorer = session(changing({"mark": 1, "typed": {"extent_deg": "33,5"}}))
-    assert explorer.values["extent_deg"] == 33.5
+    assert explorer.editor.values["extent_deg"] == 33.5
     assert len(news) == 1
     assert news[0]["state"]["values"] == {"extent_deg": 33.5}
     assert news[0]["state"]["mark"] == 1, "a hand that has moved on meanwhile passes over it"
@@ -191,7 +199,7 @@ def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch)
 
     def ask_twice(explorer: SceneSession) -> None:
         for _ in range(2):
-            explorer.requests.change_links({"report": "http://localhost:5006/"})
+            explorer.change_links({"report": "http://localhost:5006/"})
 
     session(ask_twice)
     assert [list(news) for news in answers] == [["report"]]

@@ -20,6 +20,7 @@ from tests.browser.helpers import (
     serving,
     slug,
 )
+from tests.browser.visitor import FAN_RIG, Visitor
 from tests.helpers.compiled import compile_once
 
 FAILURES = Path(__file__).parent / "failures"
@@ -85,6 +86,28 @@ def watch(request: pytest.FixtureRequest, browser: BrowserContext) -> Iterator[t
 def page(watch: tuple[Page, Watch]) -> Page:
     """The page of `watch`, for tests that need no more of it."""
     return watch[0]
+
+
+@pytest.fixture(scope="session")
+def _desk(browser: BrowserContext, explorer: Server) -> Iterator[Visitor]:
+    page, watching = browser.new_page(), Watch()
+    watching.follow(page)
+    visitor = Visitor(page, explorer)
+    visitor.open(FAN_RIG + "load")
+    yield visitor
+    page.close()
+    watching.assert_clean()
+
+
+@pytest.fixture
+def desk(_desk: Visitor, request: pytest.FixtureRequest) -> Iterator[Visitor]:
+    """One page for all tests that begin with the fan rig: to load it is most of the work."""
+    failed, size = request.session.testsfailed, _desk.page.viewport_size
+    yield _desk
+    if _desk.page.viewport_size != size and size is not None:
+        _desk.page.set_viewport_size(size)
+    if request.session.testsfailed > failed:
+        _desk.open(FAN_RIG + "load")
 
 
 def _keep(request: pytest.FixtureRequest, page: Page, watching: Watch) -> None:

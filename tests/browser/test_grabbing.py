@@ -5,8 +5,8 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.explorer_page import open_page, settle, value
-from tests.browser.helpers import Server, unfold
+from tests.browser.explorer_page import settle, value
+from tests.browser.visitor import Visitor
 
 START, END, MIDDLE, LOAD = range(4)
 PLACES = """kind => {
@@ -20,6 +20,13 @@ PLACES = """kind => {
   return [corner.left + frame.left + (source.data.x[at] - plot.x_range.start) * unit,
           corner.top + frame.top + (plot.y_range.end - source.data.y[at]) * unit]
 }"""
+
+
+@pytest.fixture
+def page(desk: Visitor) -> Page:
+    """With the scene as it came."""
+    desk.begin("Load")
+    return desk.page
 
 
 def place(page: Page, kind: int) -> tuple[float, float]:
@@ -55,9 +62,7 @@ def by_finger(page: Page, kind: int, right: float, down: float) -> None:
 
 
 @pytest.mark.parametrize("drag", [by_mouse, by_finger])
-def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page, explorer: Server, drag) -> None:
-    open_page(page, explorer)
-    unfold(page)
+def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> None:
     scrolled = page.evaluate("scrollY")
     extent, center = value(page, "extent_deg"), value(page, "center_deg")
     drag(page, END, 60.0, -20.0)  # counter-clockwise at the bottom
@@ -83,10 +88,7 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page, explorer: Serve
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0), "a drag is one step"
 
 
-def test_handles_are_sliders_for_keys_and_screen_readers(page: Page, explorer: Server) -> None:
-    open_page(page, explorer)
-    unfold(page)
-
+def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     def handle(name: str) -> Locator:
         return page.get_by_role("main").get_by_role("slider", name=name, exact=True)
 

@@ -9,7 +9,7 @@ from scipy.optimize import linprog
 
 from bearingcore import DOF_NAMES, Equilibrium, kernels
 from bearingcore.scene.packing import contacts
-from bearingcore.statics.load_capacity import descent_direction
+from bearingcore.statics.shortage import descent_direction
 from tests.helpers.contact_law import Array, Balls, Long, centers_apart
 
 RESIDUAL = 1e-9

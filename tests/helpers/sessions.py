@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bearing_explorer.explorer.front import Explorer
-from bearing_explorer.kit.half import Section
-from bearing_explorer.kit.session import Session
+from bearing_explorer.kit.session import Section, Session
 
 
 class SceneSession(Session):

@@ -1,6 +1,10 @@
 """Simulated measurements of an accelerometer on the housing."""
 
+import dataclasses
+import math
+
 from bearingcore.dynamics.motion import simulate
+from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.recording import DIRECTIONS, Recording
 
@@ -23,3 +27,11 @@ def simulated_recording(
     columns = [motion.dofs.index(name) for name in directions]
     signal = motion.outer_acceleration[-round(duration * sample_rate) :, columns]
     return Recording(signal, sample_rate, directions, f"simulated, balls {scene.balls}")
+
+
+def pit(scene: Scene, length: float) -> Defect:
+    """A pit of the outer race under the load, `length` [m] along it, so deep that none is met."""
+    bearing, load = scene.bearing, scene.load
+    depth = min(0.25 * length, 0.5 * bearing.ball_radius)
+    made = Defect(0.0, depth, math.atan2(load.fy, load.fx), "outer", "exact")
+    return dataclasses.replace(made, extent=length / made.raceway_radius(bearing))

@@ -6,7 +6,6 @@ Petersen, Howard & Prime (2014), Eqs. 3-6, 13, 15, 17, 24-29, by NumPy alone.
 import math
 
 import numpy as np
-from scipy.special import ellipe, ellipk
 
 
 class Plane:
@@ -90,23 +89,3 @@ def damped(k: np.ndarray, c: np.ndarray, mass: float, support: tuple[float, floa
     zero, unit = (np.broadcast_to(one, whole[0].shape) for one in (np.zeros((4, 4)), np.eye(4)))
     values = np.linalg.eigvals(np.block([[zero, unit], [-whole[0], -whole[1]]]))
     return np.sort(np.abs(values), axis=1)[:, ::2] / (2.0 * math.pi)
-
-
-def hertz(ball: float, pitch: float, grooves: tuple[float, float]) -> float:
-    """K of both contacts of a steel ball (Hertz; Harris, Rolling Bearing Analysis, ch. 6)."""
-    modulus = 210e9 / (1.0 - 0.3**2)
-    compliance = 0.0
-    for groove, sign in zip(grooves, (1.0, -1.0), strict=True):
-        across = 2.0 / ball - 1.0 / groove
-        along = 2.0 / ball + sign / (0.5 * (pitch - sign * ball))
-        wanted = (along - across) / (along + across)
-        low, high = 1.0 + 1e-9, 1e3
-        for _ in range(200):  # bisection on the ellipse's ratio
-            x = math.sqrt(low * high)
-            m = 1.0 - 1.0 / x**2
-            ratio = 1.0 - 2.0 / (x**2 - 1.0) * (ellipk(m) / ellipe(m) - 1.0)
-            low, high = (x, high) if ratio < wanted else (low, x)
-        m = 1.0 - 1.0 / low**2
-        k = ellipe(m) / (4.5 * (along + across) * ellipk(m) ** 3)
-        compliance += (math.pi * low * modulus * math.sqrt(k)) ** (-2.0 / 3.0)
-    return compliance**-1.5

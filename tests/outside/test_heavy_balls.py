@@ -28,7 +28,7 @@ BALL = 7800.0 * math.pi / 6.0 * (2.0 * R_BALL) ** 3
 ONE = 2.0**1.5 * K
 
 
-@njit
+@njit(cache=True)
 def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
     """Rates of inner x, y, outer x, y and the balls' places [µm], then of their velocities.
 
@@ -108,6 +108,25 @@ def test_motion_of_heavy_balls(law: str, within: float) -> None:
     found = simulate(RIG.replace(contact_law=law), 0.02, RATE).outer_velocity
     off = np.sqrt(np.mean((found - own) ** 2, axis=0) / np.mean(own**2, axis=0))
     assert off.max() < within
+
+
+@witness(
+    "balls: with mass", "function: simulate",
+    by="the polynomial of classical Runge-Kutta at a ball's decay between two dampers of 2 c",
+    compared="steps a second below which a motion is refused", within=1e-3,
+)  # fmt: skip
+def test_too_few_steps_for_heavy_balls_are_refused() -> None:
+    """A motion of half as many said "completed", with ten times the vibration (6205)."""
+    growth = np.polynomial.Polynomial([1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0])
+    limit = max(-root.real for root in (growth - 1.0).roots() if abs(root.imag) < 1e-9)
+    least = 4.0 * DAMPING / BALL / limit
+    assert RATE < least < 2.0 * RATE
+    with pytest.raises(ValueError, match="step_rate") as refused:
+        simulate(RIG, 1e-3, RATE, step_rate=RATE)
+    assert float(str(refused.value).partition("at least ")[2].split()[0]) == pytest.approx(
+        least, rel=1e-3
+    )
+    assert simulate(RIG, 1e-3, RATE, step_rate=2.0 * RATE).completed
 
 
 @witness(

@@ -1,44 +1,27 @@
-"""Point contact by Hertz and the thrust of a Harris 218 by Jones, with elliptic integrals here."""
+"""Point contact by Hertz and the thrust of a Harris 218 by Jones, with elliptic integrals."""
 
 import dataclasses
 import math
 
 import pytest
 from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk
 
 from bearingcore import Bearing, catalogue, equilibrium, presets
+from tests.outside.elements import Array, point_contact
 from tests.outside.witness import witness
 
 
-def point_contact(D: float, groove: float, across: float, side: float) -> tuple[float, float]:
-    """K [N/m^1.5] and greatest pressure [Pa] at 1 N; steel of 210 GPa and 0.3 (Harris, Chapter 6).
-
-    Groove radius, and radius of the race along the rolling [m]; side 1 inside, −1 outside.
-    """
-    total = 4.0 / D + side / across - 1.0 / groove
-    wanted = (side / across + 1.0 / groove) / total
-
-    def off(ratio: float) -> float:
-        m = 1.0 - ratio**-2
-        return 1.0 - 2.0 / (ratio**2 - 1.0) * (ellipk(m) / ellipe(m) - 1.0) - wanted
-
-    k = brentq(off, 1.0001, 1e4, xtol=1e-13, rtol=1e-14)
-    K, E = ellipk(1.0 - k**-2), ellipe(1.0 - k**-2)
-    modulus = 210e9 / 0.91
-    factor = math.pi / math.sqrt(4.5) * k * modulus * math.sqrt(E / (total * K**3))
-    b = (6.0 * E / (math.pi * k * total * modulus)) ** (1.0 / 3.0)
-    return factor, 1.5 / (math.pi * k * b * b)
-
-
-def both(bearing: Bearing) -> list[tuple[float, float]]:
-    """Inner and outer contact of a bearing, from its drawing alone."""
+def both(bearing: Bearing) -> list[Array]:
+    """K and pressure at 1 N of the inner and outer contact, from the drawing alone."""
     D, cosine = bearing.ball_diameter, math.cos(bearing.contact_angle)
-    found = []
-    for race, side in (("inner", 1.0), ("outer", -1.0)):
-        across = 0.5 * (bearing.pitch_diameter / cosine - side * D)
-        found.append(point_contact(D, bearing.groove_radius(race), across, side))
-    return found
+    return [
+        point_contact(
+            D,
+            -1.0 / bearing.groove_radius(race),
+            side / (0.5 * (bearing.pitch_diameter / cosine - side * D)),
+        )[:2]
+        for race, side in (("inner", 1.0), ("outer", -1.0))
+    ]
 
 
 @witness(

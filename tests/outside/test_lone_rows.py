@@ -32,6 +32,7 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.bearings.tapered import USUAL_ANGLE
+from bearingcore.common.numbers import with_prefix
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.scene.scene import TILT_FREE
 from bearingcore.statics.status import StaticStatus
@@ -261,3 +262,16 @@ def test_a_moment_presses_one_row_of_a_tandem_pair_the_wrong_way() -> None:
     assert wrong > 500.0
     said = of(limits(scene, equilibrium(scene, [0.1])), "thrust the wrong way")
     assert said.value == pytest.approx(wrong, rel=1e-6)
+
+
+def test_the_thrust_that_is_missing_is_the_least_that_any_forces_hold() -> None:
+    """Σ Q_j sin α of rollers of three and of seventeen, least by `linprog` wherever the cage is."""
+    for n in (3, Z):
+        bearing = CONE.replace(n_balls=n)
+        for cage_angle in np.linspace(0.0, 2.0, 9):
+            e = directions(n, ALPHA, cage_angle)
+            least = linprog(e[:, 2], A_eq=e[:, :2].T, b_eq=[0.0, -4000.0]).fun
+            for share in (0.2, 0.99):
+                found = equilibrium(cone(-4000.0, share * least, LEVEL, bearing), [cage_angle])
+                said = found.reason(0).partition("and over ")[2].partition(" must")[0]
+                assert said == with_prefix(least, "N")

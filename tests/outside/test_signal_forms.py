@@ -81,6 +81,21 @@ def test_kurtosis_of_modulated_tones(m: float) -> None:
 
 
 @witness(
+    "function: kurtogram", "signal: kurtogram",
+    by="scatter over 60 signals of noise", compared="deviation in bands of eight widths",
+    within=0.12,
+)  # fmt: skip
+def test_kurtosis_of_noise_scatters_as_said() -> None:
+    noise = np.random.default_rng(7).standard_normal((60, 2**14))
+    found = [kurtogram(one, RATE) for one in noise]
+    ratio = np.std([one.kurtosis for one in found], axis=0) / found[0].deviation
+    for parts in np.unique(found[0].parts):
+        own = ratio[found[0].parts == parts]
+        within = 0.12 + 0.3 / math.sqrt(own.size)  # sixty signals know a deviation to a tenth
+        assert math.sqrt(np.mean(own**2)) == pytest.approx(1.0, abs=within)
+
+
+@witness(
     "signal: spectrogram",
     by="closed form: a chirp from 1 to 4 kHz, power A²/2", compared="its line and power in time",
     within=0.01,

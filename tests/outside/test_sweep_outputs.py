@@ -10,6 +10,7 @@ from bearingcore.scene.scene import DOF_NAMES
 from bearingcore.statics.equilibrium import TERM_INDICES
 from bearingcore.sweep.grid import Grid
 from bearingcore.sweep.outputs import OUTPUTS, Settings
+from bearingcore.sweep.status import STATUSES, SweepStatus
 from tests.outside.test_contacts import gamma, pressures
 from tests.outside.test_kinds import CASES, GROUND, MASS, C, problem_of
 from tests.outside.witness import witness
@@ -133,3 +134,27 @@ def test_accelerations() -> None:
         assert swept()[f"acceleration_rms_{dof}"] == pytest.approx(rms, rel=0.01), dof
         greatest = np.abs(late[:, i]).max()
         assert swept()[f"acceleration_greatest_{dof}"] == pytest.approx(greatest, rel=0.02), dof
+
+
+@witness(
+    "output: contact_pressure_*", "output: band_*",
+    by="Hertz by closed form and eigenvalues by SciPy, on loads of `elements` at five cage angles",
+    compared="pressures and bands of a 1208 whose life has no rating", within=2e-3,
+)  # fmt: skip
+def test_what_a_missing_rating_leaves_known() -> None:
+    case, free = CASES["self-aligning"], [0, 1, 2]
+    outputs = ["contact_pressure_*", "life_*", "band_*"]
+    grid = Grid.of(case.scene, {"depth": [1e-4]}, outputs, Settings(cage_angles=5))
+    (code,), found = grid.compute()
+    assert STATUSES[code] is SweepStatus.COMPUTATION_REFUSED
+    assert np.isnan(found["life_turns"][0])
+    cage = np.linspace(0.0, 2.0 * math.pi / case.rows.count, 5)
+    loads, stiffness = case.rows.curves(case.force, cage, free)
+    ours = [found[f"contact_pressure_{race}"][0] for race in ("inner", "outer")]
+    assert ours == pytest.approx(pressures("self-aligning", loads.max()), rel=1e-5)
+    bearing = stiffness[:, :3, :3]
+    ground = bearing + np.diag(GROUND[:3])
+    whole = np.block([[bearing, -bearing], [-bearing, ground]]) / MASS[0]
+    frequency = np.sqrt(np.linalg.eigvalsh(whole)) / (2.0 * math.pi)
+    assert np.nanmin(found["band_least"]) == pytest.approx(frequency.min(), rel=2e-3)
+    assert np.nanmax(found["band_greatest"]) == pytest.approx(frequency.max(), rel=2e-3)

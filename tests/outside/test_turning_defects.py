@@ -20,7 +20,8 @@ from bearingcore import (
 )
 from bearingcore.statics.ranges import BALL_LOAD, static_ranges
 from bearingcore.sweep.grid import Grid
-from tests.outside.plane import Plane, hertz, undamped
+from tests.outside.elements import point_contact
+from tests.outside.plane import Plane, undamped
 from tests.outside.witness import witness
 
 FAN = presets["fan-rig"].replace(race="inner")
@@ -107,7 +108,11 @@ def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center:
 def test_exact_edges_of_a_deep_groove_bearing_by_the_same_computation() -> None:
     """6205 of its drawing: Hertz's K by elliptic integrals, a ball on a convex race's corner."""
     ball, pitch = 7.94e-3, 39.04e-3
-    plane = Plane(9, ball, pitch, hertz(ball, pitch, (0.52 * ball, 0.53 * ball)), 5e-6)
+    factors = [
+        point_contact(ball, -1.0 / (groove * ball), side / (0.5 * (pitch - side * ball)))[0]
+        for groove, side in ((0.52, 1.0), (0.53, -1.0))
+    ]
+    plane = Plane(9, ball, pitch, sum(one ** (-2.0 / 3.0) for one in factors) ** -1.5, 5e-6)
     shaft = np.linspace(0.0, TURNS * 2.0 * math.pi, ANGLES)
     defect = math.radians(8.0), 100e-6, "inner", "exact"
     loads, k, _ = plane.solve(1000.0, plane.cage * shaft, shaft + 1.0, defect)
@@ -118,6 +123,57 @@ def test_exact_edges_of_a_deep_groove_bearing_by_the_same_computation() -> None:
         ends = ranges.least[name], ranges.greatest[name]
         assert ends == pytest.approx((values.min(), values.max()), rel=0.01), name
         assert ranges.mean(ranges.state.term(name)) == pytest.approx(values.mean(), rel=5e-3)
+
+
+def of_two_balls(plane: Plane, load: float, defect: tuple[float, float, str, str]) -> np.ndarray:
+    """Mean k_xx, k_yy [N/m] of rigid rings in which two balls carry, over all positions.
+
+    One ball on either side of the load's line: the pair of least Σ Q (clearance + drop), the loads
+    by statics alone, and of each k = 3/2 K^(2/3) Q^(1/3) e e'.
+    """
+    extent, depth, race, edge = defect
+    spacing, n, near = 2.0 * math.pi / plane.balls, 40, 12
+    part = (np.arange(n) + 0.5) / n * spacing
+    cage = (part[:, None] + spacing * np.arange(plane.balls)).ravel()
+    cage, shaft = (one.ravel() for one in np.meshgrid(cage, part))
+    before = np.reshape((1.5 * math.pi - cage) % spacing, (-1, 1))
+    a, b = before + spacing * np.arange(near), spacing - before + spacing * np.arange(near)
+    gaps = []
+    for aside in (-a, b):
+        away = 1.5 * math.pi + aside - (cage + shaft)[:, None]
+        away = (away + math.pi) % (2.0 * math.pi) - math.pi
+        gaps.append(plane.clearance + plane.drop(0.5 * extent - np.abs(away), race, edge, depth))
+    a, b = a[:, :, None], b[:, None, :]
+    first, second = (load * np.sin(other) / np.sin(a + b) for other in (b, a))
+    work = first * gaps[0][:, :, None] + second * gaps[1][:, None, :]
+    work = np.where((a < 1.5) & (b < 1.5), work, np.inf).reshape(cage.size, -1)
+    at = np.arange(cage.size), work.argmin(axis=1)
+    pairs = [
+        (np.broadcast_to(one, first.shape).reshape(cage.size, -1)[at], Q.reshape(cage.size, -1)[at])
+        for one, Q in ((a, first), (b, second))
+    ]
+    return np.array(
+        [
+            sum((1.5 * plane.K ** (2 / 3) * Q ** (1 / 3) * e(x) ** 2).mean() for x, Q in pairs)
+            for e in (np.sin, np.cos)
+        ]
+    )
+
+
+@witness(
+    "race: inner",
+    by="rigid rings on two balls, by statics alone, over 40 cage and 40 shaft angles a spacing",
+    compared="mean k_xx and k_yy under a load so light that clearance decides which balls carry",
+    within=0.02,
+)
+@pytest.mark.parametrize(("balls", "ball", "extent"), [(30, 4e-3, 20.0), (14, 8e-3, 13.4)])
+def test_a_light_load_in_a_clearance(balls: int, ball: float, extent: float) -> None:
+    plane = Plane(balls, ball, 45e-3, 5453e6, 3e-6)
+    own = of_two_balls(plane, 1e-3, (math.radians(extent), 50e-6, "inner", "published"))
+    scene = FAN.replace(n_balls=balls, ball_diameter=ball, extent=math.radians(extent), fy=-1e-3)
+    found = static_ranges(scene, ())
+    means = [found.mean(found.state.term(name)) for name in ("k_xx", "k_yy")]
+    assert means == pytest.approx(own, rel=0.02)
 
 
 SCENES = {

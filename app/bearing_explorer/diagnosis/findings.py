@@ -9,7 +9,7 @@ import asyncio
 import copy
 import logging
 from collections.abc import Awaitable, Callable, Coroutine
-from dataclasses import InitVar, dataclass, replace
+from dataclasses import replace
 from typing import Any, Self
 
 from bearing_explorer.diagnosis.diagnoses import (
@@ -39,7 +39,6 @@ from bearingcore.diagnosis import ListedBearing
 log = logging.getLogger(__name__)
 
 
-@dataclass(eq=False, repr=False)
 class Findings:
     """The signal of one session, its state, and the answers that are computed in the background.
 
@@ -55,12 +54,7 @@ class Findings:
         requests a drawing.
     """
 
-    scene: InitVar[Callable[[], Scene]]
-    bearings: InitVar[BearingTable]
-    assign: InitVar[Callable[[Change], Awaitable[None]]]
-    draw: InitVar[Callable[[], None]]
-
-    def __post_init__(
+    def __init__(
         self,
         scene: Callable[[], Scene],
         bearings: BearingTable,

@@ -21,9 +21,8 @@ import numpy as np
 
 from bearing_explorer.diagnosis import machine
 from bearing_explorer.diagnosis.machine import FormError, Machine, find_published
-from bearing_explorer.diagnosis.signal import Origin
-from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.diagnosis.signal import Measured, Origin
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import CatalogueBearing, Recording, Table, catalogue
 from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
@@ -92,20 +91,6 @@ _WORDS = {
 }
 USUAL_SENSITIVITY = 100
 """[mV/g]"""
-
-
-@dataclass(frozen=True)
-class FormResult:
-    """A form as it is read: a recording, its origin, and the machine.
-
-    Without `in_si` the recording holds the numbers of the file: their unit is not known. The
-    recording carries no shaft speed: it is that of the machine, where it is known.
-    """
-
-    recording: Recording
-    origin: Origin
-    machine: Machine
-    in_si: bool = True
 
 
 def guess(table: Table) -> dict[str, str]:
@@ -426,8 +411,11 @@ def read_form(
     form: Mapping[str, Any],
     scene: Machine,
     find: Callable[[str], CatalogueBearing] = find_published,
-) -> FormResult:
-    """The recording that a form describes; `FormError` with sentences where it describes none.
+) -> Measured:
+    """The signal that a form describes; `FormError` with sentences where it describes none.
+
+    Where its unit is not known the recording holds the numbers of the file. It carries no shaft
+    speed: that is the machine's, where it is known.
 
     `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
     so; `find` gives the bearing of a name.
@@ -483,7 +471,9 @@ def read_form(
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
     sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)
-    return FormResult(sized if in_si else _without_size(sized), origin, found_machine, in_si)
+    return Measured(
+        sized if in_si else _without_size(sized), found_machine, origin=origin, in_si=in_si
+    )
 
 
 def as_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:

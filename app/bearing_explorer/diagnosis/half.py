@@ -9,15 +9,13 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.diagnosis.views.parts import SignalParts
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Page, Section
 from bearing_explorer.kit.report_page import About
-from bearing_explorer.kit.views.base import View
+from bearing_explorer.kit.session import Half, Section, Session
 from bearingcore import Scene
 
 
-class DiagnosisOfSignal:
+class DiagnosisOfSignal(Half):
     """The measurement of a session, and what its views draw of it.
 
     Parameters
@@ -35,28 +33,24 @@ class DiagnosisOfSignal:
     ) -> None:
         self.sections = tuple(sections)
         self._scene, self._bearings = scene, bearings
-        self._page: Page | None = None
 
     kind_of_content = Model
 
-    def join(self, page: Page) -> None:
-        self._page = page
+    def join(self, page: Session) -> None:
+        super().join(page)
         self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
-        self._parts = SignalParts(page.jobs, page.draw, self.measurement, self._scene)
 
-    def attach(self, view: View) -> None:
-        view.attach(self._parts)
-
-    def tab_opened(self, name: str) -> None:
-        """Nothing of it depends on the tab."""
+    @property
+    def scene(self) -> Scene:
+        """The scene with which a signal is compared, as it is now."""
+        return self._scene()
 
     def stop(self) -> None:
         self.measurement.stop()
 
     def content(self) -> Model:
-        assert self._page is not None, "a half is joined to its session first"
         self.measurement.take_scene()
-        return Model(self._scene(), True, self.measurement.at_work, self._page.mark)
+        return Model(self.scene, True, self.measurement.at_work, self.page.mark)
 
     # What the page connects with the scene's half
 
@@ -70,14 +64,13 @@ class DiagnosisOfSignal:
 
     def report(self, about: About) -> Callable[[], dict[str, Any] | None] | str:
         """A function that makes the report on the signal, in any thread; or why there is none."""
-        assert self._page is not None, "a half is joined to its session first"
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
             return why
         found: Mapping[str, Any] = {
-            view.name: view.found for view in self._page.views_made() if view.found is not None
+            view.name: view.found for view in self.page.views_made() if view.found is not None
         }
-        kinds = (view.look["machine"] for view in self._page.views_made()
+        kinds = (view.look["machine"] for view in self.page.views_made()
                  if isinstance(view, MeasuredIndicators))  # fmt: skip
         kind = next(kinds, "")
-        return lambda: measured_report(Model(self._scene()), measurement, found, about, kind)
+        return lambda: measured_report(Model(self.scene), measurement, found, about, kind)

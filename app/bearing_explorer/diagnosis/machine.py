@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.sentences import sentence_of
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Bearing, CatalogueBearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span
@@ -275,7 +274,7 @@ def read_machine(
             name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
         elif name == BY_DESIGNATION:
             name = texts["designation"]
-            bearing = _of_designation(name, find)
+            bearing = find(name).bearing if name else None  # before it is typed
         elif name != NOT_KNOWN:
             bearing = find(name).bearing
     except ValueError as error:
@@ -294,11 +293,6 @@ def read_machine(
         speed, bearing, source, by, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES,
     )  # fmt: skip
-
-
-def _of_designation(text: str, find: Callable[[str], CatalogueBearing]) -> Bearing | None:
-    """The bearing of a designation that was typed; None before it is."""
-    return find(text).bearing if text else None
 
 
 def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from bearing_explorer.diagnosis.form import (
-    FormResult,
     fill,
     questions,
     read_form,
@@ -26,6 +25,7 @@ from bearing_explorer.diagnosis.machine import (
     kept_answers,
 )
 from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import CatalogueBearing, Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
@@ -100,7 +100,7 @@ class Read:
     first: dict[str, str]
     form: dict[str, str]
     cut: str
-    asked: FormResult | None
+    asked: Measured | None
     refused: dict[str, str]
     asks: dict[str, str]
     sizes: dict[str, str]
@@ -170,7 +170,7 @@ class AnsweredTable:
     table: Table
     form: dict[str, str]
     first: dict[str, str]
-    found: FormResult | FormError
+    found: Measured | FormError
 
 
 def read_answers(
@@ -191,7 +191,7 @@ def _tried(
     form: Mapping[str, str],
     scene: Machine,
     find: Callable[[str], CatalogueBearing],
-) -> FormResult | FormError:
+) -> Measured | FormError:
     try:
         return read_form(table, form, scene, find)
     except FormError as refused:

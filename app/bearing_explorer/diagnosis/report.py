@@ -8,12 +8,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bokeh.embed import json_item
 
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.next_steps import next_steps
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
@@ -33,9 +34,6 @@ from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, with_prefix
 from bearingcore.diagnosis import time_in
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"

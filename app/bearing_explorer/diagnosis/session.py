@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from bearing_explorer.diagnosis.form import fill
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
@@ -22,16 +22,17 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
+from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.simulated_signals import NOISES
-from bearingcore import join_tables
+from bearingcore import Scene, join_tables
 from bearingcore.errors import FieldError
 from bearingcore.files import files_inside
 
 log = logging.getLogger(__name__)
 
 
-@dataclass(eq=False, repr=False)
 class Measurement(SignalForm):
     """The measurement of one session: its files come in, or the scene is measured.
 
@@ -40,14 +41,11 @@ class Measurement(SignalForm):
 
     #: called with the first byte of the next piece of a file; the number `of` comes back with the
     #: piece, by which files are kept apart
-    want: Callable[[int, int], None] = field(
-        default_factory=lambda: lambda begin, of: None, init=False
-    )
+    want: Callable[[int, int], None] = staticmethod(lambda begin, of: None)
     #: called when the next of several files may come
-    more: Callable[[], None] = field(default_factory=lambda: lambda: None, init=False)
-    _upload: Upload | None = field(default=None, init=False)
-    _uploads: int = field(default=0, init=False)
-    _simulations: int = field(default=0, init=False)
+    more: Callable[[], None] = staticmethod(lambda: None)
+    _upload: Upload | None = None
+    _uploads = _simulations = 0
 
     def stop(self) -> None:
         super().stop()
@@ -114,13 +112,13 @@ class Measurement(SignalForm):
             self._take_next(arrival, [(upload.name, str(error))])
             return
         if not upload.whole:
-            self.want(upload.length, self._uploads)
+            self.want(len(upload.content), self._uploads)
             return
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
         scene, find, kept = self._scene, self._bearings.find, self._given_machine
-        content, request = upload.content, self._latest
+        content, request = bytes(upload.content), self._latest
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:
@@ -230,3 +228,14 @@ class Measurement(SignalForm):
         )  # fmt: skip
         self._tell(words=self._summary(), **self._in_short({}))
         self._draw()
+
+
+def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
+    """A measurement outside of a session: of a signal that is there already, or of nothing."""
+
+    async def assign(change: Change) -> None:
+        change()
+
+    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
+    made.measured = measured
+    return made

@@ -8,19 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
+from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 from bearingcore.common import cached_property
 from bearingcore.diagnosis import NARROWEST
 from bearingcore.files import Column
-
-if TYPE_CHECKING:
-    from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 
 ENVELOPE_TOP = 1000.0
 """[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""

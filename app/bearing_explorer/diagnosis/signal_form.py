@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 from bearing_explorer.diagnosis.findings import Findings
@@ -11,7 +12,6 @@ from bearing_explorer.diagnosis.form import (
     LIKELY,
     SIGNAL_FIELDS,
     SIZES,
-    FormResult,
     as_texts,
     bearings_of,
     columns_of,
@@ -47,26 +47,25 @@ _WAITS = "Nothing is drawn yet:"
 AS_GIVEN = "As you gave it."
 
 
-@dataclass(eq=False, repr=False)
 class SignalForm(Findings):
     """The form that a file and a person fill in, and the signal as it says. See `Findings`."""
 
     #: the files that were read
-    series: Series = field(default=Series(), init=False)
+    series = Series()
     #: words for reports
-    about: AboutMeasurement = field(default=AboutMeasurement(), init=False)
+    about = AboutMeasurement()
     #: takes a message as the controls send it; None where there are no controls
-    change_scene: Callable[[dict[str, Any]], None] | None = field(default=None, init=False)
-    _arrival: Arrival | None = field(default=None, init=False)
-    _as_read: Table | None = field(default=None, init=False)
+    change_scene: Callable[[dict[str, Any]], None] | None = None
+    _arrival: Arrival | None = None
+    _as_read: Table | None = None
     # the form as it was filled in, guesses that a person agreed to, answers that were given for the
     # file before, and the form of the signal as it is drawn
-    _first: dict[str, str] = field(default_factory=dict, init=False)
-    _agreed: dict[str, str] = field(default_factory=dict, init=False)
-    _kept: dict[str, str] = field(default_factory=dict, init=False)
-    _taken: dict[str, str] = field(default_factory=dict, init=False)
-    _parts: tuple[str, ...] = field(default=(), init=False)  # files joined to the one shown
-    _cut: str = field(default="", init=False)
+    _first: Mapping[str, str] = MappingProxyType({})
+    _agreed: Mapping[str, str] = MappingProxyType({})
+    _kept: Mapping[str, str] = MappingProxyType({})
+    _taken: Mapping[str, str] = MappingProxyType({})
+    _parts: tuple[str, ...] = ()  # files joined to the one shown
+    _cut = ""
 
     def stop(self) -> None:
         super().stop()
@@ -191,7 +190,8 @@ class SignalForm(Findings):
         texts = as_texts(form, tuple(self.state.values))
         changed = {name: text for name, text in texts.items() if text != self._first[name]}
         if sure:
-            self._agreed |= {name: texts[name] for name in self.state.open if name not in SIZES}
+            agreed = {name: texts[name] for name in self.state.open if name not in SIZES}
+            self._agreed = {**self._agreed, **agreed}
         self._latest += 1
         self._tell(values=texts, settling=True)
         scene, as_read = self._scene, self._as_read
@@ -255,10 +255,10 @@ class SignalForm(Findings):
         self._follow()  # the scene may have changed while the form was read
         self._draw()
 
-    def _measured(self, asked: FormResult, form: Mapping[str, str]) -> Measured:
-        origin = replace(asked.origin, parts=self._parts)
+    def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
+        assert asked.origin is not None, "it comes from a file"
         machine = replace(asked.machine, kept=self._kept_of(form))
-        return Measured(asked.recording, machine, origin=origin, in_si=asked.in_si)
+        return replace(asked, origin=replace(asked.origin, parts=self._parts), machine=machine)
 
     def _take_simulated_form(self, measured: Measured, speed: str) -> None:
         """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""

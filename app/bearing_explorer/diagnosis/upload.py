@@ -48,33 +48,22 @@ class Upload:
                 "seconds are enough."
             )
         self.size = size
-        self._pieces: list[bytes] = []
-        self._length = 0
-
-    @property
-    def length(self) -> int:
-        """Received so far [bytes]: where the next piece begins."""
-        return self._length
+        #: the bytes received so far
+        self.content = bytearray()
 
     @property
     def whole(self) -> bool:
         """True once the file is complete."""
-        return self._length == self.size
-
-    @property
-    def content(self) -> bytes:
-        """The bytes received so far."""
-        return b"".join(self._pieces)
+        return len(self.content) == self.size
 
     def take(self, piece: Any) -> None:
         """Add a piece; ValueError with a sentence for one that cannot be a part of the file."""
         if not isinstance(piece, bytes | bytearray | memoryview):
             raise ValueError(f"{self.name} was not received in full.")
         data = bytes(piece)
-        if not data or len(data) > PIECE or self._length + len(data) > self.size:
+        if not data or len(data) > PIECE or len(self.content) + len(data) > self.size:
             raise ValueError(f"{self.name} was not received in full.")
-        self._pieces.append(data)
-        self._length += len(data)
+        self.content += data
 
 
 def first_lines(content: bytes) -> str:

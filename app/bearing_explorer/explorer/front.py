@@ -41,7 +41,7 @@ from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.half import Section
+from bearing_explorer.kit.session import Section
 from bearingcore import presets
 
 __all__ = [

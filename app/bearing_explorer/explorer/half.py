@@ -5,27 +5,29 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from typing import Any
 
-from bearing_explorer.explorer.requests import ForReport, Requests
+from bearing_explorer.explorer.requests import Requests
 from bearing_explorer.explorer.results.endurance import LifeInputs
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.bookmarks import Bookmarks
-from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, Values
-from bearing_explorer.explorer.state.last_state import LastState
+from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
+from bearing_explorer.explorer.state.history import LastState
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Reference
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
-from bearing_explorer.explorer.views.parts import SceneParts
 from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.half import Page, Section
+from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
 
 
-class Explorer:
+class Explorer(Requests):
     """The scene of a session, the panels that change it, and what its views draw of it.
+
+    Its views are attached to it: they read `editor` and call its methods.
 
     Parameters
     ----------
@@ -46,48 +48,18 @@ class Explorer:
         bearings: BearingTable | None = None,
     ) -> None:
         self.sections = tuple(sections)
-        self._page: Page | None = None
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
-        self.editor = SceneEditor(preset, bearings or BearingTable())
-        self.bookmarks = Bookmarks(self.editor, address)
-        self.requests = Requests(self.editor, self.bookmarks, lessons, self)
-        self.share, self.lesson = self.requests.share, self.requests.lesson
-        self.controls = self.requests.controls
+        editor = SceneEditor(preset, bearings or BearingTable())
+        super().__init__(editor, Bookmarks(editor, address), lessons)
         self._last_state = LastState(self.editor.scene)
-
-    @property
-    def page(self) -> Page:
-        """The session."""
-        assert self._page is not None, "a half is joined to its session first"
-        return self._page
 
     kind_of_content = Results
 
-    def join(self, page: Page) -> None:
-        self._page = page
-        self._parts = SceneParts(
-            page.jobs,
-            self.draw,
-            self.editor,
-            ask=self.requests.change_scene,
-            add_controls=self.requests.panels.append,
-            take_steps=self._take_steps,
-            open_link=self.requests.open_link,
-            set_life_inputs=self._set_life_inputs,
-            set_grey=self._set_grey,
-        )
-
-    def attach(self, view: View) -> None:
-        view.attach(self._parts)
-
     def tab_opened(self, name: str) -> None:
-        self.bookmarks.show(name)  # links always say which tab is open
-        self.requests.show_links()
-
-    def stop(self) -> None:
-        """Nothing of it runs by itself."""
+        self.bookmarks.tab = name  # links always say which tab is open
+        self.show_links()
 
     @property
     def scene(self) -> Scene:
@@ -99,16 +71,11 @@ class Explorer:
         """The same, the defect that the sliders move first."""
         return focused(self.editor.scene, self.editor.selected)
 
-    @property
-    def values(self) -> Values:
-        """The numbers of the controls."""
-        return self.editor.values
-
     def content(self) -> Results:
         before = self._last_state.before
         return Results(
             self.scene,
-            math.radians(self.values[CAGE_ANGLE]),
+            math.radians(self.editor.values[CAGE_ANGLE]),
             self._settings,
             self.editor.focus,
             moving=True,
@@ -116,35 +83,34 @@ class Explorer:
             before=None if before is None else Reference(before, BEFORE),
             grey_kind=self._grey,
             life_inputs=self._life_inputs,
-            mark=self.requests.mark,
+            mark=self.mark,
         )
 
-    # What its requests need of the session
-
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
         self._last_state.follow(self.scene, self.bookmarks.moving)
-        self.page.mark = self.requests.mark
-        self.page.draw()
+        self.page.mark = self.mark
+        super().draw()
 
-    def for_report(self) -> ForReport:
-        """Results, views and findings for a report."""
+    def start_over(self) -> None:
+        self._last_state = LastState(self.scene)
+
+    def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
         results = self.content().at_rest()
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
-        return ForReport(results, kinds, found)
+        return results, kinds, found
 
-    def _take_steps(self, step_rate: float | None) -> None:
+    def take_steps(self, step_rate: float | None) -> None:
         """March motions with steps [Hz] set by hand, or None: with the program's own."""
         self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
         self.draw()
 
-    def _set_life_inputs(self, inputs: LifeInputs) -> None:
+    def set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""
         self._life_inputs = inputs
         self.draw()
 
-    def _set_grey(self, kind: str) -> None:
+    def set_grey(self, kind: str) -> None:
         """Draw the reference of this kind in grey."""
         self._grey = kind
         self.draw()

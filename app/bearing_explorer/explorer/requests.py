@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from bearing_explorer.explorer.report import report
 from bearing_explorer.explorer.results.results import Results
@@ -26,8 +26,8 @@ from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.half import Page
 from bearing_explorer.kit.report_page import About, now
+from bearing_explorer.kit.session import Half
 from bearing_explorer.kit.views.base import View
 from bearingcore.bearings import MOST_BYTES
 
@@ -41,30 +41,8 @@ _REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
 """Greatest length of the words in a report."""
 
 
-class ForReport(NamedTuple):
-    """Results at rest, all views, and the findings of jobs by the name of the view."""
-
-    results: Results
-    views: list[type[View]]
-    found: dict[str, Any]
-
-
-class Owner(Protocol):
-    """The part of the scene's half that requests need."""
-
-    @property
-    def page(self) -> Page:
-        """The session."""
-
-    def draw(self) -> None:
-        """Bring what is on screen up to date."""
-
-    def for_report(self) -> ForReport:
-        """Results, views and findings for a report."""
-
-
-class Requests:
-    """The scene of a session with the panels that change it.
+class Requests(Half):
+    """A half with the scene of a session and the panels that change it.
 
     Parameters
     ----------
@@ -72,16 +50,10 @@ class Requests:
         the scene, and its steps and links.
     lessons
         those that the page offers.
-    owner
-        the half of the session whose scene it is.
     """
 
     def __init__(
-        self,
-        editor: SceneEditor,
-        bookmarks: Bookmarks,
-        lessons: Sequence[Lesson | Fault],
-        owner: Owner,
+        self, editor: SceneEditor, bookmarks: Bookmarks, lessons: Sequence[Lesson | Fault]
     ) -> None:
         self.editor, self.bookmarks = editor, bookmarks
         #: number of the newest change of the browser
@@ -90,15 +62,22 @@ class Requests:
         self.lesson = LessonPanel(self.change_lesson, lessons)
         #: makes the report on the measured signal, or None where there is none; and simulates a
         #: measurement of the scene. The page sets them, where it has that half
-        self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | None] = lambda _: (
-            None
-        )
+        self.report_on_signal: Callable[
+            [About], Callable[[], dict[str, Any] | None] | str | None
+        ] = lambda _: None
         self.simulate: Callable[[str], None] = lambda noise: None
-        self._owner = owner
         self._reporting = False
         self._open_lesson_of_link()
         self.controls = Controls(self.change_scene, state=editor.state())
         self.panels: list[Rows] = [self.controls]
+
+    def start_over(self) -> None:
+        """The scene counts as unchanged: a reset is no change with an effect of its own."""
+        raise NotImplementedError
+
+    def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
+        """Results at rest, all views, and the findings of jobs by the name of the view."""
+        raise NotImplementedError
 
     def show_controls(self, **news: Any) -> None:
         """Show news on all panels of controls; each shows its own part.
@@ -121,17 +100,18 @@ class Requests:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if (text := message.get("search")) is not None:
             listed, show = self.editor.listed, self.controls.send
-            self._owner.page.in_background(
+            self.page.in_background(
                 lambda: listed.search(text), lambda found: show({"found": found})
             )
             return
         self.mark = message.get("mark", self.mark)
         if compiling.STATICS in compiling.left():
-            self._owner.draw()  # sliders do not move yet, and the mark is answered
+            self.draw()  # sliders do not move yet, and the mark is answered
             return
         try:
             if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
+                self.start_over()
                 self.show_controls(state=self.editor.state())
             if "choose" in message:
                 refused = self.editor.choose(message["choose"])
@@ -154,7 +134,7 @@ class Requests:
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
-            self._owner.draw()  # even a refusal is answered, or the browser would wait for its mark
+            self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
         """Take numbers; what is refused stays as it was, with a sentence.
@@ -192,7 +172,7 @@ class Requests:
         """
         if file is not None:
             name, text = file["name"], file["text"][: longest + 1]
-            self._owner.page.in_background(
+            self.page.in_background(
                 lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
             )
 
@@ -200,7 +180,7 @@ class Requests:
         take(name, found)
         self.show_controls(state=self.editor.state())
         self.show_links()
-        self._owner.draw()
+        self.draw()
 
     # The bar above the controls
 
@@ -218,10 +198,10 @@ class Requests:
         if self.bookmarks.go(message) or tab:
             self.show_controls(state=self.editor.state())
         if tab:
-            self._owner.page.show_tab({"show": tab})
+            self.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
-            self._owner.page.in_background(
+            self.page.in_background(
                 lambda: read_request(wanted),
                 lambda found: self._taken(
                     lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
@@ -236,7 +216,7 @@ class Requests:
         self.bookmarks.leave()
         self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
         if isinstance(place, Place):
-            self._owner.page.show_tab({"show": place.tab})
+            self.page.show_tab({"show": place.tab})
 
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make a report; `base` is the address of the page without its query.
@@ -248,7 +228,7 @@ class Requests:
         )
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, self.editor.note, link, now(), title, machine, remarks)
-        parts = self._owner.for_report()
+        parts = self.for_report()
         on_signal = self.report_on_signal(about) if words.get("measured") else None
         if isinstance(on_signal, str):
             self.bookmarks.say(f"No report: {on_signal}")
@@ -267,7 +247,7 @@ class Requests:
             self.share.answer(report=made)
 
         self._reporting = True
-        self._owner.page.in_background(make, take)
+        self.page.in_background(make, take)
 
     # Lessons
 
@@ -303,7 +283,7 @@ class Requests:
             if lesson is not None:
                 lesson.begin(self.editor)
                 self.show_controls(state=self.editor.state())
-            self._owner.page.show_tab(message if lesson is None else {"show": lesson.tab})
+            self.page.show_tab(message if lesson is None else {"show": lesson.tab})
         self.change_scene(message)  # the mark, and what a button changes
         if "simulate" in message and begins:
             self.simulate(message["simulate"]["noise"])

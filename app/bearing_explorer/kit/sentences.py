@@ -1,8 +1,14 @@
-"""Refusals as sentences of the page: fields by their labels, numbers in the units of the page."""
+"""Refusals as sentences of the page, and numbers as a person types them.
+
+Fields go by their labels, numbers are in the units of the page.
+"""
 
 from __future__ import annotations
 
-from bearingcore.common import number
+import math
+import re
+
+from bearingcore.common import number, span
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, Field
 from bearingcore.units import UNITS
@@ -85,3 +91,23 @@ def _amount(value: float, si: str, field: Field | None) -> str:
     unit = "" if unit == "1" else unit
     value *= field.read_sign if field is not None else 1.0
     return with_unit(value / UNITS[unit].factor if unit in UNITS else value, unit, 5)
+
+
+def number_of(text: str, words: str, unit: str, least: float, most: float) -> float:
+    """The number that a person typed; ValueError with a sentence."""
+    bare = re.sub(r"(?<=\d)[\s'](?=\d{3}\b)", "", text.strip()).replace("−", "-")
+    bare = re.sub(rf"\s*{re.escape(unit)}$", "", bare, flags=re.IGNORECASE) if unit else bare
+    if not bare:
+        raise ValueError(f"{words} is missing: type it in{f' ({unit})' if unit else ''}.")
+    try:
+        value = float(bare.replace(",", "."))
+    except ValueError:
+        raise ValueError(f"{words} must be a number, not “{text[:20]}”.") from None
+    if not math.isfinite(value) or not least <= value <= most:
+        allowed = (
+            span(least, most, unit, 6).rstrip()
+            if math.isfinite(most)
+            else f"at least {number(least, 6)} {unit}".rstrip()
+        )
+        raise ValueError(f"{words} is {number(value, 6)}; possible: {allowed}.")
+    return value

@@ -1,4 +1,4 @@
-"""A session: newest content -> what is drawn of it -> the views on screen."""
+"""A session and its halves: newest content -> what is drawn of it -> the views on screen."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import logging
 import math
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
@@ -17,7 +18,6 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
 from bearing_explorer.kit.compute.executors import in_thread, in_turn
 from bearing_explorer.kit.compute.jobs import Change, Jobs
-from bearing_explorer.kit.half import Half, Section
 from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
 from bearing_explorer.kit.serve import log as write
 from bearing_explorer.kit.serve.live import one_message, send_at_once
@@ -44,10 +44,56 @@ _PATIENCE = 0.25
 #: people share the interpreter, threads that wait for one another take half as long again
 _AT_ONCE = 0.025
 
-#: the limits of the model are checked when the slider rests; while it moves after so long [s], and
-#: where many share the machine, after so many pictures: they cost as much as two
+#: the limits of the model are checked when the slider rests and with the first picture of a change;
+#: while it moves after so long [s], and where many share the machine, after so many pictures: they
+#: cost as much as two
 _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page that is on screen as a whole: a tab, or one of the parts of a `tab`."""
+
+    name: str
+    title: str
+    views: tuple[type[View], ...]
+    tab: str = ""
+    """Title of the tab, where that has several parts; they stand one after the other."""
+
+
+class Half:
+    """A half of the program. Its methods are called on the event loop of the session."""
+
+    sections: tuple[Section, ...]
+    """Its tabs."""
+    kind_of_content: type
+    """The type of its content, which another half's is not."""
+    page: Session
+    jobs: Jobs
+    """The background of the session."""
+
+    def join(self, page: Session) -> None:
+        """Become a half of this session, once, before anything else."""
+        self.page, self.jobs = page, page.jobs
+
+    def content(self) -> Content:
+        """The content of the next picture, while a slider moves."""
+        raise NotImplementedError
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
+        self.page.draw()
+
+    def attach(self, view: View) -> None:
+        """Give a view of its tabs this half of the session."""
+        view.attach(self)
+
+    def tab_opened(self, name: str) -> None:
+        """A tab of the page was opened, of whichever half."""
+
+    def stop(self) -> None:
+        """The session is over."""
 
 
 class Session:
@@ -186,10 +232,6 @@ class Session:
                 half.tab_opened(name)
             self.draw()
 
-    def _make(self, name: str) -> list[View]:
-        """The views of a section, which are in no document yet."""
-        return [view(self.packed) for view in self._sections[name].views]
-
     async def _open_tab(self, name: str) -> None:
         """Put a section on screen; its figures are made when it is first opened.
 
@@ -199,7 +241,8 @@ class Session:
         from each other have the last picture come a sixth later.
         """
         if name not in self._views:
-            self._views[name] = await in_turn(self._make, name)
+            kinds = self._sections[name].views
+            self._views[name] = await in_turn(lambda: [view(self.packed) for view in kinds])
             for view in self._views[name]:
                 self._halves[name].attach(view)
         new = not self._containers[name].objects
@@ -281,6 +324,8 @@ class Session:
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)
         self._refined = self._what_is_fine(content)
+        # the next change may be a typed number far from here
+        self._limits_at, self._pictures = -math.inf, _LIMITS_PICTURES
 
     def _limits_due(self, content: Content) -> bool:
         now = time.perf_counter()

@@ -20,15 +20,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.diagnosis.part.listened_signal import MOST_DROPPED
 from bearingcore.signals.averaging import BallPasses, average_passes
 from bearingcore.signals.dropouts import signal_faults
 from bearingcore.signals.filter_bank import Band, split, squared_envelopes
 from bearingcore.signals.recording import Recording
-
-Array = NDArray[np.float64]
 
 HARMONICS = 100
 """Of the ball-pass frequency that a mean pass keeps: a hundredth of a ball pass is resolved."""
@@ -273,7 +271,10 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
         Band(max(band.low, LOWEST * nominal), band.high)
         for band in split(sample_rate, NARROWEST * nominal, (*PARTS, *LOW_PARTS))
         if band.high > 2.0 * LOWEST * nominal
-        and (band.high - band.low > 0.45 * sample_rate / PARTS[-1] or _lowest_two(band))
+        and (
+            band.high - band.low > 0.45 * sample_rate / PARTS[-1]
+            or band.low < 1.01 * (band.high - band.low)  # of equal ones the first or the second
+        )
     ]
     names, columns = [], []
     for direction, samples in zip(
@@ -292,11 +293,6 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
             columns.append(values / values.mean())
             names.append((found.band, direction))
     return names, np.array(columns).T, rate
-
-
-def _lowest_two(band: Band) -> bool:
-    """Whether a band of equal ones is the first or the second."""
-    return band.low < 1.01 * (band.high - band.low)
 
 
 def without_ringing(samples: Array, order: int) -> Array:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.named import BearingLike, bearing_of
@@ -97,23 +96,23 @@ class MeasuredExtent:
         how it ended.
     """
 
-    race: str
-    extent: float
-    low: float
-    high: float
-    separation: float
-    deviation: float
-    offset: float
-    offset_low: float
-    offset_high: float
-    ball_spacing: float
-    passes: tuple[MeanPass, ...] = field(repr=False)
-    entry: float
-    exit: float
-    frequency: float
-    n_passes: int
-    length: float
-    status: ExtentStatus
+    race: str = ""
+    extent: float = math.nan
+    low: float = math.nan
+    high: float = math.nan
+    separation: float = math.nan
+    deviation: float = math.nan
+    offset: float = math.nan
+    offset_low: float = math.nan
+    offset_high: float = math.nan
+    ball_spacing: float = math.nan
+    passes: tuple[MeanPass, ...] = field(default=(), repr=False)
+    entry: float = math.nan
+    exit: float = math.nan
+    frequency: float = math.nan
+    n_passes: int = 0
+    length: float = math.nan
+    status: ExtentStatus = ExtentStatus.NO_RACE
 
     @property
     def measured(self) -> bool:
@@ -251,6 +250,7 @@ def measure_extent(
     """
     checks.instance("recording", recording, Recording)
     bearing = bearing_of(bearing)
+    spacing = bearing.ball_spacing
     if race is not None:
         checks.choice("race", race, RACES)
     if load is not None:
@@ -264,7 +264,7 @@ def measure_extent(
         named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
         race = race or named
         if race is None or not found.evidence:
-            return without_extent(race or "", bearing.ball_spacing, ExtentStatus.NO_RACE)
+            return MeasuredExtent(race or "", ball_spacing=spacing)
         nominal = found.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
@@ -273,9 +273,9 @@ def measure_extent(
         slip = SLIP
     # a pass of envelopes is averaged from its own frequency on
     if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
-        return without_extent(race, bearing.ball_spacing, ExtentStatus.TOO_SHORT)
-    if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(bearing.ball_spacing):
-        return without_extent(race, bearing.ball_spacing, ExtentStatus.TOO_COARSE)
+        return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_SHORT)
+    if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(spacing):
+        return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_COARSE)
     # the inner race turns with the shaft
     turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
     knocks = find_knocks(recording, nominal, slip, turns)
@@ -302,35 +302,26 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
         math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
     )
     found = MeasuredExtent(
-        race, math.nan, math.nan, math.nan, spacing * knocks.separation, spacing * knocks.deviation,
-        offset, least, most, spacing, knocks.passes, knocks.entry, knocks.exit, knocks.frequency,
-        knocks.n_passes, math.nan, _STATUS[knocks.seen],
-    )  # fmt: skip
+        race,
+        separation=spacing * knocks.separation,
+        deviation=spacing * knocks.deviation,
+        offset=offset,
+        offset_low=least,
+        offset_high=most,
+        ball_spacing=spacing,
+        passes=knocks.passes,
+        entry=knocks.entry,
+        exit=knocks.exit,
+        frequency=knocks.frequency,
+        n_passes=knocks.n_passes,
+        status=_STATUS[knocks.seen],
+    )
     bound = spacing * knocks.hidden + most
     if bound < LONGEST_BOUND * spacing:
         return replace(found, low=0.0, high=bound, status=ExtentStatus.SHORTER)
     if not found.measured:
         return found
     extent, low, high = found.alternatives[0]
-    length = extent * _raceway_radius(bearing, race)
+    radius = bearing.outer_raceway_radius if race == "outer" else bearing.inner_raceway_radius
+    length = extent * radius
     return replace(found, extent=extent, low=low, high=high, length=length)
-
-
-def without_extent(
-    race: str = "", ball_spacing: float = math.nan, status: ExtentStatus = ExtentStatus.NO_RACE
-) -> MeasuredExtent:
-    """A measurement that gave no extent; the ball spacing is in [rad]."""
-    none = math.nan
-    return MeasuredExtent(
-        race, none, none, none, none, none, none, none, none, ball_spacing, (), none, none, none,
-        0, none, status,
-    )  # fmt: skip
-
-
-def _raceway_radius(bearing: Bearing, race: str) -> float:
-    """Radius [m] of the raceway at the bottom of its groove."""
-    given: float | None = getattr(bearing, f"{race}_raceway_radius")
-    if given is not None:
-        return given
-    sign: NDArray[np.float64] | float = 1.0 if race == "outer" else -1.0
-    return float(0.5 * bearing.pitch_diameter + sign * bearing.ball_radius)

@@ -17,12 +17,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.load import Load
 from bearingcore.scene.presets import FAN_RIG_SUPPORT
@@ -74,17 +75,12 @@ class Offsets:
         that add up to 1.
     """
 
-    values: NDArray[np.float64]
-    weights: NDArray[np.float64]
+    values: Array
+    weights: Array
 
     def quantile(self, share: float) -> float:
         """The offset [rad] below which a share of the weight lies, interpolated; NaN of none."""
-        if not len(self.values):
-            return math.nan
-        order = np.argsort(self.values)
-        weights = self.weights[order]
-        reached = np.cumsum(weights) - 0.5 * weights
-        return float(np.interp(share, reached, self.values[order]))
+        return weighted_quantile(self.values, self.weights, share)
 
 
 def release_offset(
@@ -128,9 +124,7 @@ def release_offset(
     return extent - (pressed - released)
 
 
-def _falls_to_zero(
-    place: NDArray[np.float64], compression: NDArray[np.float64], last: int, away: int
-) -> float:
+def _falls_to_zero(place: Array, compression: Array, last: int, away: int) -> float:
     """Where a compression reaches 0 between its `last` value and the next place, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     step = abs(compression[last] / slope) if slope else math.inf
@@ -164,16 +158,18 @@ def plausible_offsets(
     else:
         typical, clearance_spread = clearance, CLEARANCE_SPREAD
     values, weights = [], []
-    for model, edge_weight in (EDGE_WEIGHTS if edge is None else {edge: 1.0}).items():
-        for deviation, weight in zip(_NORMAL, _WEIGHTS, strict=True):
-            force = middle * math.exp(spread * deviation)
-            for other, other_weight in zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True):
-                gap = max(typical * (1.0 + clearance_spread * other), 0.0)
-                offset = release_offset(bearing, race, force, gap, model)
-                if not math.isfinite(offset):
-                    continue
-                for share, share_weight in SEEN_SHARES.items():
-                    values.append(share * offset)
-                    weights.append(edge_weight * weight * other_weight * share_weight)
+    edges = EDGE_WEIGHTS if edge is None else {edge: 1.0}
+    for (model, edge_weight), (deviation, weight), (other, other_weight) in product(
+        edges.items(),
+        zip(_NORMAL, _WEIGHTS, strict=True),
+        zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True),
+    ):
+        force = middle * math.exp(spread * deviation)
+        gap = max(typical * (1.0 + clearance_spread * other), 0.0)
+        offset = release_offset(bearing, race, force, gap, model)
+        if math.isfinite(offset):
+            chance = edge_weight * weight * other_weight
+            values += [share * offset for share in SEEN_SHARES]
+            weights += [chance * share for share in SEEN_SHARES.values()]
     total = sum(weights)
     return Offsets(np.array(values), np.array(weights) / total if total else np.array(weights))

@@ -98,11 +98,16 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     doubtful = max(judged.evidence, key=lambda one: one.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
-    clear = [
+    seen = [
         one
         for one in judged.evidence
-        if one.part != BALL and one.level - one.noise >= NOISE_MARGIN and one.swing >= LEAST_SWING
+        if one.level - one.noise >= NOISE_MARGIN and one.swing >= LEAST_SWING
     ]
+    clear = [one for one in seen if one.part != BALL]
+    even = [one for one in seen if one.line_lead >= LEAD and one.modulation < 0.0]
+    if even:
+        loudest = max(even, key=lambda one: one.line_lead)
+        return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
     own = max(judged.evidence, key=lambda one: (one in clear, one.lead))
     needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING
     if own.part != BALL and own.lead >= 0.0 and own.swing >= needed:

@@ -21,7 +21,7 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
+from bearingcore.diagnosis.part.evidence import NONE_SEEN, Diagnosis
 from bearingcore.diagnosis.part.judged import judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import BALL, PartLines, part_lines
@@ -171,9 +171,31 @@ def _at_speed(
         slip += reach
         source += ", its middle" if reach else ""
     answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
-    if answer.names_a_part:
+    if answer.names_a_part and answer.fault != BALL:
         return answer
     return _second_opinion(signal, parts, answer, shaft, given, slip)
+
+
+_IN_DOUBT = (
+    DiagnosisStatus.PERHAPS_A_BALL,
+    DiagnosisStatus.MAGNETIC,
+    DiagnosisStatus.UNMODULATED,
+)
+"""Outcomes that keep a bearing from being called healthy."""
+
+_INSTEAD_OF = {
+    DiagnosisStatus.NONE_SEEN: _IN_DOUBT,
+    **dict.fromkeys(
+        (DiagnosisStatus.IRREGULAR, DiagnosisStatus.INSENSITIVE, DiagnosisStatus.FAINT),
+        (
+            *_IN_DOUBT,
+            DiagnosisStatus.ALIKE,
+            DiagnosisStatus.NOT_ALONE,
+            DiagnosisStatus.OTHER_SOURCE,
+        ),
+    ),
+}
+"""Outcomes of a second opinion that take the place of one that has seen no lines."""
 
 
 def _second_opinion(
@@ -184,7 +206,7 @@ def _second_opinion(
     given: float,
     slip: float,
 ) -> Diagnosis:
-    """Diagnosis of the signal as it is, where the whitened one names no part.
+    """Diagnosis of the signal as it is, where the whitened one names no race.
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
     are none of the bearing's show too, so that lines count by a part of their swing; where they do
@@ -192,10 +214,12 @@ def _second_opinion(
     """
     judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
     again = decide(signal, judged, shaft, answer.speed_source)
+    if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
+        alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
+        return again if alone else answer
     if again.names_a_part and again.fault != BALL:
         return again
-    perhaps = again.status in (DiagnosisStatus.PERHAPS_A_BALL, DiagnosisStatus.MAGNETIC)
-    if answer.fault == NONE_SEEN and perhaps and judged.own.swing >= ENOUGH_SWING:
-        return replace(answer, fault=CANNOT_TELL, probability=again.probability,
-                       status=again.status, detail=again.detail)  # fmt: skip
-    return answer
+    seen = again.status in _INSTEAD_OF.get(answer.status, ())
+    if answer.fault == NONE_SEEN and judged.own.swing < ENOUGH_SWING:
+        return answer
+    return again if seen else answer

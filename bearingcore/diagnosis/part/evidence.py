@@ -42,6 +42,11 @@ class PartEvidence:
     lead
         [dB] above noise, above all other lines in the band and above the other race's, and of the
         sidebands that the part should make; the least of these. Below 0 the lines are not there.
+    line_lead
+        [dB] the same of the lines alone, whatever their sidebands.
+    modulation
+        [dB] by which the sidebands that the part's own turning makes are above what noise reaches
+        in one of a hundred signals; infinite for an outer race, which stands still.
     depth
         by how much the envelope swings at these lines, as a share of its mean.
     swing
@@ -78,6 +83,8 @@ class PartEvidence:
     level: float
     noise: float
     lead: float
+    line_lead: float
+    modulation: float
     depth: float
     swing: float
     deviations: float
@@ -89,6 +96,11 @@ class PartEvidence:
     band: Band
     direction: str
     kurtosis: float
+
+    @property
+    def modulated(self) -> bool:
+        """Whether the sidebands that the part's own turning makes are there."""
+        return 0.0 <= self.modulation < math.inf
 
     @property
     def without_magnetic(self) -> float:

@@ -21,12 +21,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at
+from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at, noise_level
 from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence, leading_by
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal
 from bearingcore.diagnosis.part.mains import magnetic_share
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS, PartLines
-from bearingcore.diagnosis.part.probability import CALIBRATION, log_probability, probabilities
+from bearingcore.diagnosis.part.probability import CALIBRATION, LEAD, log_probability, probabilities
 from bearingcore.diagnosis.part.search import (
     TURNS,
     Combs,
@@ -47,8 +47,13 @@ SIDEBAND_MARGIN = 2.0
 SIDEBAND_LEAD = 6.0
 """[dB] by which sidebands that the part does not make may be stronger than those it does."""
 
-SIDEBAND_REACH = 25.0
-"""[dB] below the lines themselves down to which sidebands are expected."""
+SIDEBAND_REACH = 10.0
+"""[dB] below the lines themselves down to which the sidebands of a load zone are: the squared
+envelope of impacts that swing by a third of their mean has them there."""
+
+SIDEBAND_CHANCE = 0.01
+"""Probability with which noise reaches the level at which sidebands are there as probably as not:
+one in a hundred, as the band is chosen by the lines and not by these."""
 
 SIDEBAND_EXCESS = 2.5
 """[dB] by which a comb at a sideband may be above the lines that it follows from."""
@@ -155,11 +160,18 @@ def compare(
     evidence = []
     for lines in parts:
         around = turning.frequency if lines.part == BALL else None
+        # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
         best = max((one.clearest(lines, around) for one in compared), key=log_probability)
+        best = max((one.with_sidebands(best) for one in compared), key=log_probability)
         deviations = turning.of(lines.part)
         if lines.part == BALL:
-            best = replace(best, lead=min(best.lead, finest.carried(best.frequency)))
-            if finest.carried(turning.frequency) < 0.0:
+            carried = _carried(compared, best.frequency)
+            best = replace(
+                best,
+                lead=min(best.lead, carried),
+                modulation=min(best.modulation, carried),
+            )
+            if _carried(compared, turning.frequency) < 0.0:
                 deviations = min(deviations, 0.0)
         else:
             best = replace(best, lead=min(best.lead, finest.above_source(best.frequency)))
@@ -303,47 +315,52 @@ class _Comparison:
         ]
         return min(above, default=math.inf)
 
-    def _above_sidebands(self, own: PartEvidence, one: Listened) -> float:
-        """By how much [dB] the sidebands of a part are such as its own turning makes.
+    def with_sidebands(self, own: PartEvidence) -> PartEvidence:
+        """The evidence with what its sidebands say: those that the part's own turning makes.
 
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
+        combs = self.combs
+        one = next(
+            one for one in combs.envelopes if (one.band, one.direction) == (own.band, own.direction)
+        )
+        level = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0])
 
-        def mean(spacing: float) -> float:
-            sides = [_lines(one, one.cleared, own.frequency, away) for away in (-spacing, spacing)]
-            return float(np.mean([side[: HARMONICS // 2] for side in sides]))
+        def sides(spacing: float) -> float:
+            lines = [
+                _lines(one, one.cleared, own.frequency, away)[: HARMONICS // 2]
+                for away in (-spacing, spacing)
+            ]
+            return float(comb_level(np.concatenate(lines)[:, None])[0])
 
-        shaft, cage = mean(self.combs.shaft), mean(self.cage)
-        above = math.inf
+        shaft, cage = sides(combs.shaft), sides(self.cage)
+        above = modulation = math.inf
         if own.part in (INNER, BALL):
             turning, other = (shaft, cage) if own.part == INNER else (cage, shaft)
-            above = min(
-                turning,
-                turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN,
-                turning - own.level + SIDEBAND_REACH + SIDEBAND_MARGIN,
-            )
-        place = int(np.abs(self.combs.frequency - own.frequency).argmin())
-        race = max(own.level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if own.part != BALL and may_be(own.frequency, self.ball.order * self.combs.shaft):
+            modulation = turning - _sidebands_of_noise(level, one.levels.averages)
+            above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
+        place = int(np.abs(combs.frequency - own.frequency).argmin())
+        race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
+        if own.part != BALL and may_be(own.frequency, self.ball.order * combs.shaft):
             above = min(above, race)
         if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
-        return above
+        return replace(own, modulation=modulation, lead=min(own.lead, above, modulation + LEAD))
 
     def carried(self, around: float) -> float:
         """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.
 
         The cage carries a ball through the load zone: its sidebands are above those of the shaft,
         which the inner race of another bearing has, and not far below the lines themselves.
-        Infinity where no lines are clear: those of a ball that slips are broad, and long segments
-        show nothing of them or their sidebands.
+        Infinity where no lines are clear: those of a ball that slips are broad, and show nothing
+        of their sidebands.
         """
         combs = self.combs
         place, column = self._loudest(around)
         one, frequency = combs.envelopes[place], float(combs.frequency[column])
         level = float(combs.level[place, column])
-        if level - combs.noise < NOISE_MARGIN:
+        if self.clearness(around) < NOISE_MARGIN:
             return math.inf
         seen = np.where(one.hidden, np.nan, one.cleared)
 
@@ -357,7 +374,8 @@ class _Comparison:
         shaft, cage = mean(combs.shaft), mean(self.cage)
         if math.isnan(shaft + cage):  # lines of the shaft hide them
             return -math.inf
-        return min(cage - shaft, cage - level + CARRIED_REACH)
+        noise = noise_level(SIDEBAND_CHANCE, one.levels.averages)
+        return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
 
     def above_source(self, frequency: float) -> float:
         """By how much [dB] lines of a race are too loud for sidebands of others.
@@ -373,6 +391,10 @@ class _Comparison:
             return math.inf
         own = float(combs.level[self._loudest(frequency)])
         return own - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
+
+    def clearness(self, around: float) -> float:
+        """By how much [dB] the loudest comb around a frequency [Hz] is above noise."""
+        return float(self.combs.level[self._loudest(around)]) - self.combs.noise
 
     def _loudest(self, around: float) -> tuple[int, int]:
         """Band and column of the loudest comb around a frequency [Hz]."""
@@ -407,6 +429,8 @@ class _Comparison:
             level=level,
             noise=combs.noise,
             lead=level - max(others, combs.noise),
+            line_lead=0.0,
+            modulation=math.inf,
             depth=_without_greatest(swings[0]),
             swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
             deviations=0.0,
@@ -422,8 +446,8 @@ class _Comparison:
             direction=one.direction,
             kurtosis=one.kurtosis,
         )
-        lead = min(own.lead, self._above_rivals(own), self._above_sidebands(own, one))
-        return replace(own, lead=lead)
+        lead = min(own.lead, self._above_rivals(own))
+        return replace(own, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
         """The strongest comb of no part, how far above noise it is [dB], and its swing."""
@@ -440,11 +464,30 @@ class _Comparison:
         return found, found.level - combs.noise, _without_greatest(depths)
 
 
+def _carried(compared: Iterable[_Comparison], frequency: float) -> float:
+    """`carried` at the resolution that shows the lines around a frequency [Hz] best."""
+    return max(compared, key=lambda one: one.clearness(frequency)).carried(frequency)
+
+
 def _lines(
     one: Listened, values: NDArray[np.float64], frequency: float, away: float = 0.0
 ) -> NDArray[np.float64]:
     """Values [dB] or shares at some distance [Hz] from the harmonics of a frequency."""
     return lines_at(values, one.levels.step, np.array([frequency]), away=away)[:, 0]
+
+
+def _sidebands_of_noise(level: float, averages: float) -> float:
+    """The level [dB] at which sidebands of lines of a level [dB] are no longer chance.
+
+    Noise that the lines hardly stand out of has other chances at each of the sidebands. Beside loud
+    lines it is the noise at the impacts that counts, which changes their sizes and so has the same
+    chance at all sidebands at once; there they need be no higher than a load zone makes them.
+    """
+    from scipy.special import gammainccinv  # imported late: see `spectrum`
+
+    apart = noise_level(SIDEBAND_CHANCE, averages)
+    together = 10.0 * math.log10(float(gammainccinv(averages, SIDEBAND_CHANCE)) / averages)
+    return max(apart, min(together, level - SIDEBAND_REACH))
 
 
 def _or_sidebands(

@@ -96,6 +96,18 @@ def magnetic_alike(own: PartEvidence) -> str:
     )
 
 
+def unmodulated(own: PartEvidence) -> str:
+    """Impacts at the frequency of a part that turns, all of one size."""
+    return (
+        f"Impacts at {number(own.frequency, 4)} Hz ({percent_off(own.slip)} against the frequency "
+        f"of the {own.part}, {decibels(own.level)} above local noise), but not modulated once per "
+        f"{own.sideband_source} turn, as damage of the {own.part} is under a load that stands "
+        "still. A load along the shaft, or one that turns with it, makes no modulation; nor does "
+        "another source, such as the outer race of another bearing. Check the bearing's geometry "
+        "and speed."
+    )
+
+
 def marked(own: PartEvidence) -> str:
     """The lines of a race, too faint for its own damage."""
     return (

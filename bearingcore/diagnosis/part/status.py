@@ -16,6 +16,10 @@ class DiagnosisStatus(Status):
         "them.",
     )
     ALIKE = "parts alike", "The lines of both races show, neither much stronger."
+    UNMODULATED = (
+        "lines without modulation",
+        "Impacts repeat at the rate of a part that turns, but are not modulated by its turning.",
+    )
     MAGNETIC = (
         "like magnetic noise",
         "Lines of a part show at twice the mains frequency, where magnetic noise of a motor has "

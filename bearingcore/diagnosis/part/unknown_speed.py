@@ -64,7 +64,7 @@ def in_range(
     if not holding:
         if own.clear:
             return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
-        if not stands_out:
+        if not hypotheses:  # no lines, or such as no part has at any of these speeds
             judged = compare(resolutions, parts, reach)
             return decide(signal, judged, None, f"{source}, not found")
         return _undecided_speed(signal, hypotheses, strongest, source)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
+from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.matching import PassQuality
@@ -80,8 +78,8 @@ class Candidate:
     extent: float
     probability: float
     edge: str
-    waveform_misfit: NDArray[np.float64]
-    spectrum_misfit: NDArray[np.float64]
+    waveform_misfit: Array
+    spectrum_misfit: Array
     level: float
     scene: Scene = field(repr=False)
 
@@ -140,12 +138,13 @@ class Sizing:
         """A row a candidate: extent, probability, edges and misfits."""
         candidates = self.candidates
         return table_of(
-            ("extent", "rad", [c.extent for c in candidates]),
-            ("ball_spacings", "", [c.turns for c in candidates], "whole ball spacings in it"),
-            ("probability", "1", [c.probability for c in candidates]),
-            ("edge", "", [c.edge for c in candidates]),
+            ("extent", "rad", "extent"),
+            ("ball_spacings", "", "turns", "whole ball spacings in it"),
+            ("probability", "1", "probability"),
+            ("edge", "", "edge"),
             ("waveform_misfit", "1", [c.waveform_misfit.mean() for c in candidates]),
             ("spectrum_misfit", "1", [c.spectrum_misfit.mean() for c in candidates]),
+            of=candidates,
         )
 
     @property

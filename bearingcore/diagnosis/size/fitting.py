@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -15,8 +16,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.processors import processors
 from bearingcore.diagnosis.size.matching import (
     SPECTRUM_FLOOR,
     SPECTRUM_WEIGHT,
@@ -145,7 +146,7 @@ class Search:
         """Of the scene, at the speed that was measured."""
         return Simulator(self.scene, self.target.measured.frequency, self.count, self.columns)
 
-    def residuals(self, guess: Guess, about: Guess) -> NDArray[np.float64]:
+    def residuals(self, guess: Guess, about: Guess) -> Array:
         """Residuals of least squares, so weighted that near `about` their sum is as the score."""
         own, of = guess.match, about.match
         bands, directions = own.spectrum_residual.shape[1:]
@@ -208,9 +209,7 @@ def _rough_simulator(
 
 
 @lru_cache(maxsize=16 * PARTS)
-def _library(
-    simulator: Simulator, edge: str, part: int
-) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+def _library(simulator: Simulator, edge: str, part: int) -> tuple[NDArray[np.complex128], Array]:
     """Harmonics and power (m, N, d) of ball passes over a part of all extents."""
     begin: Begin | None = None
     passes = []
@@ -236,11 +235,12 @@ def guesses(search: Search) -> list[Guess]:
     Threads share the work, most of which holds no interpreter lock; nothing depends on which is
     done first, as everything is taken in its own order.
     """
-    with ThreadPoolExecutor(processors(), "size") as threads:
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    with ThreadPoolExecutor(usable, "size") as threads:
         return _refined(search, _library_scores(search, threads), threads)
 
 
-def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
+def _library_scores(search: Search, threads: Executor) -> Array:
     """Likeness of the signal and that of each of EXTENTS, with one edge and then the other."""
     scene, target = search.scene, search.target
     # a library serves for all signals of nearly the same speed
@@ -249,14 +249,14 @@ def _library_scores(search: Search, threads: Executor) -> NDArray[np.float64]:
     simulator = _rough_simulator(scene, frequency, search.count, search.columns)
     tasks = [(edge, part) for edge in search.edges for part in range(PARTS)]
 
-    def explained(task: tuple[str, int]) -> NDArray[np.float64]:
+    def explained(task: tuple[str, int]) -> Array:
         score = target.match(*_library(simulator, *task)).score
         return score - OTHER_EDGE * (task[0] != search.edges[0])
 
     return np.concatenate(list(threads.map(explained, tasks)))
 
 
-def _refined(search: Search, scores: NDArray[np.float64], threads: Executor) -> list[Guess]:
+def _refined(search: Search, scores: Array, threads: Executor) -> list[Guess]:
     """The best guesses made better, and those of each cell."""
     sources = [(extent, edge) for edge in search.edges for extent in EXTENTS.tolist()]
     order = np.argsort(-scores, kind="stable")

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.fft import irfft
 from numpy.typing import NDArray
 
+from bearingcore.common.arrays import Array, summit
 from bearingcore.diagnosis.size.synthesis import Band
 from bearingcore.signals.averaging import BallPasses
 
@@ -60,15 +61,15 @@ class Match:
         spectrum_misfit the mean of the latter's.
     """
 
-    waveform_misfit: NDArray[np.float64]
-    waveform_cost: NDArray[np.float64]
-    spectrum_misfit: NDArray[np.float64]
-    level: NDArray[np.float64]
+    waveform_misfit: Array
+    waveform_cost: Array
+    spectrum_misfit: Array
+    level: Array
     waveform_residual: NDArray[np.complex128]
-    spectrum_residual: NDArray[np.float64]
+    spectrum_residual: Array
 
     @property
-    def score(self) -> NDArray[np.float64]:
+    def score(self) -> Array:
         """Evidence of the misfits for their cause, (m,)."""
         return np.asarray(
             -WAVEFORM_WEIGHT * self.waveform_cost.mean(axis=1)
@@ -136,7 +137,7 @@ class Target:
             harmonics=1.0 / max(float((part**2).sum()), 1e-300),
         )
 
-    def match(self, harmonics: NDArray[np.complex128], power: NDArray[np.float64]) -> Match:
+    def match(self, harmonics: NDArray[np.complex128], power: Array) -> Match:
         """Compare with simulated `harmonics` and `power`, each (m, N, d)."""
         simulated = harmonics[:, self.kept]
         bad = np.asarray(~np.isfinite(simulated).all(axis=(1, 2)), dtype=bool)
@@ -172,7 +173,7 @@ class Target:
             difference,
         )
 
-    def _best_lag(self, cross: NDArray[np.complex128]) -> NDArray[np.float64]:
+    def _best_lag(self, cross: NDArray[np.complex128]) -> Array:
         """Lag (m,) [rad] at which cross spectra (m, n) agree most, refined by a parabola."""
         phases = PHASES
         while phases < 4 * self.order[-1]:
@@ -181,13 +182,11 @@ class Target:
         padded[:, self.order] = cross.conj()
         likeness = irfft(padded, phases, axis=1)
         row, best = np.arange(len(cross)), likeness.argmax(axis=1)
-        left, middle, right = (likeness[row, (best + k) % phases] for k in (-1, 0, 1))
-        bend = left - 2.0 * middle + right
-        shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, 1.0), 0.0)
-        return np.asarray(2.0 * math.pi * (best + np.clip(shift, -1.0, 1.0)) / phases)
+        shift = summit(*(likeness[row, (best + k) % phases] for k in (-1, 0, 1)))
+        return np.asarray(2.0 * math.pi * (best + shift) / phases)
 
 
-def _smoothing(frequency: NDArray[np.float64], band: Band) -> NDArray[np.float64]:
+def _smoothing(frequency: Array, band: Band) -> Array:
     """Weights (bands, N) that smooth a spectrum over 6 % of frequency, or over two lines."""
     centers = np.exp(np.arange(math.log(band.lowest), math.log(band.highest), 0.12))
     spacing = frequency[1] - frequency[0] if len(frequency) > 1 else frequency[0]

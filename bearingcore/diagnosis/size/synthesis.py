@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearingcore import kernels
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_natural_frequency, modes
 from bearingcore.dynamics.motion import SETTLING, moving_system
@@ -33,8 +34,6 @@ model does."""
 
 STEPS_A_PIT = 10.0
 """Least number of steps while a ball passes a defect; each sees the defect four times."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

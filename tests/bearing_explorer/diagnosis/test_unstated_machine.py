@@ -25,7 +25,7 @@ from bearing_explorer.diagnosis.views.measured_spectrogram import MeasuredSpectr
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measured_view import WITHOUT_BEARING
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.trend import SceneNow, TrendOfFiles
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -265,7 +265,7 @@ def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
     halves = Halves()
     halves.session.draw = lambda: None  # type: ignore[method-assign]
     halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
-    halves.explorer.requests.change_links({"report": "http://localhost", "measured": True})
+    halves.explorer.change_links({"report": "http://localhost", "measured": True})
     assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 
 
@@ -292,7 +292,7 @@ def test_a_trend_without_bearing_and_speed_has_levels_and_no_part() -> None:
     view = TrendOfFiles(PackedSource())
     view.measure(made)
     work = Work()
-    view.prepare({"baseline": "1"}, SceneNow(lambda: RIG))(work)
+    view.prepare({"baseline": "1"}, MODEL)(work)
     (view.found,) = work.taken()
     assert view.drawn
     table = view.table(MODEL)

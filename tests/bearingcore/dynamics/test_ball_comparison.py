@@ -7,8 +7,8 @@ from bearingcore.dynamics.ball_comparison import compare_motions
 from bearingcore.dynamics.motion import Motion
 from bearingcore.dynamics.speed_runs import speed_run
 from bearingcore.dynamics.step_rate import fine_step_rate
-from bearingcore.scene.pits import pit
 from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
+from tests.helpers.simulated import pit
 
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bearingcore.dynamics.strikes import Flight, Strike, ball_strikes, flights
+from bearingcore.dynamics.ball_motion import Flight, Strike, ball_strikes, flights
 
 TIME = 0.1 * np.arange(10)
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from bearingcore import presets, simulate
-from bearingcore.dynamics.curves import curve_errors, stiffness_curves
 from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.experiments.simpler_models import (
     DISPLACEMENT,
@@ -16,6 +15,8 @@ from bearingcore.experiments.simpler_models import (
     SPECTRUM,
     Alternative,
     alternatives,
+    curve_errors,
+    stiffness_curves,
 )
 from bearingcore.signals.spectrum_difference import BAND, spectrum_difference
 from bearingcore.statics.equilibrium import Equilibrium, default_cage_angles, equilibrium

@@ -14,7 +14,7 @@ import pytest
 from scipy.io import savemat
 
 from bearingcore import join_tables, read_recording, read_table
-from bearingcore.files import libraries, table
+from bearingcore.files import table
 from bearingcore.files.channels import Column
 from tests.helpers.reading import read_in_this_process
 
@@ -530,7 +530,7 @@ def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
 
 
 def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
-    monkeypatch.setattr(libraries.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     for mark, package in (
         (b"TDSm", "npTDMS"),
         (b"PAR1", "pyarrow"),

@@ -178,6 +178,7 @@ def test_a_full_disk_keeps_nothing_and_says_so(package: Path, tmp_path: Path) ->
     assert not list(tmp_path.rglob("*.kernel*")), "nothing is left half written"
 
 
+@pytest.mark.proof
 def test_four_processes_that_start_at_once_are_all_right(package: Path, tmp_path: Path) -> None:
     told(start(package, tmp_path))
     write_callee(package, "Later", "2.0")

@@ -15,7 +15,7 @@ import pytest
 
 from bearingcore import DOF_NAMES, equilibrium, kernels
 from bearingcore.scene.packing import contacts
-from bearingcore.statics.load_capacity import descent_direction
+from bearingcore.statics.shortage import descent_direction
 from tests.helpers.box import Point, cage_angles_at, draw, scene_at
 from tests.helpers.contact_law import Balls
 from tests.helpers.judge import verdict

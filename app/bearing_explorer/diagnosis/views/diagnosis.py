@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -17,7 +17,9 @@ from bearing_explorer.diagnosis.diagnoses import (
     answered,
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
@@ -28,15 +30,10 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Diagnosis, Recording
 from bearingcore.common import probability
 from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 FIELDS: list[FieldSpec] = [
     {
@@ -57,7 +54,12 @@ FIELDS: list[FieldSpec] = [
 
 RACES_NAMED = (OUTER, INNER)
 
-UNEXPLAINED = (DiagnosisStatus.OTHER_SOURCE, DiagnosisStatus.NOT_ALONE, DiagnosisStatus.ALIKE)
+UNEXPLAINED = (
+    DiagnosisStatus.OTHER_SOURCE,
+    DiagnosisStatus.NOT_ALONE,
+    DiagnosisStatus.ALIKE,
+    DiagnosisStatus.UNMODULATED,
+)
 """Outcomes where another bearing may explain the lines."""
 
 MOST_LISTED = 4
@@ -72,7 +74,7 @@ NOTHING_NAMED = "No part is named before the bearing is."
 OFFER = "The listed bearings can be tried with this signal, to see which of them would explain it."
 LOOKING = "Looking for listed bearings that explain these lines: {done} of {of} …"
 CANCELLED = "The search was cancelled after {done} of {of} listed bearings. "
-UNEXPLAINED_BY_IT = "This bearing does not explain the signal. "
+UNEXPLAINED_BY_IT = "This bearing does not explain the signal well. "
 FOUND_IN_LIST = (
     "Listed bearings that explain the signal, the strongest lines first; others may have the same "
     "lines, so read the number on the bearing:"
@@ -114,7 +116,10 @@ class PartDiagnosis(LookView, MeasuredView):
     first_look: ClassVar[dict[str, Any]] = {"zoom": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self.machine = MachineForm(self._answer_form, self._forget_machine)
+        self.machine = MachineForm(
+            lambda values: self.measurement.take_form({**self.measurement.state.values, **values}),
+            lambda: self.measurement.forget_machine(),
+        )
         self.part = PartPanel(self._report_on, self._search)
         self._shown_of: Recording | None = None  # of which the panel has an answer
         self.lines = PartLines(packed)
@@ -125,7 +130,11 @@ class PartDiagnosis(LookView, MeasuredView):
             self.panel_of_look, self.lines.plot, self.evidence, visible=False,
             stylesheets=[AS_HIGH_AS_SHOWN],
         )  # fmt: skip
-        self.candidates = ListedBearings(self._take_listed, self._end_search, self._search)
+        self.candidates = ListedBearings(
+            lambda name: self.measurement.take_bearing(name),
+            lambda: self.measurement.cancel_search(),
+            self._search,
+        )
         self.hidden = stack(self.machine, self.part, self.candidates, self._seen, visible=False)
         return self.hidden
 
@@ -139,33 +148,22 @@ class PartDiagnosis(LookView, MeasuredView):
     def _machine_changed(self, state: MeasurementState) -> None:
         """Show the answers, and mark what is on screen if it is not that of these."""
         self.machine.show(state)
-        if self.measurement is not None and (why := self.measurement.out_of_date):
+        if why := self.measurement.out_of_date:
             self.part.outdate(why)
 
-    def _answer_form(self, values: Mapping[str, str]) -> None:
-        if self.measurement is not None:
-            self.measurement.take_form({**self.measurement.state.values, **values})
-
     def _report_on(self, words: Mapping[str, str]) -> None:
-        if self.measurement is not None:
-            self.measurement.about = AboutMeasurement(**words)
-
-    def _forget_machine(self) -> None:
-        if self.measurement is not None:
-            self.measurement.forget_machine()
+        self.measurement.about = AboutMeasurement(**words)
 
     def answer(self) -> Diagnosis | str | None:
         """The diagnosis, a sentence why there is none, or None: not yet."""
-        question = None if self.measurement is None else self.measurement.question()
-        if question is None or self.measurement is None:
-            return None
-        return self.measurement.diagnoses.of(question)
+        question = self.measurement.question()
+        return None if question is None else self.measurement.diagnoses.of(question)
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         known = {name: value for name, value in choices.items() if name != "speed"}
         super().choose(known, model)
         measurement, measured = self.measurement, self.measured
-        if measurement is None or measured is None:
+        if measured is None:
             return
         if "speed" in choices:  # as lines of Python said it once
             machine = measured.machine.knowing(choices["speed"])
@@ -193,7 +191,7 @@ class PartDiagnosis(LookView, MeasuredView):
     def _show(self) -> None:
         """Bring the panels up to date, and have the question answered if it is not."""
         measurement, measured = self.measurement, self.measured
-        if measurement is None or measured is None:
+        if measured is None:
             self._seen.visible = False
             return
         question, answer = measurement.question(), self.answer()
@@ -218,7 +216,6 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _ask(self, measured: Measured) -> None:
         """The question which bearing it is, in place of the answer."""
-        assert self.measurement is not None
         about = Question.about(measured)
         self._shown_of = None
         self.part.show(question_state(measured))
@@ -230,14 +227,14 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _extent_state(self, found: Diagnosis | None) -> dict[str, Any]:
         """The length of the spall, once it is known; it is measured for a race alone."""
-        if found is None or self.measurement is None or found.fault not in RACES_NAMED:
+        if found is None or found.fault not in RACES_NAMED:
             return {}
         extent = self.measurement.extent()
         return {"extent": part_words.extent(extent) if extent is not None else MEASURING}
 
     def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""
-        if self.measurement is None or found is None:
+        if found is None:
             self.candidates.show("")
             return
         listed = self.measurement.listed
@@ -254,7 +251,6 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _list_found(self, about: Question, wanted: ListQuestion) -> None:
         """Show the findings of the search in the list by now."""
-        assert self.measurement is not None
         answer, progress = self.measurement.listed.latest(about), wanted.progress
         counted = {"done": progress.done, "of": progress.of or len(wanted.bearings)}
         if answer is None:
@@ -273,22 +269,14 @@ class PartDiagnosis(LookView, MeasuredView):
 
     def _search(self) -> None:
         """Look through the list for bearings that would explain the signal."""
-        if self.measurement is not None and self.measured is not None:
+        if self.measured is not None:
             about = Question.about(self.measured)
             wanted = self.measurement.listed_question(about)
             self.measurement.listed.want(wanted)
             self._list_found(about, wanted)
 
-    def _end_search(self) -> None:
-        if self.measurement is not None:
-            self.measurement.cancel_search()
-
-    def _take_listed(self, name: str) -> None:
-        if self.measurement is not None:
-            self.measurement.take_bearing(name)
-
     def sentence(self, model: Model) -> str:
-        question = None if self.measurement is None else self.measurement.question()
+        question = self.measurement.question()
         if question is None:
             return "" if self.measured is None else NOTHING_NAMED
         answer = self.answer()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, extent_of
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
 from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.kit.plots import style
@@ -18,13 +19,9 @@ from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Diagnosis, MeasuredExtent
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 
 HEIGHT = 236
 BANDS = 3
@@ -104,8 +101,8 @@ class SpallExtent(LookView, MeasuredView):
     def question(self) -> ExtentQuestion | None:
         """The question; None before the damaged part of the bearing has been looked for."""
         measurement = self.measurement
-        about = None if measurement is None else measurement.question()
-        if measurement is None or about is None or measurement.diagnoses.of(about) is None:
+        about = measurement.question()
+        if about is None or measurement.diagnoses.of(about) is None:
             return None
         return self._question(about, measurement.state.load, measurement.diagnosis())
 
@@ -121,9 +118,7 @@ class SpallExtent(LookView, MeasuredView):
         if self._given is not None:
             return self._given
         question = self.question()
-        if question is None or self.measurement is None:
-            return None
-        return self.measurement.extents.of(question)
+        return None if question is None else self.measurement.extents.of(question)
 
     @property
     def found(self) -> MeasuredExtent | None:
@@ -137,8 +132,6 @@ class SpallExtent(LookView, MeasuredView):
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         super().choose(choices, model)
-        if self.measurement is None or self.measured is None:
-            return
         about = self.measurement.question()
         if about is not None:
             answer = extent_of(self._question(about))
@@ -178,7 +171,7 @@ class SpallExtent(LookView, MeasuredView):
 
     def _show(self) -> None:
         question, answer = self.question(), self.answer()
-        if question is not None and answer is None and self.measurement is not None:
+        if question is not None and answer is None:
             self.measurement.extents.want(question)
         self._seen.visible = isinstance(answer, MeasuredExtent)
         if isinstance(answer, MeasuredExtent):

@@ -9,16 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.diagnosis.machine import Turning
 from bearing_explorer.kit.plots.layers import Layer, names_over, uprights
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.machine import Turning
-    from bearingcore import Scene
+from bearingcore import Scene
 
 NAME_WIDTH = 0.13
 """Of a family's first name, with its frequency, as a share of the frame's width."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
 from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, of_rows
 from bearing_explorer.diagnosis.views.frequency_view import (
@@ -23,10 +24,7 @@ from bearing_explorer.diagnosis.views.frequency_view import (
 from bearing_explorer.diagnosis.views.measured_view import HIGHEST_SHARE, Demodulation, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearingcore import Diagnosis
+from bearingcore import Diagnosis
 
 
 def _edge(name: str, label: str, words: str) -> FieldSpec:

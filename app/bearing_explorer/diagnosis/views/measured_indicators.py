@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView, named_columns, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import FieldSpec, stack
 from bearingcore.signals import SHAFT_SPEEDS, ZONES, severity_zone
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.widgets.form import stack
 
 MEDIUM = "15 to 300 kW"
 LARGE = "over 300 kW"

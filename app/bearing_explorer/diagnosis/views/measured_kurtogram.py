@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.models import FixedTicker
 from numpy.typing import NDArray
 
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side, bright_image, ends
@@ -15,12 +17,8 @@ from bearing_explorer.kit.plots.layers import draw, strips
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
+from bearingcore import Kurtogram
 from bearingcore.signals import BAND_COUNTS
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
-    from bearingcore import Kurtogram
 
 CELLS = 48
 """Across the picture: the least common multiple of the parts into which the range is split."""

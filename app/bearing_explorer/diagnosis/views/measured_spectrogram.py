@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side, bright_image, ends
@@ -16,10 +18,6 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.signals import spectrogram
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
 
 Array = NDArray[np.float64]
 

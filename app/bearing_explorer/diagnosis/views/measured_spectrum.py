@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
@@ -21,10 +22,7 @@ from bearing_explorer.diagnosis.views.frequency_view import (
 from bearing_explorer.diagnosis.views.measured_view import shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
-    from bearingcore import Spectrum
+from bearingcore import Spectrum
 
 
 class MeasuredSpectrum(FrequencyView):

@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.session import Measurement, measurement_of
+from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
+from bearingcore import Scene, presets
+from bearingcore.common import ResultTable
+from bearingcore.diagnosis import EnvelopeLines
 from bearingcore.files import ACCELERATIONS, path_in
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.signal import Measured, Origin
-    from bearingcore import Scene
-    from bearingcore.common import ResultTable
-    from bearingcore.diagnosis import EnvelopeLines
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
@@ -50,6 +48,8 @@ class Demodulation:
     reason: str
 
 
+NO_MEASUREMENT = measurement_of(None, next(iter(presets.values())))
+"""A measurement of nothing, for views that are given none."""
 NOTHING = "There is no signal yet: choose a file or simulate one above."
 WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
 
@@ -69,7 +69,7 @@ class MeasuredView(View[Model]):
     finds_speed: ClassVar[bool] = False
     #: whether its card comes with a signal
     waits: ClassVar[bool] = True
-    measurement: Measurement | None = None
+    measurement: Measurement = NO_MEASUREMENT
 
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
@@ -88,7 +88,7 @@ class MeasuredView(View[Model]):
     @property
     def measured(self) -> Measured | None:
         """The signal that is drawn, if there is one."""
-        return None if self.measurement is None else self.measurement.measured
+        return self.measurement.measured
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
         measured = self.measured
@@ -117,7 +117,7 @@ class MeasuredView(View[Model]):
     @property
     def shaft_speed(self) -> float | None:
         """[rad/s] that is known, or was found in the signal."""
-        return None if self.measurement is None else self.measurement.shaft_speed
+        return self.measurement.shaft_speed
 
     @property
     def turning(self) -> Turning | None:
@@ -129,7 +129,7 @@ class MeasuredView(View[Model]):
 
     def diagnosed(self) -> EnvelopeLines | None:
         """The envelope on which the diagnosis rests, once there is one."""
-        found = None if self.measurement is None else self.measurement.diagnosis()
+        found = self.measurement.diagnosis()
         return None if found is None else found.spectrum
 
     def direction_of(self, measured: Measured, chosen: str = "") -> str:
@@ -194,8 +194,9 @@ class MeasuredView(View[Model]):
             self.bring()
         if self.hidden is not None:
             self.hidden.visible = there
-        file = self.measured is not None and self.measured.origin is not None
-        self._caption.put(nothing=not there, subject=self.measured.recording.name if file else "")
+        measured = self.measured
+        file = measured.recording.name if measured is not None and measured.origin else ""
+        self._caption.put(nothing=not there, subject=file)
         # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.diagnosis.machine import Turning
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import (
     MeasuredView,
     column_name,
@@ -18,17 +21,11 @@ from bearing_explorer.diagnosis.views.measured_view import (
 )
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import curve, draw
+from bearing_explorer.kit.plots.layers import curve, draw, least_and_greatest
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
-from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.machine import Turning
-    from bearing_explorer.diagnosis.model import Model
-    from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.widgets.form import row, stack
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "")

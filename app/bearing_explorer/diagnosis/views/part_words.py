@@ -14,9 +14,6 @@ from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
 from bearingcore.common import percent_off, probability
 from bearingcore.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
 
-SIDEBANDS = 2.0
-"""[dB] above their surroundings from which sidebands are spoken of."""
-
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
     "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
@@ -57,12 +54,11 @@ def plain(found: Diagnosis, question: Question) -> str:
     """The finding in a sentence or three."""
     if found.names_a_part:
         one = found.of(found.fault)
-        modulated = f", modulated once per {one.sideband_source} turn"
-        turns = one.part != "outer race" and float(one.sidebands[:3].mean()) >= SIDEBANDS
+        modulated = f", modulated once per {one.sideband_source} turn" if one.modulated else ""
         doubt = perhaps_a_ball() if found.perhaps_a_ball else ""
         return (
             f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
-            f"{modulated if turns else ''}.{doubt}"
+            f"{modulated}.{doubt}"
         )
     if found.fault == NONE_SEEN:
         return (

@@ -5,11 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, Machine, of_scene
+from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, of_scene
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.session import measurement_of
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearingcore import Recording, Scene
@@ -58,18 +57,8 @@ def figure_of(
 
     def prepare(view: View[Model]) -> None:
         if recording is not None:
-            view.measure(_measurement(scene, recording, machine, in_si))  # type: ignore[attr-defined]
+            bare = dataclasses.replace(recording, shaft_speed=None)
+            measured = Measured(bare, machine, in_si=in_si)
+            view.measure(measurement_of(measured, scene))  # type: ignore[attr-defined]
 
     return Figure(kind, Model(scene), prepare=prepare, **more)
-
-
-def _measurement(scene: Scene, recording: Recording, machine: Machine, in_si: bool) -> Measurement:
-    """A measurement that is there already."""
-
-    async def assign(change: Any) -> None:
-        change()
-
-    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
-    bare = dataclasses.replace(recording, shaft_speed=None)
-    made.measured = Measured(bare, machine, in_si=in_si)
-    return made

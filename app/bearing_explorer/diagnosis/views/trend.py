@@ -6,13 +6,14 @@ import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 from bokeh.models import Scatter
 from bokeh.plotting import figure
 
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.series import Series, SeriesRecordings
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
@@ -33,19 +34,15 @@ from bearing_explorer.kit.plots.layers import (
     sources_of,
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.job_view import JobView
+from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
-from bearingcore import Scene, Trend, trend
+from bearingcore import Trend, trend
 from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
 from bearingcore.errors import FieldError
-
-if TYPE_CHECKING:
-    from bearing_explorer.diagnosis.model import Model
 
 HEIGHT = 210
 COLORS = {
@@ -97,19 +94,7 @@ class FoundTrend:
     measured: Measured
 
 
-@dataclass(frozen=True)
-class SceneNow:
-    """The scene with which a signal is compared, as it is when a job begins."""
-
-    give: Callable[[], Scene]
-
-    @property
-    def scene(self) -> Scene:
-        """That scene."""
-        return self.give()
-
-
-class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
+class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"
@@ -149,21 +134,15 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
 
     # The job
 
-    def editor_on_page(self, parts: Any) -> SceneNow:
-        return SceneNow(parts.scene_now)
-
-    def editor_of(self, model: Model) -> SceneNow:
-        return SceneNow(lambda: model.scene)
-
     def fields(self) -> list[FieldSpec]:
         return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
 
-    def form(self, editor: SceneNow) -> tuple[dict[str, str], dict[str, Any]]:
+    def form(self, editor: Editor) -> tuple[dict[str, str], dict[str, Any]]:
         return {"baseline": "1"}, {}
 
-    def prepare(self, given: Mapping[str, str], editor: SceneNow) -> Callable[[Work], str]:
+    def prepare(self, given: Mapping[str, str], editor: Editor) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
-        if measured is None or measurement is None:
+        if measured is None:
             raise ValueError(NOTHING)
         series, machine = measurement.series, measured.machine
         text = given.get("baseline", "").strip() or "1"
@@ -202,7 +181,6 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
         """Whether a result is complete, and of the files and answers that there are now."""
         return (
             found is not None
-            and self.measurement is not None
             and found.series is self.measurement.series
             and found.measured is self.measured
             and len(found.trend.points) == len(found.recordings.recordings)
@@ -211,7 +189,7 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
         measured, measurement = self.measured, self.measurement
-        if measured is None or measurement is None:
+        if measured is None:
             return
         several = len(measurement.series.tables) > 1 and measured.origin is not None
         self.hidden.visible = several or self.drawn
@@ -222,7 +200,7 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
 
     def _begin_once(self, model: Model | None, now: tuple[Series, Measured]) -> None:
         """Begin without a click once the last file of a series is diagnosed."""
-        if model is None or self._began == now or self.measurement is None:
+        if model is None or self._began == now:
             return
         question = self.measurement.question()
         if question is None or self.measurement.diagnoses.of(question) is not None:
@@ -234,7 +212,7 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
     @property
     def drawn(self) -> bool:
         found, measurement = self.found, self.measurement
-        if found is None or measurement is None or self.measured is None:
+        if found is None or self.measured is None:
             return False
         return found.series is measurement.series and self.measured.in_si == found.measured.in_si
 
@@ -293,7 +271,7 @@ class TrendOfFiles(JobView["Model", FoundTrend, SceneNow], MeasuredView):
 
     def sentence(self, model: Model) -> str:
         measured, found = self.measured, self.found
-        if measured is None or self.measurement is None:
+        if measured is None:
             return ""
         if found is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1

@@ -53,13 +53,15 @@ class MeasurementForm(pn.Column):
 
     Once there is a signal and no question it folds to a line, and unfolds again by a button. The
     fields about a file are made when there is the first one. Bearing and speed are among the
-    questions until there is a signal; then they are asked beside the answer.
+    questions until there is a signal; then they are asked beside the answer. Nothing is chosen in
+    it before `attach`.
     """
+
+    _measurement: Measurement
 
     def __init__(self, unfolded: Callable[[], None] = lambda: None) -> None:
         self.folded = self._agreed = False
         self._unfolded = unfolded
-        self._measurement: Measurement | None = None
         self._fields: Fields | None = None
         self._shown = MeasurementState()
         self.upload = FileUpload(
@@ -67,12 +69,14 @@ class MeasurementForm(pn.Column):
         )
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
-        self._load = button("", self._take_load, visible=False)
-        self._join = button("", self._join_parts, visible=False)
+        self._load = button("", lambda: self._measurement.take_load(), visible=False)
+        self._join = button("", lambda: self._measurement.join_parts(), visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
-        self._cancel = button("Cancel", self._give_up, visible=False, align="start")
+        self._cancel = button(
+            "Cancel", lambda: self._measurement.cancel(), visible=False, align="start"
+        )
         self._in_short = row(self._line, self._join, self._change, visible=False)
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
@@ -105,14 +109,13 @@ class MeasurementForm(pn.Column):
             for name, level in sorted(NOISES.items(), key=lambda item: item[0] != "20")
         }
         noise = select("Noise below the signal", list(noises.items()), css_classes=["beside"])
-
-        def simulate() -> None:
-            if self._measurement is not None:
-                self._measurement.simulate(noise.value)
-
+        act = button(
+            "Simulate a signal", lambda: self._measurement.simulate(noise.value),
+            css_classes=["simulate"],
+        )  # fmt: skip
         note = "Uses the current scene; the true size is shown for comparison."
         return pn.Column(
-            row(button("Simulate a signal", simulate, css_classes=["simulate"]), noise),
+            row(act, noise),
             _text(note, css_classes=["note"]),
             **_WIDE,
         )
@@ -120,8 +123,6 @@ class MeasurementForm(pn.Column):
     # What is chosen here
 
     def _uploaded(self, message: UploadBegins | UploadPiece) -> None:
-        if self._measurement is None:
-            return
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
                 message.name, message.size, message.number, message.count, message.chosen,
@@ -130,27 +131,10 @@ class MeasurementForm(pn.Column):
         else:
             self._measurement.take_piece(message.content, message.of)
 
-    def _take_load(self) -> None:
-        if self._measurement is not None:
-            self._measurement.take_load()
-
-    def _join_parts(self) -> None:
-        if self._measurement is not None:
-            self._measurement.join_parts()
-
-    def _answer_machine(self, answers: Mapping[str, str]) -> None:
-        if self._measurement is not None:
-            self._measurement.take_form({**self._shown.values, **answers})
-
-    def _forget_machine(self) -> None:
-        if self._measurement is not None:
-            self._measurement.forget_machine()
-
-    def _answer(self, sure: bool) -> None:
-        if self._measurement is not None and self._fields is not None:
-            self._agreed = sure
-            values = self._shown.values | self._fields.values
-            self._measurement.take_form(values, sure)
+    def _answer(self, given: Mapping[str, str], sure: bool = False) -> None:
+        """Answer as is shown, and with what is `given`."""
+        self._agreed = sure
+        self._measurement.take_form({**self._shown.values, **given}, sure)
 
     # What there is to show
 
@@ -166,7 +150,7 @@ class MeasurementForm(pn.Column):
         load = state.load
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
-            visible=bool(load and self._measurement and self._measurement.change_scene),
+            visible=bool(load and self._measurement.change_scene),
         )
         self._join.param.update(
             label=f"Join the {state.parts} files to one signal", visible=state.parts > 1
@@ -197,20 +181,16 @@ class MeasurementForm(pn.Column):
         self._fold(self._shown)
         self._unfolded()
 
-    def _give_up(self) -> None:
-        if self._measurement is not None:
-            self._measurement.cancel()
-
     def _role(self, index: int, role: str, unit: str, place: str) -> None:
         """Take another role, unit or place of a column."""
-        if self._fields is not None:
-            now = columns_as_said(self._shown)
-            if index < len(now[0]):
-                self._fields.values.update(with_role(*now, index, role, unit, place))
-                self._answer(False)
+        assert self._fields is not None, "there is no column before"
+        now = columns_as_said(self._shown)
+        if index < len(now[0]):
+            changed = with_role(*now, index, role, unit, place)
+            self._answer({**self._fields.values, **changed})
 
     def _make_fields(self) -> Fields:
-        fields = Fields(lambda _: self._answer(False))
+        fields = Fields(lambda _: self._answer(fields.values))
         fields.values |= {"columns": "", "unit": ""}
         self._table = ColumnTable(
             self._role,
@@ -222,9 +202,9 @@ class MeasurementForm(pn.Column):
             if name not in ("columns", "unit"):
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
                 fields.add(name, entry(LABELS[name], placeholder=hint))
-        self._agree = button("Use these answers", lambda: self._answer(True))
+        self._agree = button("Use these answers", lambda: self._answer(fields.values, sure=True))
         self._notes = _text("")
-        self._machine = MachineForm(self._answer_machine, self._forget_machine)
+        self._machine = MachineForm(self._answer, lambda: self._measurement.forget_machine())
         self._about_file[:] = [
             self._table, row(*fields.widgets.values(), self._agree), self._notes
         ]  # fmt: skip

@@ -22,14 +22,13 @@ from bokeh.models import (
     CustomJSTickFormatter,
     FixedTicker,
     Range1d,
-    Text,
 )
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.glyphs import add_glyph
+from bearing_explorer.kit.plots.layers import Words
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
 from bearingcore.statics import TERM_SYMBOLS
@@ -110,15 +109,18 @@ def scrolled(plot: figure) -> pn.Column:
     return pn.Column(plot, sizing_mode="stretch_both", margin=0, stylesheets=[scroll])
 
 
-def write(plot: figure, source: ColumnDataSource, text: Any, **look: Any) -> None:
-    """Small words at the places x, y of a source."""
-    usual = {
-        "text_font": {"value": style.FONT},
-        "text_font_size": style.SMALL_TEXT_SIZE,
-        "text_color": style.FAINT_INK,
-    }
-    place = look.pop("x", "x"), look.pop("y", "y")
-    add_glyph(plot, Text, source, *place, text=text, **{**usual, **look})
+def write(
+    plot: figure,
+    source: ColumnDataSource,
+    code: str,
+    x: Any = "x",
+    y: Any = "y",
+    fitting: Any = 0.0,
+    **look: Any,
+) -> None:
+    """Small words at the places x, y of a source, by `code`, see `layers.Words`."""
+    look = {"text_color": style.FAINT_INK, "text_baseline": "bottom", **look}
+    Words("", x, y, code, fitting=fitting, look=look).add(plot, source)
 
 
 def write_names(plot: figure, cells: Sequence[Cell]) -> None:
@@ -132,11 +134,11 @@ def write_names(plot: figure, cells: Sequence[Cell]) -> None:
         }
     )
     serif = {"text_font": {"value": SERIF}, "text_color": style.INK}
-    write(plot, source, {"value": "k"}, y_offset=-6, text_font_size="15px", **serif)
-    write(plot, source, "below", x_offset=9, y_offset=-3, **serif)
+    write(plot, source, "return 'k'", y_offset=-6, text_font_size="15px", **serif)
+    write(plot, source, "return row.below", x_offset=9, y_offset=-3, **serif)
     name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})
     look = {"y_offset": -6, "text_font_size": style.TEXT_SIZE, "text_color": style.INK}
-    write(plot, name, {"value": NAMES[-1]}, **look)
+    write(plot, name, f"return {NAMES[-1]!r}", **look)
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:

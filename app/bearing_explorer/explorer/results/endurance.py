@@ -21,6 +21,7 @@ from bearingcore import (
 )
 from bearingcore import limits as limits_of
 from bearingcore.bearings import STEEL_MODULUS, STEEL_POISSON, USUAL_GROOVES
+from bearingcore.scene import WITH_MASS
 from bearingcore.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
@@ -115,7 +116,7 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             healthy = life(scene.healthy(), rating, positions="all")
         except ValueError as error:
             no_life = sentence_of(error)
-    state = state_of_limits(scene)
+    state = _state_of_contacts(scene)
     pressures, no_pressures = None, ""
     try:
         pressures = contact_pressures(scene, state)
@@ -155,7 +156,12 @@ def with_usual_grooves(scene: Scene) -> Scene | None:
     )
 
 
-def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium) -> Film:
+def _state_of_contacts(scene: Scene) -> Equilibrium | None:
+    """None of balls with mass: they press as they do at speed, which limits leave out."""
+    return None if scene.balls == WITH_MASS else state_of_limits(scene)
+
+
+def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium | None) -> Film:
     """The film of a scene with the oil of `inputs`; ValueError as of `film`."""
     return film(
         scene,
@@ -180,7 +186,7 @@ def limits(
     state = state_of_limits(scene)
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
-        oil = film_of(scene, inputs, state)
+        oil = film_of(scene, inputs, _state_of_contacts(scene))
     found = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
     if with_usual_grooves(scene) is None:
         return found

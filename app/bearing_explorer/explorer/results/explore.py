@@ -31,6 +31,7 @@ from bearingcore.sweep import (
     MASS,
     MODES,
     OUTPUTS,
+    PRESSURE,
     SECONDS,
     STATICS,
     STATUSES,
@@ -56,7 +57,7 @@ SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRI
 BUDGET = 120.0
 """[s] that a map may take."""
 
-_QUICK = (STATICS, LIFE, MODES)
+_QUICK = (STATICS, PRESSURE, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
 _SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
@@ -139,11 +140,6 @@ class Question:
         with contextlib.suppress(ValueError):
             # what the map goes over does not count
             object.__setattr__(self, "scene", self.scene.replace(**first))
-
-    @property
-    def figure(self) -> tuple[object, ...]:
-        """All that its figure depends on besides the scene."""
-        return self.places, self.output
 
     @cached_property
     def grid(self) -> Grid:
@@ -298,14 +294,10 @@ class Survey:
             line = rows if upright else columns
             known = self._known[line, fixed] if upright else self._known[fixed, line]
             left = line[~known]
-            most = left.size if self._in_rows else max(1, int(_CHUNK / self.seconds))
+            most = left.size if self.question.grid.in_rows else max(1, int(_CHUNK / self.seconds))
             for start in range(0, left.size, max(most, 1)):
                 part, one = left[start : start + most], np.array([fixed])
                 yield (part, one) if upright else (one, part)
-
-    @property
-    def _in_rows(self) -> bool:
-        return self.question.grid.in_rows
 
     def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output
@@ -321,12 +313,9 @@ class Survey:
         for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
             value = float(found[a, b])
             why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
-            self._put(j, i, value, why)
-
-    def _put(self, row: int, column: int, value: float, why: str) -> None:
-        self._values[row, column] = value if not why else math.nan
-        self._reasons[row, column] = why
-        self._known[row, column] = True
+            self._values[j, i] = value if not why else math.nan
+            self._reasons[j, i] = why
+            self._known[j, i] = True
 
     def _scene(self, row: int, column: int) -> Scene:
         (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si

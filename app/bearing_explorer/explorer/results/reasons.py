@@ -101,11 +101,16 @@ def greatest_load(results: Results) -> str:
 
 
 def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
-    """At most three elements by their names: "balls 10 and 12"."""
-    names = [element_name(bearing, k) for k in which[:3]]
-    if len(names) > 1 and len(bearing.all_rows) == 1:
-        numbers = style.list_words([str(k + 1) for k in which[:3]])
-        return f"{elements(bearing)} {numbers}"
+    """Elements by their names, row by row: "balls 10 and 12"; of more than six how many."""
+    rows: dict[int, list[str]] = {}
+    for k in which:
+        row, number = bearing.row_of_ball(int(k))
+        rows.setdefault(row, []).append(str(number + 1))
+    names = []
+    for row, own in rows.items():
+        several = elements(bearing, len(own))
+        name = f"{several} {style.list_words(own)}" if len(own) <= 6 else f"{len(own)} {several}"
+        names.append(name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}")
     return style.list_words(names)
 
 
@@ -326,9 +331,9 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         if resolved and abs(most.frequency - 0.5 * halves * rate) <= most.resolution:
             hertz = style.with_prefix(rate, "Hz")
             times = hertz if halves == 2 else f"{style.number(0.5 * halves)} times {hertz}"
-            within = f"within the {most.resolution:.0f} Hz between lines, as often as balls pass"
+            within = f"as often as balls pass (lines are {most.resolution:.0f} Hz apart)"
             why = "" if halves % 2 == 0 else ": the motion repeats only every second pass"
-            return f"{text} lies in no band of {dof}. It is {times} {within}{why}."
+            return f"{text} lies in no band of {dof}. It is {times}, {within}{why}."
     if inside:
         words = _lies(most, inside[0], bands)
         return f"{text} {words}: along {dof} the housing takes part in that swing."
@@ -353,13 +358,14 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
         return ""
     size = np.max([np.abs(values) for values in shown.acceleration.values()], axis=0)
     at = float(shown.time[int(np.argmax(size))])
-    nearest = min(shown.events, key=lambda event: abs(event.time - at))
-    own = np.flatnonzero(shown.balls == nearest.ball)
-    load = shown.ball_load[:, own].max(initial=0.0)
-    if not load > LOADED * shown.greatest_static_load:
+    loads = dict(zip(shown.balls, shown.ball_load.max(axis=0, initial=0.0), strict=True))
+    loaded = [e for e in shown.events if loads[e.ball] > LOADED * shown.greatest_static_load]
+    if not loaded:
         return (
             "No loaded ball passes the defect: only the changing number of loaded balls shakes it."
         )
+    nearest = min(loaded, key=lambda event: abs(event.time - at))
+    load = loads[nearest.ball]
     apart = at - nearest.time
     verb, what = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"

@@ -22,7 +22,6 @@ from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.python_arguments import arguments
 from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
@@ -31,9 +30,12 @@ from bearing_explorer.explorer.state.references import (
     Reference,
     grey_reference,
 )
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.executors import PICTURES
+from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
 from bearingcore.dynamics import OrbitStatus, common_ball_passes
@@ -84,7 +86,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
+class Results(Content):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -138,7 +140,6 @@ class Results:
         return self.scene, self.settings, self.compared, self.grey_kind
 
     def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
-        """The same, as they are once the slider rests; `give_up` may end long searches."""
         return dataclasses.replace(self, moving=not rested, give_up=give_up)
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:
@@ -157,6 +158,13 @@ class Results:
                 like=None if own_period else self,
             )
         return self._against[key]
+
+    @cached_property
+    def editor(self) -> SceneEditor:
+        """Controls with this scene, for forms outside of the page."""
+        editor = SceneEditor("fan-rig")
+        editor.take_scene(self.scene, selected=self.focus)
+        return editor
 
     @cached_property
     def compared_results(self) -> list[Results]:
@@ -312,8 +320,26 @@ class Results:
         return status_of(self, seconds, needed)
 
     def arguments(self, view: View) -> dict[str, str]:
-        """Arguments with which lines of Python make a figure of these."""
-        return arguments(view, self)
+        """Arguments with which lines of Python make a figure of these, if not as usual."""
+        given: dict[str, str] = {}
+        if self.cage_angle:
+            given["cage_angle"] = short(self.cage_angle)
+        if self.focus:
+            given["focus"] = str(self.focus)
+        if self.compared and view.compares:
+            named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
+            given["compared"] = "{" + ", ".join(named) + "}"
+        if self.before is not None and "before" in view.needs:
+            given["before"] = scene_code(self.before.scene)
+        if self.grey_kind != HEALTHY and "reference" in view.needs:
+            given["grey"] = code_of(self.grey_kind)
+        for name, value, usual in (
+            ("settings", self.settings, Settings()),
+            ("endurance", self.life_inputs, LifeInputs()),
+        ):
+            if changed := changed_fields(value, usual):
+                given[name] = code_of(changed)
+        return given
 
     @property
     def _with_mass(self) -> Scene:

@@ -50,63 +50,52 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
     place where a machine stays.
     """
-    static = of_statics(results)
-    if static.mood == "good" and "now" in shown:
-        static = of_now(results)
-    if static.mood == "good" and "chain" in shown:
-        static = of_chain(results)
-    if static.mood != "good" or not shown & (ORBITS | MOTIONS | BALLS):
-        return static
+    bad = of_statics(results)
+    if not bad and "now" in shown:
+        bad = of_now(results)
+    if not bad and "chain" in shown:
+        bad = of_chain(results)
+    if bad:
+        return Verdict("bad", bad)
     try:
         if shown & BALLS and results.ball_mass.broke_off:
             return Verdict("bad", f"No motion: {results.ball_mass.broke_off}")
-        if shown & MOTIONS and (moving := of_motion(results)).mood != "good":
-            return moving
+        if shown & MOTIONS and results.fault:
+            return Verdict("bad", f"The motion {results.fault}")
         if shown & ORBITS:
             return of_orbit(results)
     except StillCompiling as wait:
         return Verdict("busy", f"Not ready: {wait}")
     except ValueError as error:  # the view gives the whole sentence
         return Verdict("bad", f"No motion: {words_of(error)}")
-    return static
+    return Verdict("good", "Computed without problems")
 
 
-def of_statics(results: Results) -> Verdict:
-    """Whether the static equilibrium was found at all cage angles of the curves."""
+def of_statics(results: Results) -> str:
+    """At which cage angles of the curves no static equilibrium was found; empty for none."""
     found = results.equilibrium
     bad = np.flatnonzero(~found.converged)
     if not bad.size:
-        return Verdict("good", "Computed without problems")
+        return ""
     reason = found.reason(int(bad[0]))
     if bad.size == found.converged.size:
-        return Verdict("bad", f"No answer: {reason}")
-    return Verdict(
-        "bad", f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
-    )
+        return f"No answer: {reason}"
+    return f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
 
 
-def of_now(results: Results) -> Verdict:
-    """Whether there is a static equilibrium at the cage angle that is drawn."""
+def of_now(results: Results) -> str:
+    """Why there is no static equilibrium at the cage angle that is drawn; empty where there is."""
     now = results.now
-    if now.converged[0]:
-        return Verdict("good", "Computed without problems")
-    return Verdict("bad", f"No answer at this cage angle: {now.reason(0)}")
+    return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 
-def of_chain(results: Results) -> Verdict:
-    """Whether the equilibrium was found wherever the change is followed: the shaft may turn too."""
+def of_chain(results: Results) -> str:
+    """The same wherever the change is followed: the shaft may turn too."""
     chain = results.chain
     if chain.answered == 1.0:
-        return Verdict("good", "Computed without problems")
+        return ""
     share = number(100.0 * (1.0 - chain.answered), 2)
-    return Verdict("bad", f"No answer at {share} % of the cage angles: {chain.reason}")
-
-
-def of_motion(results: Results) -> Verdict:
-    """Whether the simulated motion reached its end."""
-    if not results.fault:
-        return Verdict("good", "Computed without problems")
-    return Verdict("bad", f"The motion {results.fault}")
+    return f"No answer at {share} % of the cage angles: {chain.reason}"
 
 
 def of_orbit(results: Results) -> Verdict:

@@ -88,7 +88,8 @@ class Bookmarks:
         #: whether the address said which scene to show
         self.has_scene = bool(address)
         place = opened(address, editor)
-        self._tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
+        #: the section that is on screen; at first empty where the address says nothing of a scene
+        self.tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
         #: scenes that are drawn too
@@ -97,13 +98,8 @@ class Bookmarks:
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
-        self._tab = tab
+        self.tab = tab
         self._history = History(self._editor.snapshot())
-
-    @property
-    def tab(self) -> str:
-        """The section that is to be shown; empty where the address says nothing of a scene."""
-        return self._tab
 
     @property
     def moving(self) -> bool:
@@ -113,10 +109,6 @@ class Bookmarks:
     def say(self, sentence: str) -> None:
         """Set the notice shown in the toolbar; the same one again counts as new."""
         self._said = (self._said[0] + 1, sentence)
-
-    def show(self, tab: str) -> None:
-        """Another section is on screen."""
-        self._tab = tab
 
     def follow(self, message: Mapping[Any, Any]) -> bool:
         """Note what a message did to the editor; whether a step has ended.
@@ -156,7 +148,7 @@ class Bookmarks:
 
     def leave(self) -> None:
         """Keep scene, compared ones and tab of now for `back`."""
-        self._left = self._editor.snapshot(), self.compared, self._tab
+        self._left = self._editor.snapshot(), self.compared, self.tab
 
     @property
     def can_go_back(self) -> bool:
@@ -227,7 +219,7 @@ class Bookmarks:
 
     def state(self) -> dict[str, Any]:
         """State for the browser."""
-        place = replace(place_of(self._editor, self._tab or FIRST_TAB), compared=self.compared)
+        place = replace(place_of(self._editor, self.tab or FIRST_TAB), compared=self.compared)
         address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections import deque
 from typing import Generic, TypeVar
 
+from bearingcore import Scene
+
 MOST_STEPS = 100
 
 State = TypeVar("State")
@@ -21,7 +23,8 @@ class History(Generic[State]):
         self._now = now
         self._past: deque[State] = deque(maxlen=most)
         self._future: list[State] = []
-        self._moving = ""
+        #: name of the control being moved; empty between steps
+        self.moving = ""
 
     @property
     def can_undo(self) -> bool:
@@ -33,22 +36,17 @@ class History(Generic[State]):
         """Whether a step was undone that can be done again."""
         return bool(self._future)
 
-    @property
-    def moving(self) -> str:
-        """Name of the control being moved; empty between steps."""
-        return self._moving
-
     def moved(self, now: State, what: str) -> None:
         """Go on with the step that moves `what`, or begin it."""
-        if self._moving != what:
+        if self.moving != what:
             self.settle()
-        if now == self._now and not self._moving:
+        if now == self._now and not self.moving:
             self._now = now
             return
-        if not self._moving:
+        if not self.moving:
             self._past.append(self._now)
             self._future.clear()
-            self._moving = what
+            self.moving = what
         self._now = now
 
     def amend(self, now: State) -> None:
@@ -59,7 +57,7 @@ class History(Generic[State]):
         """The step that was being made is made."""
         if self._idle_move:
             self._past.pop()
-        self._moving = ""
+        self.moving = ""
 
     def step(self, now: State) -> None:
         """Make a step that needs no moving."""
@@ -80,7 +78,7 @@ class History(Generic[State]):
     @property
     def _idle_move(self) -> bool:
         """Whether a drag is back where it began."""
-        return bool(self._moving) and self._past[-1] == self._now
+        return bool(self.moving) and self._past[-1] == self._now
 
     def _go(
         self, source: deque[State] | list[State], target: deque[State] | list[State]
@@ -90,3 +88,22 @@ class History(Generic[State]):
         target.append(self._now)
         self._now = source.pop()
         return self._now
+
+
+class LastState:
+    """Remembers the scene before the last change. A drag is one change, from where it began."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._settled = scene
+        self._moving = False
+        #: the scene before the last change; None before the first
+        self.before: Scene | None = None
+
+    def follow(self, scene: Scene, moving: bool) -> None:
+        """Note the scene of now, and whether a drag is still `moving` it."""
+        if scene != self._settled and not self._moving:
+            self.before = self._settled
+            self._moving = True
+        if not moving:
+            self._settled = scene
+            self._moving = False

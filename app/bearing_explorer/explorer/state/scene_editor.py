@@ -38,9 +38,9 @@ from bearing_explorer.explorer.state.field_values import (
     limits_of,
     read,
     scene_with_fields,
+    second_units,
     values_of,
 )
-from bearing_explorer.explorer.state.second_units import second_units
 from bearing_explorer.kit.bearing_list import BearingTable, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (
@@ -87,7 +87,7 @@ Refused = dict[str, str]
 """Sentences by the names of the controls that they belong to."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class FloorChoice:
     """The floor of one defect, and what it goes back to when another kind was looked at."""
 
@@ -112,22 +112,24 @@ class CatalogueOrigin:
     bearing: Bearing
 
 
-@dataclass(frozen=True)
 class Snapshot:
     """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
 
-    scene: Scene
-    preset: str
-    cage_angle: float
-    kinds: tuple[str, ...]
-    own_name: str
-    origin: CatalogueOrigin | None
-    begun: Scene = field(compare=False)
-    selected: int = field(compare=False)
-    values: Values = field(compare=False)
-    limits: dict[str, Range] = field(compare=False)
-    usual: dict[str, Range] = field(compare=False)
-    floors: tuple[FloorChoice, ...] = field(compare=False)
+    def __init__(self, editor: SceneEditor) -> None:
+        #: by the names of the editor's fields, lists and tables as copies
+        self.held = {
+            name: own.copy() if isinstance(own := getattr(editor, name), list | dict) else own
+            for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
+                         "values", "limits", "usual", "floors")
+        }  # fmt: skip
+        kinds = tuple(floor.kind for floor in editor.floors)
+        seen = (editor.scene, editor.preset, editor.own_name, editor.origin)
+        self._seen = *seen, editor.values[CAGE_ANGLE], kinds
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Snapshot) and self._seen == other._seen
+
+    __hash__ = None  # type: ignore[assignment]
 
 
 @dataclass
@@ -202,29 +204,13 @@ class SceneEditor:
 
     def snapshot(self) -> Snapshot:
         """The whole state, for `restore`."""
-        return Snapshot(
-            scene=self.scene,
-            preset=self.preset,
-            cage_angle=self.values[CAGE_ANGLE],
-            kinds=tuple(floor.kind for floor in self.floors),
-            own_name=self.own_name,
-            origin=self.origin,
-            begun=self.begun,
-            selected=self.selected,
-            values=dict(self.values),
-            limits=dict(self.limits),
-            usual=dict(self.usual),
-            floors=tuple(dataclasses.replace(floor) for floor in self.floors),
-        )
+        return Snapshot(self)
 
     def restore(self, kept: Snapshot) -> None:
         """All as it was when the snapshot was taken."""
-        self.scene, self.preset, self.selected = kept.scene, kept.preset, kept.selected
-        self.own_name, self.origin, self.begun = kept.own_name, kept.origin, kept.begun
+        for name, own in kept.held.items():
+            setattr(self, name, own.copy() if isinstance(own, list | dict) else own)
         self.drop_draft()
-        self.values, self.limits = dict(kept.values), dict(kept.limits)
-        self.usual = dict(kept.usual)
-        self.floors = [dataclasses.replace(floor) for floor in kept.floors]
 
     @property
     def effects(self) -> Mapping[str, str]:
@@ -407,7 +393,7 @@ class SceneEditor:
         if parts["pair"] or parts["second"]:
             scene = scene.replace(bearing=_with_rows(scene.bearing, **parts))
         if rough:
-            choice.rough = floor
+            self.floors[self.selected] = dataclasses.replace(choice, rough=floor)
         return scene
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:

@@ -66,7 +66,7 @@ class OtherModels(SceneJobView[Alternatives]):
                 self.parts.take_steps(one.changes["step_rate"])
             elif one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
-                self.parts.ask({"choose": words})
+                self.parts.change_scene({"choose": words})
 
     def _offer(self, results: Results) -> None:
         """Fill the list of what can be taken."""

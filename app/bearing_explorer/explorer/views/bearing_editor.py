@@ -6,11 +6,12 @@ import html
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import param
 
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.choice_list import KIND, MATERIAL, NUMBERS
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, values_of
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
@@ -20,13 +21,10 @@ from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearingcore import Bearing, Scene
 from bearingcore.bearings import CATALOGUE_COLUMNS, NEEDED_COLUMNS
 from bearingcore.common import with_deviation
 from bearingcore.fields import FIELD_OF
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Bearing, Scene
 
 
 class BearingRows(Rows):
@@ -98,12 +96,9 @@ class BearingEditor(ControlView):
             words += " Estimated from the designation."
         return words[0].upper() + words[1:]
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            self.rows.put(
-                picture=bearing_picture(results.scene.bearing), facts=facts_of(results.scene)
-            )
+    def show(self, results: Results) -> None:
+        scene = results.scene
+        self.rows.put(picture=bearing_picture(scene.bearing), facts=facts_of(scene))
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table = table_of_fields(BEARING_GROUPS, values_of(results.scene))

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS
-from bearing_explorer.explorer.views.parts import SceneParts
 from bearing_explorer.explorer.widgets.controls import Rows
 from bearing_explorer.kit.views.base import SessionParts, View
 
@@ -34,11 +33,10 @@ class ControlView(View):
     def attach(self, parts: SessionParts) -> None:
         """Send changes to the session, and follow its scene."""
         super().attach(parts)
-        assert isinstance(parts, SceneParts)
-        self.rows.state = parts.editor.state()
-        parts.add_controls(self.rows)
+        self.rows.state = self.parts.editor.state()
+        self.parts.panels.append(self.rows)
 
     def forward(self, message: Any) -> None:
         """Hand on a message of the browser."""
         if self.parts is not None:
-            self.parts.ask(message)
+            self.parts.change_scene(message)

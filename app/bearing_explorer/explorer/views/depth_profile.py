@@ -16,6 +16,8 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
+BRIDGED = 10e-6
+"""[m] along the race: a contact is some tenths of a millimetre long."""
 EDGE_WORDS = {
     "published": "an edge as in the paper",
     "chord": "a chord over the whole arc",
@@ -119,10 +121,13 @@ class DepthProfile(View):
             else f"a {ball} sinks {style.with_prefix(deepest, 'm')} and does not reach the floor "
             f"of {floor}"
         )
-        return (
+        text = (
             f"The {defect.race}-race defect is {length} long; "
             f"with {EDGE_WORDS[defect.edge]} {reaches}{turning}."
         )
+        if 0.0 < defect.extent * defect.raceway_radius(scene.bearing) < BRIDGED:
+            text += " A contact under a usual load is longer and bridges it; here it has no length."
+        return text
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.profile.table().in_units().named()

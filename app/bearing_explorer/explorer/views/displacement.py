@@ -46,10 +46,8 @@ class Displacement(View):
         self._numbers = facts_pane()
         return self._numbers
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            self._numbers.object = "".join(self.html(one) for one in _scenes(results))
+    def show(self, results: Results) -> None:
+        self._numbers.object = "".join(self.html(one) for one in _scenes(results))
 
     def html(self, named: tuple[str, Results]) -> str:
         """The table of a scene, under its name where it has one."""
@@ -142,8 +140,8 @@ def _stiffness_html(when: str, table: ResultTable) -> str:
         (html_text(str(one)), *(_digits(float(value), 5) for value in line))
         for one, line in zip(load, _without_noise(np.stack(columns, axis=1)), strict=True)
     )
-    heads = ("", *map(_per, DOF_NAMES))
-    return _headed(f"Stiffness {when}", html_table(heads, rows, named=True))
+    per = (f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})" for dof in DOF_NAMES)
+    return _headed(f"Stiffness {when}", html_table(("", *per), rows, named=True))
 
 
 def _without_noise(values: np.ndarray) -> np.ndarray:
@@ -166,10 +164,6 @@ def _scenes(results: Results) -> Iterable[tuple[str, Results]]:
         for one, other in zip(results.compared, results.compared_results, strict=True)
     ]
     return [(_THIS_SCENE if compared else "", results), *compared]
-
-
-def _per(dof: str) -> str:
-    return f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})"
 
 
 def _headed(name: str, table: str) -> str:

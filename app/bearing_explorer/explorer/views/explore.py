@@ -33,7 +33,7 @@ from bearing_explorer.explorer.state.value_range import (
     usual_range,
     value_of,
 )
-from bearing_explorer.explorer.views.scene_job_view import SceneJobView, editor_of
+from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
@@ -145,7 +145,7 @@ class ExplorePlane(SceneJobView[Plane]):
         return {**self._request.given, "grid": str(stride)}
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
-        editor = editor_of(results)
+        editor = results.editor
         self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
         question = request.of(results)
         self.found = last_shown(lambda job: refine(job, question, request.stride))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import html
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
@@ -16,23 +16,23 @@ from bearing_explorer.explorer.results.endurance import (
     Endurance,
     LifeInputs,
 )
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.typed_number import number_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row
+from bearingcore import Life
 from bearingcore.common import percent
 from bearingcore.statics import LEFT_OUT, hours_in_words, turns_in_words
 
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Life
 
+class Field(NamedTuple):
+    """A number of the form: the field of `LifeInputs`, label, unit, and its range.
 
-@dataclasses.dataclass(frozen=True)
-class Field:
-    """A number of the form: the field of `LifeInputs`, label, unit, and its range."""
+    `hint` says which number the program takes where none is given; without one it is needed.
+    """
 
     name: str
     label: str
@@ -41,6 +41,7 @@ class Field:
     least: float
     most: float
     about: str
+    hint: str = ""
 
 
 FIELDS = (
@@ -53,6 +54,7 @@ FIELDS = (
         1e5,
         "Of the whole bearing, with all its rows. Left empty it is that of a bearing chosen by its "
         "number, else computed by ISO 281.",
+        "by number, or ISO 281",
     ),
     Field(
         "viscosity",
@@ -63,6 +65,7 @@ FIELDS = (
         1e4,
         "Of the oil, or a grease's base oil, at the temperature of the contact. Left empty, "
         f"{ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by it.",
+        "not given",
     ),
     Field(
         "race_roughness",
@@ -84,9 +87,6 @@ FIELDS = (
     ),
 )
 
-MAY_BE_EMPTY = ("dynamic_load_rating", "viscosity")
-"""Fields of which the program takes a number of its own where none is given."""
-
 
 class LifeOfBearing(View):
     """Fatigue life, contact pressure and oil film of a scene."""
@@ -103,13 +103,12 @@ class LifeOfBearing(View):
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
         self._fields = Fields(self.take)
-        hints = {"dynamic_load_rating": "by number, or ISO 281", "viscosity": "not given"}
         self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
         for field in FIELDS:
             given = entry(
                 f"{field.label} ({field.unit})",
-                placeholder=hints.get(field.name, ""),
+                placeholder=field.hint,
                 align="start",
             )
             parts += [self._fields.add(field.name, given), facts_pane(f"<p>{field.about}</p>")]
@@ -145,10 +144,7 @@ class LifeOfBearing(View):
         healthy = "Without the defect: " if results.scene.defects else ""
         return f"{healthy}{found.healthy.sentence}"
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is None:
-            return
+    def show(self, results: Results) -> None:
         self._answers.object = groups_html(groups_of(results))
         if not self._refusal.visible:
             self._fields.put(self._values())
@@ -174,7 +170,7 @@ class LifeOfBearing(View):
 def read(field: Field, given: object) -> float | None:
     """The number [SI] a person gave; ValueError with a sentence for the page."""
     text = str(given)[:40].strip()
-    if not text and field.name in MAY_BE_EMPTY:
+    if not text and field.hint:
         return None
     words = f"The {field.label.lower()}"
     return number_of(text, words, field.unit, field.least, field.most) * field.unit_si
@@ -318,6 +314,10 @@ def _film(results: Results, found: Endurance) -> FactGroup:
     title = "Oil film"
     if found.film is None:
         return FactGroup(title, found.no_film, [])
+    pressed = found.pressures and (found.pressures.inner, found.pressures.outer)
+    allowed = results.scene.bearing.kind.static_pressure
+    if pressed and any(contact.greatest_pressure > allowed for contact in pressed):
+        return FactGroup(title, "Not known: the pressure is more than ISO 76 allows.", [])
     facts = []
     for film in (found.film.inner, found.film.outer):
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"

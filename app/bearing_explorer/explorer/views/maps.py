@@ -30,9 +30,9 @@ from bearing_explorer.explorer.state.references import massless
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
-from bearing_explorer.kit.plots.heat_map import Places, Side, ends, goes_there, reading
+from bearing_explorer.kit.plots.heat_map import Side, ends, let_point
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix, words_of
+from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -125,13 +125,28 @@ class StiffnessMaps(View):
         points = packed.source("maps_points", "bits")
         frames = _frames(plot)
         images = _images(plot, points)
-        places = Places(images, _SIDES_OF, stands=grid, count=_N, digits=1)
         _names(plot, grid)
         _scales(plot, cells)
         _ticks(plot, ticks)
         _crosshair(plot, now)
-        _hover(plot, frames, cells, places, points)
-        goes_there(plot, places)
+        let_point(
+            plot,
+            images,
+            _SIDES_OF,
+            [frames],
+            asset_text("maps_value.js"),
+            stands=grid,
+            count=_N,
+            digits=1,
+            tooltip=_TOOLTIP,
+            fields={"@left": "value", "@right": "y", "@top": "x"},
+            cells=cells,
+            points=points,
+            units=list(UNITS),
+            head=_HEAD,
+            none=NO_ANSWER,
+            greatest=GREATEST,
+        )
         matrix_cells.axes_when_zoomed(plot, _CELLS, _SCALE_OF, [grid])
         return matrix_cells.scrolled(plot)
 
@@ -403,14 +418,14 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     matrix_cells.write_names(plot, _CELLS)
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
-    extent = {"value": "Length of the defect Δφf (°)"}
+    extent = "return 'Length of the defect Δφf (°)'"
     write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
-    words = words_of(grid, "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'")
+    words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     lines = range(len(_LEGEND))
     legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
-    write(plot, ColumnDataSource(legend), "text")
+    write(plot, ColumnDataSource(legend), "return row.text")
 
 
 _UNIT = f"""
@@ -440,12 +455,11 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         (_ZERO, "middle", "middle"),
     ):
         at = {"x": "bar", "y": y, "x_offset": 4}
-        write(plot, cells, words_of(cells, code), text_baseline=baseline, **at)
+        write(plot, cells, code, text_baseline=baseline, **at)
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
-    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
-    write(plot, cells, now, text_align="right", **above)
+    write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
-    write(plot, cells, words_of(cells, _FLAT), text_baseline="top", **inside)
+    write(plot, cells, _FLAT, text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
@@ -455,7 +469,7 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
         (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
     ):
-        write(plot, ticks, words_of(ticks, _ONLY % (side, unit)), **look)
+        write(plot, ticks, _ONLY % (side, unit), **look)
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:
@@ -465,22 +479,3 @@ def _crosshair(plot: figure, now: ColumnDataSource) -> None:
         plot.segment("x", "bottom", "x", "top", **look)
         plot.segment("left", "y", "right", "y", **look)
     plot.scatter("x", "y", source=now, size=8, fill_color=style.DEFECT, line_color=style.SHADE)
-
-
-def _hover(plot: figure, frames: Any, cells: ColumnDataSource, places: Places, points: Any) -> None:
-    """The value under the pointer, its extent and cage angle, without a word to the server."""
-    plot.add_tools(
-        reading(
-            places,
-            [frames],
-            asset_text("maps_value.js"),
-            tooltip=_TOOLTIP,
-            fields={"@left": "value", "@right": "y", "@top": "x"},
-            cells=cells,
-            points=points,
-            units=list(UNITS),
-            head=_HEAD,
-            none=NO_ANSWER,
-            greatest=GREATEST,
-        )
-    )

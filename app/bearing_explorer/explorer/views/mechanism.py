@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from bokeh.models import Quad, Segment, Span
 
+from bearing_explorer.explorer.plots.spectra import FREQUENCY_WITH_UNITS, in_hertz
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.wide_spectrum import FREQUENCY, in_hertz
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -63,7 +63,7 @@ class WhichMechanism(FoldedView[Results]):
 
     def build(self, packed: PackedSource) -> Any:
         plot = style.make_figure(
-            FREQUENCY,
+            FREQUENCY_WITH_UNITS,
             SHARE,
             packed.range("mechanism_frequency", 125.0, 32000.0),
             packed.range("mechanism_share", -20.0, 115.0),

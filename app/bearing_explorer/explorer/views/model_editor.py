@@ -66,9 +66,8 @@ class ModelEditor(ControlView):
         damping = style.number(results.contact_damping, 4)
         return f"{words}a loaded contact has a damping of {damping} N·s/m, {given}."
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None and results.scene.contact_damping is None:
+    def show(self, results: Results) -> None:
+        if results.scene.contact_damping is None:
             self.rows.put(automatic=style.number(results.contact_damping, 4))
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

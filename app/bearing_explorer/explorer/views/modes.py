@@ -163,11 +163,9 @@ class NaturalFrequencies(View):
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
         return f"{text}. {why}".rstrip()
 
-    def say(self, results: Results | None, sentence: str) -> None:
-        super().say(results, sentence)
-        if results is not None:
-            over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE
-            self._axis.axis_label = over.label()
+    def show(self, results: Results) -> None:
+        over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE
+        self._axis.axis_label = over.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.reference.modes

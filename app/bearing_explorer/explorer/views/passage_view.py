@@ -17,12 +17,12 @@ from bearing_explorer.kit.plots.layers import (
     Words,
     add_all,
     by_number,
+    least_and_greatest,
     sources_of,
     uprights,
 )
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.thinned import least_and_greatest
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import Bearing

@@ -31,16 +31,6 @@ class SceneJobView(JobView[Results, Found, SceneEditor], Generic[Found]):
         if self.noun and self.is_empty:
             self._sentence.put(text=sentence_html(self.words_of_nothing))
 
-    def editor_on_page(self, parts: Any) -> SceneEditor:
-        editor: SceneEditor = parts.editor
+    def editor_of(self, owner: Any) -> SceneEditor:
+        editor: SceneEditor = owner.editor
         return editor
-
-    def editor_of(self, results: Results) -> SceneEditor:
-        return editor_of(results)
-
-
-def editor_of(results: Results) -> SceneEditor:
-    """The controls as they are for a scene."""
-    editor = SceneEditor("fan-rig")
-    editor.take_scene(results.scene, selected=results.focus)
-    return editor

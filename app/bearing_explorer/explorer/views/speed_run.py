@@ -115,7 +115,7 @@ SCENE: list[Layer] = [
     ),
     *(
         Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
-        for color, width in ((style.LIGHT, 4.0), (style.SHADE, 1.6))
+        for color, width in ((style.SHADE, 3.0), (style.LIGHT, 1.2))
     ),
 ]
 """Speeds whose motion was integrated in time, and the speed of this scene."""
@@ -205,7 +205,8 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             return {}, {}
         run, speeds = found.run, found.speeds
         alpha = FAINT if self._is_of_another(results, found) else 1.0
-        seen = run.frequency <= top_frequency(run)
+        # more than usual where a band lies higher
+        seen = run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
         frequency = run.frequency[seen]
         top = float(frequency[-1])
         level_ranges = {}
@@ -314,15 +315,12 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
         if run.completed or not done:
             job.show(FoundRun(run, one))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
+            if size == FIRST_COUNT:
+                shown = f"A coarse picture: {shown} “Run up” computes as many as chosen."
         if not run.completed:
             break
         done += size
     return shown
-
-
-def top_frequency(run: SpeedRun) -> float:
-    """Highest frequency that is drawn [Hz]: more than usual where a band lies higher."""
-    return max(HIGHEST, 1.05 * highest(run.bands))
 
 
 def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:

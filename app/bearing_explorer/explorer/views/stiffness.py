@@ -20,7 +20,7 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, layers, style
 from bearing_explorer.kit.plots.element_words import elements, with_elements_of
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, with_prefix, words_of
+from bearing_explorer.kit.plots.style import in_degrees, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS, Scene
@@ -158,7 +158,8 @@ class Stiffness(View):
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
             least, most = ranges.least[term], ranges.greatest[term]
-            line = f"{name} {term} varies from {prefixed_span(least, most, 'N/m')}"
+            span = prefixed_span(least, most, "N/m")
+            line = f"{name} {term} {'varies from' if ' to ' in span else 'is'} {span}"
             if results.reference_label and healthy.state.converged.any():
                 mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
@@ -173,13 +174,11 @@ class Stiffness(View):
         text = f"{'; '.join(parts)}. {why} {count} {carry}. Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
 
-    def say(self, results: Results | None, sentence: str) -> None:
+    def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""
-        super().say(results, sentence)
-        if results is not None:
-            words = _legend_words(results.scene)
-            if words != self._legend.data["text"]:
-                self._legend.data = {**self._legend.data, "text": words}
+        words = _legend_words(results.scene)
+        if words != self._legend.data["text"]:
+            self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""
@@ -229,7 +228,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
     legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", "now"]})
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
-    write(plot, legend, "text", text_baseline="middle", **look)
+    write(plot, legend, "return row.text", text_baseline="middle", **look)
     return legend
 
 
@@ -263,16 +262,15 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     """Zero lines, limits and values of the cells, and the ends of their cage angles."""
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
     left = {"x": "left", "x_offset": -3, "text_align": "right"}
-    write(plot, cells, words_of(cells, _LIMIT % "low"), y="bottom", text_baseline="bottom", **left)
-    write(plot, cells, words_of(cells, _LIMIT % "high"), y="top", text_baseline="top", **left)
-    now = style.fitting_words(plot, cells, _NOW, NARROWEST)
-    write(plot, cells, now, x="right", y="top", y_offset=-6, text_align="right")
-    flat = style.fitting_words(plot, cells, _FLAT, NARROWEST)
+    write(plot, cells, _LIMIT % "low", y="bottom", text_baseline="bottom", **left)
+    write(plot, cells, _LIMIT % "high", y="top", text_baseline="top", **left)
+    above = {"x": "right", "y": "top", "y_offset": -6, "text_align": "right"}
+    write(plot, cells, _NOW, fitting=NARROWEST, **above)
     # below the zero line, which runs through the middle
-    write(plot, cells, flat, x="left", y="bottom", x_offset=3, y_offset=-1, text_baseline="bottom")
+    inside = {"x": "left", "y": "bottom", "x_offset": 3, "y_offset": -1}
+    write(plot, cells, _FLAT, fitting=NARROWEST, **inside)
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
-    write(plot, cells, words_of(cells, _FOOT % "0*row.foot"), x="left", **below)
-    last = words_of(cells, _FOOT % "row.foot")
-    write(plot, cells, last, x="right", text_align="right", **below)
+    write(plot, cells, _FOOT % "0*row.foot", x="left", **below)
+    write(plot, cells, _FOOT % "row.foot", x="right", text_align="right", **below)
     middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}
-    write(plot, axis, words_of(axis, _AXIS_WORDS), **{**below, **middle, "y": _BALLS.bottom})
+    write(plot, axis, _AXIS_WORDS, **{**below, **middle, "y": _BALLS.bottom})

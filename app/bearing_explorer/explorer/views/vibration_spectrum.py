@@ -10,13 +10,12 @@ import numpy as np
 from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.plots.spectra import SpectrumFigures
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.chain import loudest
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
-from bearing_explorer.explorer.views.wide_spectrum import HEIGHT, WideSpectra
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
@@ -32,15 +31,7 @@ from bearing_explorer.kit.plots.layers import (
     toggle,
     uprights,
 )
-from bearing_explorer.kit.plots.levels import (
-    FREQUENCY,
-    HIGHEST,
-    SHOWN,
-    decibels,
-    density_axis,
-    drawn_levels,
-    seen_levels,
-)
+from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN, decibels
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -64,6 +55,13 @@ AXIS: FieldSpec = {
 
 NAMED_IN_FULL = 580.0
 """[px] width of a frame from which the names of bands have room for their frequencies."""
+LOWEST = 100.0
+"""[Hz] on the logarithmic axis."""
+WIDE_DEPTH = 90.0
+"""[dB] below the loudest line that are seen there."""
+_RESONANCE_WORDS = (
+    "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above this range' : ''}`"
+)
 _PASS_WORDS = """
 const of = row.row ? ` row ${row.row}` : ''
 const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
@@ -88,9 +86,28 @@ def spectra(dof: str) -> list[Layer]:
             fitting=NAMED_IN_FULL,
             look={"text_color": color, **CENTERED},
         ),
-        curve("spectrum_healthy", "frequency", dof, style.HEALTHY, 1.5),
+        curve("spectrum_grey", "frequency", dof, style.HEALTHY, 1.5),
         *compared_curves.curves("spectrum", "frequency", dof),
         curve("spectrum_lines", "frequency", dof, color),
+    ]
+
+
+def wide_spectra(dof: str) -> list[Layer]:
+    """The same as far as the motion is known, over the band of the contact resonances."""
+    return [
+        strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
+        curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),
+        *compared_curves.curves("spectrum_wide", "frequency", dof, width=1.3),
+        curve("spectrum_wide_lines", "frequency", dof, style.color_along(dof), 1.4),
+        Words(
+            "spectrum_wide_resonance",
+            "label_at",
+            0.06,
+            _RESONANCE_WORDS,
+            y_share=True,
+            in_view="x",
+            look={"text_align": "right", "level": "annotation", **ON_PAPER},
+        ),
     ]
 
 
@@ -127,20 +144,21 @@ class VibrationSpectra(LookView):
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
-        self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
-        frequency = packed.range("spectrum_frequency", 0.0, HIGHEST)
-        level = packed.range("spectrum_level", -80.0, -20.0)
-        sources = sources_of(packed, [layer for dof in SHOWN for layer in [*spectra(dof), *PASSES]])
-        plots, passes = [], []
-        for dof in SHOWN:
-            density = density_axis(f"S{dof}")
-            plot = style.make_figure(FREQUENCY, density, frequency, level, height=HEIGHT)
-            add_all(plot, sources, spectra(dof))
-            passes += add_all(plot, sources, PASSES)
-            plots.append(plot)
+        levels = StickyRange(-80.0, -20.0, least_span=40.0)
+        linear = SpectrumFigures(packed, "spectrum", spectra, (0.0, HIGHEST), levels)
+        self._linear = linear
+        self._wide = SpectrumFigures(
+            packed,
+            "spectrum_wide",
+            wide_spectra,
+            (LOWEST, 32768.0),
+            StickyRange(-120.0, -20.0, least_span=60.0),
+            WIDE_DEPTH,
+        )
+        sources = sources_of(packed, PASSES)
+        passes = [one for plot in linear.plots for one in add_all(plot, sources, PASSES)]
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
-        self._narrow = [box, *plots]
-        self._wide = WideSpectra(packed, "spectrum_wide")
+        self._narrow = [box, *linear.plots]
         high = {"min-height": "calc(var(--room) - 170px)"}
         return self.only_with_numbers(
             self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
@@ -180,29 +198,22 @@ class VibrationSpectra(LookView):
         for plot in self._wide.plots:
             plot.visible = self.wide
 
-    def _wide_data(self, results: Results) -> tuple[Sources, Ranges]:
-        """As far as the motion is known, where that was chosen."""
-        if not self.wide:
-            return {}, {}
-        band = (0.0, 0.0)
-        for scene in (results.scene, results.grey.scene):
-            if scene.balls == WITH_MASS:
-                band = contact_resonance_band(scene)
-        return self._wide.data(
-            results,
-            results.late_spectra,
-            results.reference.late_spectra,
-            band,
-            results.motion.bandwidth,
-        )
+    def _resonance(self, results: Results, top: float) -> dict[str, np.ndarray]:
+        """The band of the contact resonances, where balls have mass; `top` [Hz] is the axis's."""
+        scenes = results.scene, results.grey.scene
+        bands = [contact_resonance_band(one) for one in scenes if one.balls == WITH_MASS]
+        low, high = np.array(bands[-1:]).reshape(-1, 2).T
+        above = (low >= top).astype(float)
+        return {"low": low, "high": high, "above": above, "label_at": 0.97 * np.minimum(low, top)}
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
-        drawn = drawn_levels(results.late_spectra, top)
-        passing = pass_frequencies(results.scene, top)
-        which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
-        sources, ranges = self._wide_data(results)
-        compared = levels_of_compared("spectrum", results, top)
+        sources, ranges = self._linear.data(results, top)
+        if self.wide:
+            known = results.motion.bandwidth
+            wide, its_ranges = self._wide.data(results, known)
+            sources |= {**wide, "spectrum_wide_resonance": self._resonance(results, known)}
+            ranges |= its_ranges
         for dof in SHOWN:
             sources |= compared_curves.sources(
                 f"spectrum_band_{dof}",
@@ -210,16 +221,14 @@ class VibrationSpectra(LookView):
                 results.compared_results,
                 partial(_bands_of, dof, top),
             )
+        passing = pass_frequencies(results.scene, top)
+        which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
         sources |= {
-            **compared,
-            "spectrum_lines": drawn,
-            "spectrum_healthy": drawn_levels(results.reference.late_spectra, top),
             "spectrum_passes": {"frequency": passing["frequency"]},
             "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
             **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
         }
-        shown = self._levels.fit(*seen_levels(6.0, drawn, *compared.values()))
-        return sources, {**ranges, "spectrum_frequency": (0.0, top), "spectrum_level": shown}
+        return sources, ranges
 
     def sentence(self, results: Results) -> str:
         return f"{loudest_words(results)} {why_words(results)}".rstrip()
@@ -269,7 +278,7 @@ def loudest_words(results: Results) -> str:
         ]
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
-    text += f"; balls pass a point {passing}{estimated}"
+    text += with_elements_of(results.scene.bearing, f"; balls pass a point {passing}{estimated}")
     if results.moving:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")

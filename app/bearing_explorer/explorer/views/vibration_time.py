@@ -79,6 +79,9 @@ class VibrationInTime(PassageView):
         carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
         return sources, self.ranges(shown.time, numbers, carried)
 
+    def title_of(self, content: Results) -> str:
+        return self.title if content.scene.defects else "Vibration in time"
+
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
         if shown.broke_off:

@@ -22,10 +22,6 @@ INKS = [style.INK, style.PAPER]
 """Text on a light colour, and on a dark one."""
 
 
-def _from_hex(color: str) -> np.ndarray:
-    return np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)])
-
-
 def _from_oklab(lab: np.ndarray) -> np.ndarray:
     """(n, 3) colours of the even colour space Oklab (Ottosson 2020) as 8-bit sRGB."""
     to_cones = np.array([[1.0, 0.3963377774, 0.2158037573],
@@ -54,7 +50,7 @@ def _diverging(*ends: float) -> np.ndarray:
     return _from_oklab(np.concatenate([blue[::-1], orange]))
 
 
-SEQUENTIAL = np.array([_from_hex(color) for color in Viridis256])
+SEQUENTIAL = np.array([list(bytes.fromhex(color[1:])) for color in Viridis256])
 """(256, 3) sRGB, dark to light."""
 DIVERGING = _diverging(0.975, 0.48)
 """(256, 3) sRGB, blue to white to orange."""

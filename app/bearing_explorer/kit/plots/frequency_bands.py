@@ -19,7 +19,7 @@ const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
 SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
-"""Name and span of a band, for `style.fitting_words`."""
+"""Name and span of a band, for `layers.Words` that fit."""
 
 
 def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:

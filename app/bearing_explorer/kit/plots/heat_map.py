@@ -1,7 +1,7 @@
 """Heat maps: numbers on a grid as a picture, read under the pointer, clicked to go there.
 
-Every heat map of the page is read and clicked by the same scripts, `reading` and `goes_there`; what
-draws it is a `GridImage`, or a canvas of sixteen maps.
+Every heat map of the page is read and clicked by the same scripts, see `let_point`; what draws it
+is a `GridImage`, or a canvas of sixteen maps.
 
 The packed source carries columns of floats, so a picture travels as one column: a head that says
 where the grid lies and which quantities its sides are, then the values of each layer, row by row
@@ -84,62 +84,12 @@ class Side:
     @property
     def label(self) -> str:
         """Text of an axis."""
-        words = f"{self.words} {self.symbol}".strip()
-        return f"{words} ({self.unit})" if self.unit else words
+        return self.quantity.label()
 
     def for_browser(self) -> dict[str, str | float]:
         """The side for the scripts."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
-
-
-@dataclass(frozen=True)
-class Places:
-    """Places of the maps of a figure, and the quantities of their sides.
-
-    Attributes
-    ----------
-    image
-        Bokeh's source of the pictures: image, x, y, dw, dh.
-    sides
-        all quantities that a side may have; the first to the right and the second upwards where
-        no source says which (``across``, ``up``).
-    stands
-        the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
-        ``y_last``) where these are not the ends of the picture.
-    count
-        how many pictures of the source are maps.
-    digits
-        places are those of the middles of cells, or with this the very ones, rounded to as many
-        digits behind the point.
-    """
-
-    image: Any
-    sides: Sequence[Side]
-    stands: Any = None
-    count: int = 1
-    digits: int | None = None
-
-    @property
-    def args(self) -> dict[str, Any]:
-        """Arguments of both scripts."""
-        return {
-            "image": self.image,
-            "stands": self.stands,
-            "count": self.count,
-            "digits": self.digits,
-            "sides": [side.for_browser() for side in self.sides],
-        }
-
-
-def goes_there(plot: Plot, places: Places) -> None:
-    """Have a click set the quantities of both sides to those of the place clicked at.
-
-    Two clicks do not: they bring a figure that is zoomed back, see heat_map_click.js.
-    """
-    click = CustomJS(args=places.args, code=_PLACE + asset_text("heat_map_click.js"))
-    plot.js_on_event(Tap, click)
-    plot.js_on_event(DoubleTap, click)
 
 
 def sections(image: Any, **args: Any) -> CustomJS:
@@ -156,40 +106,76 @@ def scale_by(shown: Range1d, mapper: LinearColorMapper) -> None:
     shown.js_on_change("end", follow)
 
 
-def reading(
-    places: Places,
+def let_point(
+    plot: Plot,
+    image: ColumnDataSource,
+    sides: Sequence[Side],
     renderers: Sequence[GlyphRenderer],
     say: str,
     layers: Sequence[Any] = (),
+    *,
+    stands: ColumnDataSource | None = None,
+    count: int = 1,
+    digits: int | None = None,
     tooltip: str = TOOLTIP,
     fields: Mapping[str, str] = VALUE_FIELDS,
     **args: Any,
-) -> HoverTool:
-    """Shows the value under the pointer, without the server.
+) -> None:
+    """Show the value under the pointer, without the server, and have a click go there.
+
+    A click sets the quantities of both sides to those of the place clicked at. Two clicks do not:
+    they bring a figure that is zoomed back, see heat_map_click.js.
 
     Parameters
     ----------
+    image
+        Bokeh's source of the pictures: image, x, y, dw, dh.
+    sides
+        all quantities that a side may have; the first to the right and the second upwards where
+        no source says which (``across``, ``up``).
+    renderers
+        that are pointed at.
     say
         JavaScript: body of a function of `cell`, the numbers of all `layers` there, and `at`, the
         place; it returns their meaning as text.
+    stands
+        the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
+        ``y_last``) where these are not the ends of the picture.
+    count
+        how many pictures of the source are maps.
+    digits
+        places are those of the middles of cells, or with this the very ones, rounded to as many
+        digits behind the point.
     fields
         content of the fields of the tooltip: "x", "y" or "value".
     args
         models and numbers that `say` knows besides.
     """
+    places = {
+        "image": image,
+        "stands": stands,
+        "count": count,
+        "digits": digits,
+        "sides": [side.for_browser() for side in sides],
+    }
+    click = CustomJS(args=places, code=_PLACE + asset_text("heat_map_click.js"))
+    plot.js_on_event(Tap, click)
+    plot.js_on_event(DoubleTap, click)
     code = f"{style.JS_PREFIX}{_PLACE}const say = (cell, at) => {{{say}}}\n" + asset_text(
         "heat_map_read.js"
     )
-    known = {**places.args, "layers": list(layers), **args}
-    return HoverTool(
-        renderers=list(renderers),
-        visible=False,  # no button: it is always on
-        point_policy="follow_mouse",
-        tooltips=tooltip,
-        formatters={
-            field: CustomJSHover(args={**known, "wanted": wanted}, code=code)
-            for field, wanted in fields.items()
-        },
+    known = {**places, "layers": list(layers), **args}
+    plot.add_tools(
+        HoverTool(
+            renderers=list(renderers),
+            visible=False,  # no button: it is always on
+            point_policy="follow_mouse",
+            tooltips=tooltip,
+            formatters={
+                field: CustomJSHover(args={**known, "wanted": wanted}, code=code)
+                for field, wanted in fields.items()
+            },
+        )
     )
 
 
@@ -303,14 +289,13 @@ class GridImage:
         axes = {"x_axis": plot.xaxis[0], "y_axis": plot.yaxis[0]}
         for axis in axes.values():
             axis.syncable = False  # or the server would hear of each change of its label
-        places = Places(layers[0], self._sides, stands=ColumnDataSource(_NO_SIDES, syncable=False))
-        args = {**axes, "layers": layers, "stands": places.stands, "head": _HEAD}
+        stands = ColumnDataSource(_NO_SIDES, syncable=False)
+        args = {**axes, "layers": layers, "stands": stands, "head": _HEAD}
         labels = [side.label for side in self._sides]
         cells.js_on_change(
             "data", CustomJS(args={**args, "labels": labels}, code=asset_text("heat_map.js"))
         )
-        goes_there(plot, places)
-        plot.add_tools(reading(places, drawn[:1], say, layers, **known))
+        let_point(plot, self.source, self._sides, drawn[:1], say, layers, stands=stands, **known)
 
     def columns(
         self,

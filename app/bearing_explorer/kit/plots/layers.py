@@ -2,13 +2,18 @@
 
 A view lists what its figure shows, from the lowest layer to the highest; `draw` declares the
 sources with the columns that the layers name, once each, and draws them.
+
+Glyphs are added as the models that they are: `figure.line` and its like make three each, one for
+what is not selected and one for what is muted. Nothing here is selected or muted, and models are
+most of what a session costs.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from bokeh import models
@@ -16,6 +21,7 @@ from bokeh.models import (
     CheckboxGroup,
     ColumnDataSource,
     CustomJS,
+    CustomJSExpr,
     GlyphRenderer,
     LinearColorMapper,
     RadioButtonGroup,
@@ -25,31 +31,30 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.glyphs import add_glyph
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-
-class Layer(Protocol):
-    """One glyph of a figure, over one source."""
-
-    @property
-    def source(self) -> str:
-        """Name of the source."""
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The columns that it reads."""
-
-    def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
-        """Draw it."""
+_PLACES: dict[type[models.Glyph], tuple[str, ...]] = {
+    models.Circle: ("x", "y", "radius"),
+    models.HSpan: ("y",),
+    models.HStrip: ("y0", "y1"),
+    models.Line: ("x", "y"),
+    models.Patch: ("x", "y"),
+    models.Quad: ("left", "right", "top", "bottom"),
+    models.Scatter: ("x", "y"),
+    models.Segment: ("x0", "y0", "x1", "y1"),
+    models.Text: ("x", "y"),
+    models.VSpan: ("x",),
+    models.VStrip: ("x0", "x1"),
+}
+_OF_RENDERER = frozenset({"level", "x_range_name", "y_range_name"})
 
 
 @dataclass(frozen=True)
 class Glyph:
     """A glyph of Bokeh's of some kind.
 
-    `places`: where it is, see `add_glyph`: columns or numbers. `reads`: columns that its `look`
-    reads besides.
+    `places`: where it is, columns or numbers. `look`: properties of it or of its renderer; `color`
+    is that of its lines and of its inside. `reads`: columns that its `look` reads besides.
     """
 
     kind: type[models.Glyph]
@@ -65,7 +70,13 @@ class Glyph:
 
     def add(self, plot: figure, source: ColumnDataSource) -> GlyphRenderer:
         """Draw it."""
-        return add_glyph(plot, self.kind, source, *self.places, **self.look)
+        look = dict(self.look)
+        options = {name: look.pop(name) for name in _OF_RENDERER & look.keys()}
+        if "color" in look:
+            color = look.pop("color")
+            look = {"line_color": color, "fill_color": color, **look}
+        places = zip(_PLACES[self.kind], self.places, strict=True)
+        return plot.add_glyph(source, self.kind(**dict(places), **look), **options)
 
 
 def curve(
@@ -129,14 +140,58 @@ def segments(source: str, color: Any, width: float, reads: tuple[str, ...] = ())
     return Glyph(models.Segment, source, ("x0", "y0", "x1", "y1"), line, reads)
 
 
+_WRITE = """
+const data = source.data
+const columns = Object.keys(data)
+const count = columns.length ? data[columns[0]].length : 0
+const texts = []
+for (let i = 0; i < count; i++) {
+  const row = {}
+  for (const column of columns) row[column] = data[column][i]
+  const text = String(write(row))
+  texts.push(keep(row, text) ? text : "")
+}
+return texts
+"""
+_ZOOMED = """
+const {start, end, reset_start, reset_end} = shown
+const zoomed = reset_start !== null && (start !== reset_start || end !== reset_end)
+"""
+_IN_VIEW = f"""{_ZOOMED}
+if (!zoomed) return true
+const at = row[column]
+if (!(at >= start && at <= end)) return false
+const room = (end - at)/(end - start)*plot.inner_width + margin
+return room >= share*{0.55 * int(style.TEXT_SIZE[:-2]):.1f}*text.length
+"""
+_ZOOMS = f"""{_ZOOMED}
+if (zoomed || was[0]) source.change.emit()
+was[0] = zoomed
+"""
+
+
 @dataclass(frozen=True)
 class Words:
-    """Text made in the browser by `code`, see `style.words_of`.
+    """Text made in the browser from numbers, as the packed source carries no words.
 
-    `reads`: columns that the code and the `look` read besides. A place along an axis is a column or
-    a number; `x_share`, `y_share`: it is a share of the frame. `fitting`: the code knows whether
-    the frame is `narrow`, below so many pixels; `in_view`: so it does, and words that the frame
-    would cut off along that side are left out, `share` as `style.words_in_view` has it.
+    Parameters
+    ----------
+    x, y
+        a column or a number; with `x_share`, `y_share` it is a share of the frame.
+    code
+        JavaScript: body of ``(row) => ...``, which returns a string; `row` holds the columns by
+        name, ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one
+        without.
+    reads
+        columns that the code and the `look` read besides.
+    fitting
+        width [px] of the frame below which the code knows it as `narrow`, with type of the usual
+        size.
+    in_view
+        "x" or "y": words that the frame would cut off along that side once it is zoomed are left
+        out, and the code knows whether the frame is `narrow`, as below `style.NARROW`.
+    share
+        of each text that is right of its place: what goes too far over the right edge is left out.
     """
 
     source: str
@@ -166,13 +221,6 @@ class Words:
             if shares:
                 extra.setdefault("shares", Range1d(0.0, 1.0, syncable=False))
                 ranges[f"{side}_range_name"] = "shares"
-        if self.in_view:
-            at = self.x if self.in_view == "x" else self.y
-            text = style.words_in_view(plot, source, self.code, str(at), self.in_view, self.share)
-        elif self.fitting:
-            text = style.fitting_words(plot, source, self.code, below=self.fitting)
-        else:
-            text = style.words_of(source, self.code)
         look = {
             "text_font": {"value": style.FONT},
             "text_font_size": style.SMALL_TEXT_SIZE,
@@ -180,8 +228,34 @@ class Words:
             "text_baseline": "middle",
             **self.look,
         }
-        return add_glyph(plot, models.Text, source, self.x, self.y, text=text, **ranges, **look)
+        look |= {"text": self._text(plot, source), **ranges}
+        return Glyph(models.Text, self.source, (self.x, self.y), look).add(plot, source)
 
+    def _text(self, plot: figure, source: ColumnDataSource) -> CustomJSExpr:
+        below, keep, known = self.fitting, "return true", {}
+        if self.in_view:
+            below, keep = style.NARROW, _IN_VIEW
+            at, shown = (self.x, plot.x_range) if self.in_view == "x" else (self.y, plot.y_range)
+            known = {"column": at, "share": self.share, "margin": plot.min_border_right}
+            known["shown"] = shown
+            zoom = {"source": source, "shown": shown, "was": [False]}
+            follow = CustomJS(args=zoom, code=_ZOOMS)
+            shown.js_on_change("start", follow)
+            shown.js_on_change("end", follow)
+        if below:  # its width is known later than its numbers, and changes
+            write = CustomJS(args={"source": source}, code="source.change.emit()")
+            plot.js_on_change("inner_width", write)
+        narrow = style.IS_NARROW if below else ""
+        code = (
+            f"{style.JS_PREFIX}const write = (row) => {{{narrow}{self.code}}}\n"
+            f"const keep = (row, text) => {{{keep}}}\n{_WRITE}"
+        )
+        args = {"source": source, "plot": plot if below else None, "below": below, **known}
+        return CustomJSExpr(args=args, code=code)
+
+
+Layer = Glyph | Words
+"""One glyph of a figure, over one source."""
 
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
 """Look of words that lie on lines."""
@@ -246,6 +320,33 @@ def with_gaps(
         pieces += [(across, up), (gap, gap)]
     parts = pieces[:-1] if len(pieces) > 1 else pieces
     return {x: np.concatenate([a for a, _ in parts]), y: np.concatenate([b for _, b in parts])}
+
+
+def least_and_greatest(
+    values: NDArray[np.float64], parts: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """At most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
+
+    Of each of `parts` stretches the least and the greatest number are kept, in the order in which
+    they came, so that no peak is lost that a pixel would show. Returns the row numbers at which
+    the kept ones stand (the same for all columns) and the kept ones.
+    """
+    n = len(values)
+    if n <= 2 * parts:
+        return np.arange(n), values
+    size = math.ceil(n / parts)
+    count = math.ceil(n / size)
+    full = np.concatenate([values, np.repeat(values[-1:], count * size - n, axis=0)])
+    blocks = full.reshape(count, size, -1)
+    least, greatest = blocks.min(axis=1), blocks.max(axis=1)
+    rising = blocks.argmin(axis=1) <= blocks.argmax(axis=1)
+    kept = np.empty((count, 2, values.shape[1]))
+    kept[:, 0] = np.where(rising, least, greatest)
+    kept[:, 1] = np.where(rising, greatest, least)
+    starts = np.arange(count) * size
+    rows = np.stack([starts, np.minimum(starts + size, n) - 1], axis=1).ravel()
+    length = 2 * count - int(rows[-1] == rows[-2])  # a last stretch of one row
+    return rows[:length], kept.reshape(2 * count, -1)[:length]
 
 
 def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:

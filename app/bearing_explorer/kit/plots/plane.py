@@ -194,11 +194,14 @@ class PlaneFigures:
         (x, _), (y, _) = field.x, field.y
         said = {
             "words": [field.words, x.words, y.words],
-            "unit": [_spaced(one) for one in (unit, x.unit, y.unit)],
+            "unit": [one if one in ("", "°") else f" {one}" for one in (unit, x.unit, y.unit)],
         }
         if (reasons := _reasons_of(field)[0]) != self._reasons.data["text"]:
             self._reasons.data = {"text": reasons}
-        palette = _PALETTES[_has_both_signs(field.values)]
+        least, greatest = (
+            float(find(field.values, initial=0.0)) for find in (np.nanmin, np.nanmax)
+        )
+        palette = _PALETTES[least < 0.0 < greatest]
         if palette != self._colors.palette:
             self._colors.palette = palette
         if said == self._said.data:
@@ -234,18 +237,10 @@ class PlaneFigures:
 _NAMELESS = style.AxisQuantity("", "", "")
 
 
-def _spaced(unit: str) -> str:
-    return unit if unit in ("", "°") else f" {unit}"
-
-
 def _reasons_of(field: Field) -> tuple[list[str], NDArray[np.float64]]:
     """The different reasons of a field, and which of them each of its points has."""
     texts, codes = np.unique(field.reasons.astype(str), return_inverse=True)
     return texts.tolist(), codes.astype(float)
-
-
-def _has_both_signs(values: NDArray[np.float64]) -> bool:
-    return bool(np.nanmin(values, initial=0.0) < 0.0 < np.nanmax(values, initial=0.0))
 
 
 def color_limits(values: NDArray[np.float64]) -> tuple[float, float]:

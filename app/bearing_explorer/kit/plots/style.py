@@ -18,9 +18,7 @@ from typing import Any
 from bokeh.models import (
     Axis,
     ColorBar,
-    ColumnDataSource,
     CustomJS,
-    CustomJSExpr,
     CustomJSTickFormatter,
     CustomJSTransform,
     FixedTicker,
@@ -71,6 +69,7 @@ BUTTONS = f"""
 :host .bk-input-group, :host label {{ font-family: {FONT}; }}
 :host .bk-btn {{ font-family: {FONT}; font-size: 13px; }}
 :host .bk-btn.bk-active {{ color: var(--accent); }}
+:host(.look) {{ display: var(--tick-box, inline-block); }}
 """
 """Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"
@@ -107,13 +106,14 @@ NARROW = 420
 LARGER = """
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
 """
-_IS_NARROW = (
+IS_NARROW = (
     LARGER
     + """
 let narrow = false
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
 """
 )
+"""JavaScript: whether the frame of a `plot` is `narrow`, `below` so many pixels."""
 
 
 def text_offset(column: str) -> dict[str, Any]:
@@ -290,7 +290,7 @@ def logarithmic_ticks(unit: str = "", plot: figure | None = None) -> CustomJSTic
     return CustomJSTickFormatter(
         args={"unit": unit, "plot": plot, "below": NARROW},
         code=JS_PREFIX
-        + _IS_NARROW
+        + IS_NARROW
         + """
 if (narrow && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 0.01) return ''
 if (unit) return si(tick, unit)
@@ -305,98 +305,6 @@ return (m == 1 ? '' : m + '·') + '10' + raised(e)
 def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
     """Put the numbers of an axis at `ticks` whatever its range."""
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
-
-
-def words_of(
-    source: ColumnDataSource, code: str, keep: str = "return true", **known: Any
-) -> CustomJSExpr:
-    """Text made in the browser from the numbers of `source`, as the packed source carries no words.
-
-    `code` is the body of ``(row) => ...`` and returns a string; `row` holds the columns by name,
-    ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one without.
-    `keep` is the body of ``(row, text) => ...`` and says whether a text is shown. `known`: models
-    that both know besides.
-    """
-    return CustomJSExpr(
-        args={"source": source, **known},
-        code=JS_PREFIX
-        + """
-const data = source.data
-const columns = Object.keys(data)
-const count = columns.length ? data[columns[0]].length : 0
-const write = (row) => {"""
-        + code
-        + "}\nconst keep = (row, text) => {"
-        + keep
-        + """}
-const texts = []
-for (let i = 0; i < count; i++) {
-  const row = {}
-  for (const column of columns) row[column] = data[column][i]
-  const text = String(write(row))
-  texts.push(keep(row, text) ? text : "")
-}
-return texts
-""",
-    )
-
-
-def fitting_words(
-    plot: figure,
-    source: ColumnDataSource,
-    code: str,
-    below: float = NARROW,
-    keep: str = "return true",
-    **known: Any,
-) -> CustomJSExpr:
-    """Like `words_of`; the code knows too whether the frame of the plot is `narrow`.
-
-    `below`: of which width [px] it is, with type of the usual size. `keep` knows the `plot`.
-    """
-    # its width is known later than its numbers, and changes
-    write = CustomJS(args={"source": source}, code="source.change.emit()")
-    plot.js_on_change("inner_width", write)
-    return words_of(source, _IS_NARROW + code, keep, plot=plot, below=below, **known)
-
-
-_ZOOMED = """
-const {start, end, reset_start, reset_end} = shown
-const zoomed = reset_start !== null && (start !== reset_start || end !== reset_end)
-"""
-_IN_VIEW = f"""{_ZOOMED}
-if (!zoomed) return true
-const at = row[column]
-if (!(at >= start && at <= end)) return false
-const room = (end - at)/(end - start)*plot.inner_width + margin
-return room >= share*{0.55 * int(TEXT_SIZE[:-2]):.1f}*text.length
-"""
-_ZOOMS = f"""{_ZOOMED}
-if (zoomed || was[0]) source.change.emit()
-was[0] = zoomed
-"""
-
-
-def words_in_view(
-    plot: figure,
-    source: ColumnDataSource,
-    code: str,
-    column: str,
-    side: str = "x",
-    share: float = 0,
-) -> CustomJSExpr:
-    """Like `words_of`, for words that the frame does not cut off: they go when zoomed out of view.
-
-    `column` says where along `side` they stand; what goes too far over the right edge of the frame
-    is left out too, where a `share` of each text is right of its place. The code knows whether the
-    frame is `narrow`, as that of `fitting_words` does.
-    """
-    shown = plot.x_range if side == "x" else plot.y_range
-    known = {"shown": shown, "column": column, "share": share}
-    margin = plot.min_border_right
-    follow = CustomJS(args={"source": source, "shown": shown, "was": [False]}, code=_ZOOMS)
-    shown.js_on_change("start", follow)
-    shown.js_on_change("end", follow)
-    return fitting_words(plot, source, code, NARROW, _IN_VIEW, margin=margin, **known)
 
 
 def in_degrees(angle: float, digits: int = 1) -> str:

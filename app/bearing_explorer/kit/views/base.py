@@ -11,10 +11,11 @@ and give it
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
   sources of the view that it leaves out are empty;
 - `sentence(results)`: one sentence on the figure in plain words;
-- `table(results)`: the numbers behind the figure, units in the names, for the CSV file.
+- `table(results)`: the numbers behind the figure, units in the names, for the CSV file;
+- `show(results)`, where something in it is not in the packed source.
 
-The scene of the controls, jobs and the measured signal are in `parts`, on the page; what a view
-begins with them it begins in `attach(parts)`.
+On the page `parts` is the half of the session that the view is of, with the scene of the controls
+or the measured signal; what a view begins with it, it begins in `attach(parts)`.
 
 The grey curves are of the bearing without its defect, ``{grey}`` in `about`. Those of compared
 scenes are layers of `plots.compared_curves`; the key with their names follows by itself.
@@ -25,9 +26,8 @@ scenes are layers of `plots.compared_curves`; the key with their names follows b
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, ClassVar, Generic, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
 import panel as pn
@@ -98,20 +98,14 @@ class Sentence(LiveComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("sentence.css")]
 
 
-@dataclass(frozen=True)
-class SessionParts:
-    """Parts of the session for the views that are attached to it; each half adds its own.
-
-    Parameters
-    ----------
-    jobs
-        the background of the session.
-    draw
-        requests a drawing.
-    """
+class SessionParts(Protocol):
+    """The half of the session that a view is attached to; each half has more besides."""
 
     jobs: Jobs
-    draw: Callable[[], None]
+    """The background of the session."""
+
+    def draw(self) -> None:
+        """Bring what is on screen up to date."""
 
 
 C = TypeVar("C", bound=Content)
@@ -140,7 +134,7 @@ class View(Generic[C]):
     lead: ClassVar[str] = ""
     #: name and sides of the cells of its drawing, one of which at a time can fill the screen
     cells: ClassVar[Sequence[tuple[str, float, float, float, float]]] = ()
-    #: parts of the session that its half has, on the page alone
+    #: the half of the session, on the page alone
     parts: Any = None
     #: result of a job of the view
     found: Any = None
@@ -202,7 +196,7 @@ class View(Generic[C]):
         )
 
     def attach(self, parts: SessionParts) -> None:
-        """Take parts of the session, once, before the view is first on screen."""
+        """Take the half of the session, once, before the view is first on screen."""
         self.parts = parts
 
     def build(self, packed: PackedSource) -> Any:
@@ -271,6 +265,10 @@ class View(Generic[C]):
         if results is not None:
             for key in self._keys:
                 key.show([one.name for one in results.compared])
+            self.show(results)
+
+    def show(self, content: C) -> None:
+        """Show what is not in the packed source of this content. On the event loop only."""
 
     def put_head(self, content: C) -> None:
         """Title and caption in the words of the bearing: its balls may be rollers."""

@@ -34,7 +34,7 @@ class FoldedView(View[C]):
     def _show_fold(self) -> None:
         self.needs = type(self).needs if self.opened else frozenset()
         self._opener.visible = self.parts is not None
-        self._opener.name = "Hide" if self.opened else f"Show: {self.title}"
+        self._opener.name = "Hide" if self.opened else f"Show: {self._caption.title}"
         if not self.opened:
             for part in self._body:
                 part.visible = False

@@ -90,7 +90,8 @@ class JobForm(pn.Column):
         self._cancel = button("Cancel", cancel, css_classes=["cancel"], disabled=True)
         self._bar = pn.pane.HTML("", visible=False, margin=0, stylesheets=[_PROGRESS])
         self._sentence = Sentence(css_classes=["words"])
-        self._state = JobState("idle", 0.0, "")
+        #: of the job that is shown
+        self.state = JobState("idle", 0.0, "")
         below = (begin, self._cancel) if at_once else ()
         super().__init__(
             row(*widgets, *(() if at_once else (begin, self._cancel))),
@@ -117,14 +118,9 @@ class JobForm(pn.Column):
         self.fills = fills
         self._fields.put(values)
 
-    @property
-    def state(self) -> JobState:
-        """The state of the job that is shown."""
-        return self._state
-
     def show(self, state: JobState) -> None:
         """Show the state of the job."""
-        self._state = state
+        self.state = state
         self._bar.param.update(
             object=f'<progress aria-label="{self._words}" value="{state.part:.3f}"></progress>',
             visible=state.running,
@@ -173,20 +169,13 @@ class JobView(View[C], Generic[C, Found, E]):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self.employ(parts.jobs, self.editor_on_page(parts), parts.draw)
+        self._jobs, self._editor, self._draw = parts.jobs, self.editor_of(parts), parts.draw
+        self.job.fill(*self.form(self._editor))
 
-    def editor_on_page(self, parts: Any) -> E:
-        """The editor among the parts of the session."""
-        raise NotImplementedError
-
-    def editor_of(self, results: C) -> E:
-        """The editor as it is for what is drawn, outside of the page."""
-        raise NotImplementedError
-
-    def employ(self, jobs: Jobs, editor: E, draw: Callable[[], None]) -> None:
-        """Allow jobs, for the scene of `editor`; `draw` requests a drawing."""
-        self._jobs, self._editor, self._draw = jobs, editor, draw
-        self.job.fill(*self.form(editor))
+    def editor_of(self, owner: Any) -> E:
+        """Where the form finds the scene: of the half on the page, elsewhere of what is drawn."""
+        editor: E = owner
+        return editor
 
     @property
     def is_empty(self) -> bool:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import param
 
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearingcore import Limit
 from bearingcore.common import number, with_prefix
 from bearingcore.statics import NO_OIL
-
-if TYPE_CHECKING:
-    from bearingcore import Limit
 
 
 class LimitsStrip(LiveComponent):

@@ -9,7 +9,7 @@ from typing import Any
 import panel as pn
 
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.typed_number import number_of
+from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, choices, row, widget_of
 
 

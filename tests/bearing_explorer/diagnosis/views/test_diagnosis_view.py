@@ -305,7 +305,7 @@ def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
         (wish, explorer.scene.defects[0].race)
     )
     wish = {"noise": "20"}
-    change = explorer.requests.change_lesson
+    change = explorer.change_lesson
     for junk in ("now", None, 3):
         take(change, LessonChange, {"mark": 1, "simulate": junk})
     take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})

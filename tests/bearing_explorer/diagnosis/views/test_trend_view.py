@@ -10,7 +10,7 @@ import pytest
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
-from bearing_explorer.diagnosis.views.trend import NO_LEVELS, SceneNow, TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, words_on
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -30,7 +30,6 @@ def quick() -> Iterator[None]:
         yield
 
 
-NOW = SceneNow(lambda: presets["fan-rig"])
 RATE = 5000.0
 LOUD = (1.0, 2.0, 6.0)
 """How loud the good files are, in their order."""
@@ -88,7 +87,7 @@ def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> 
     work = Work()
     if stopped:
         work.stop()
-    words = view.prepare({"baseline": baseline}, NOW)(work)
+    words = view.prepare({"baseline": baseline}, MODEL)(work)
     (view.found,) = work.taken()
     return words
 
@@ -135,7 +134,7 @@ def test_another_baseline_needs_no_file_again(
     np.testing.assert_allclose(view.found.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4)
     monkeypatch.undo()
     with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
-        view.prepare({"baseline": "9"}, NOW)(Work())
+        view.prepare({"baseline": "9"}, MODEL)(Work())
     view.found = before
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots.thinned import least_and_greatest
+from bearing_explorer.kit.plots.layers import least_and_greatest
 from hypothesis import given
 from hypothesis import strategies as st
 

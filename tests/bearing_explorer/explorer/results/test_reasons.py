@@ -1,6 +1,8 @@
 """Each reason is that of its scene, and what is named is what the core gives."""
 
+import dataclasses
 import math
+import re
 from functools import cache
 
 import numpy as np
@@ -52,6 +54,23 @@ def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
     assert "in the defect" not in most(of(RIG.healthy()))
 
 
+@pytest.mark.parametrize("name", ["fan-rig", "3208", "nu208"])
+def test_all_that_carry_the_most_are_named(name: str) -> None:
+    """Halfway between two balls as many of each row carry alike, by symmetry."""
+    scene = presets[name].healthy().replace(fx=0.0, fy=-1000.0, fz=0.0)
+    at = 1.5 * math.pi - scene.bearing.ball_spacing * 10.5
+    found = equilibrium(scene, [at])
+    most = np.flatnonzero(found.ball_load[0] > 0.99 * found.ball_load.max())
+    said = reasons.most_loaded(scene, found, 0, np.zeros(found.ball_load.shape[1]))
+    head, rest = said.split(" carry most")
+    assert (
+        len(most)
+        == 2 * len(scene.bearing.all_rows)
+        == len(re.findall(r"\d+(?! of| and of)", re.sub(r"of row \d", "", head)))
+    )
+    assert " each: nearest the line of the load" in rest
+
+
 def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None:
     text = reasons.stiffness(of(RIG))
     found, healthy = (equilibrium(s, np.linspace(0, s.bearing.ball_spacing, 721)[:-1])
@@ -97,6 +116,11 @@ def test_the_largest_jolt_is_of_a_ball_that_carries() -> None:
     words = VibrationInTime(PackedSource()).sentence
     assert "leaves the defect and takes back its load" in words(of(RIG))
     assert "No loaded ball passes the defect" in words(of(SIDEWAYS))
+    inner = RIG.replace(race="inner")
+    opposite = dataclasses.replace(inner.defect, center=inner.defect.center - math.pi)
+    both = of(inner.replace(defect=(opposite, inner.defect)))
+    assert both.excerpt.ball_load.max() > 0.5 * both.excerpt.greatest_static_load
+    assert "its load (" in words(both), "one of two defects is where nothing is loaded"
 
 
 def test_what_life_assumes_is_said_by_life_and_limits_alike() -> None:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.results import motions
 from bearing_explorer.explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.explorer.results.results import Results

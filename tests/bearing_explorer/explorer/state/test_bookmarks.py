@@ -48,7 +48,7 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: B
     for kept in seen[-2::-1]:
         assert bookmarks.go({"undo": True})
         assert editor.snapshot() == kept
-        assert editor.values == kept.values
+        assert editor.values == kept.held["values"]
     for kept in seen[1:]:
         assert bookmarks.go({"redo": True})
         assert editor.snapshot() == kept

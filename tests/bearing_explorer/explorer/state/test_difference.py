@@ -2,7 +2,7 @@
 
 import pytest
 from bearing_explorer.explorer.state.difference import difference
-from bearing_explorer.explorer.state.last_state import LastState
+from bearing_explorer.explorer.state.history import LastState
 
 from bearingcore import Defect, presets
 

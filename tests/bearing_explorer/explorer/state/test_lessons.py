@@ -603,15 +603,15 @@ def test_the_page_for_teachers_can_be_shown() -> None:
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
     explorer = SceneSession(SECTIONS, lessons=lessons_in(own_folder(), TABS))
     explorer.draw = lambda: None  # type: ignore[method-assign]
-    explorer.requests.change_scene({"mark": 1, "typed": {"fy_n": -77.0}})
+    explorer.change_scene({"mark": 1, "typed": {"fy_n": -77.0}})
     before = explorer.scene
-    explorer.requests.change_lesson({"mark": 2, "lesson": 2, "words_only": True})
+    explorer.change_lesson({"mark": 2, "lesson": 2, "words_only": True})
     assert explorer.lesson.lesson["number"] == 2
     assert explorer.scene == before
-    explorer.requests.change_lesson({"mark": 3, "lesson": ""})
+    explorer.change_lesson({"mark": 3, "lesson": ""})
     assert explorer.scene == before
     assert "lesson" not in explorer.share.state["address"]
-    explorer.requests.change_lesson({"mark": 4, "lesson": 2})
+    explorer.change_lesson({"mark": 4, "lesson": 2})
     assert explorer.scene != before
 
 
@@ -764,13 +764,13 @@ def test_a_teachers_folder_on_the_page(tmp_path: Path) -> None:
     assert panel.titles[1][1].startswith("2.md, line 18: “nothing” is not a tab")
     explorer.draw = lambda: None  # type: ignore[method-assign]
     for unknown in (1, 7, -1, "0", "2"):
-        explorer.requests.change_lesson({"lesson": unknown})
+        explorer.change_lesson({"lesson": unknown})
         assert panel.lesson == {}
         assert explorer.scene == FAN
-    explorer.requests.change_lesson({"mark": 1, "lesson": 0})
+    explorer.change_lesson({"mark": 1, "lesson": 0})
     assert panel.lesson["title"] == "A title"
     assert explorer.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
-    explorer.requests.change_lesson({"show": "maps"})
+    explorer.change_lesson({"show": "maps"})
     assert explorer._shown == "maps"
     assert explorer.scene.defect.edge == "chord"
 

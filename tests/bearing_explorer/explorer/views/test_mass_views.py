@@ -1,5 +1,7 @@
 """What the mass of balls adds, in time, in frequency and by octave."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.ball_mass import BallMass
@@ -9,12 +11,11 @@ from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.mechanism import WhichMechanism, in_words
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import SessionParts
 
 from bearingcore import presets
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.scene.pits import pit
+from tests.helpers.simulated import pit
 
 FAN_RIG = presets["fan-rig"]
 MOTOR = presets["6205"]
@@ -76,7 +77,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     band = sources["spectrum_wide_resonance"]
     assert band["high"][0] == pytest.approx(contact_resonance_band(FAN_RIG)[1])
     assert band["above"][0] == 0.0
-    own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_others"]
+    own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_grey"]
     high = own["frequency"] > 9e3
     assert np.median(other["y"][high] - own["y"][high]) > 10.0, "mass adds above 8 kHz"
     assert "with the mass of its balls" in spectra.caption(results.grey.name)
@@ -86,7 +87,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
 def test_what_is_folded_is_not_computed() -> None:
     view = MassInTime(PackedSource())
     assert view.needs == frozenset({"ball_mass"}), "outside of the page it is open"
-    view.attach(SessionParts(None, lambda: None))  # type: ignore[arg-type]
+    view.attach(SimpleNamespace(jobs=None, draw=lambda: None))  # type: ignore[arg-type]
     assert view.needs == frozenset()
     assert view.sentence(Results(FAN_RIG)) == ""
     view._turn()

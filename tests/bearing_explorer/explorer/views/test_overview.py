@@ -23,7 +23,7 @@ from bearing_explorer.explorer.views.overview.words import Cause, story
 from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import Scene, equilibrium, presets
+from bearingcore import Scene, equilibrium, presets, scene_of
 from bearingcore.scene.scene import FREE_TILT_WORDS
 
 FAN_RIG = presets["fan-rig"]
@@ -59,7 +59,29 @@ def test_the_cause_is_that_of_the_change() -> None:
     assert "the load turns by 31°, so k_yy falls" in told(FAN_RIG.replace(fx=60.0), FAN_RIG)
     assert "more balls carry" in told(FAN_RIG.replace(fz=200.0), FAN_RIG)
     back = told(FAN_RIG, LONGER)
-    assert "balls near the line of the load carry more of it again, so k_yy rises" in back
+    assert "balls near the line of the load carry more of it, so k_yy rises" in back
+
+
+ALL_AROUND = FAN_RIG.replace(extent=2.0 * np.pi)
+
+
+@pytest.mark.parametrize(
+    ("now", "before", "cause"),
+    [
+        # all around nothing is beside the defect; a groove that is less deep takes nothing away
+        (ALL_AROUND.replace(depth=1e-9), ALL_AROUND, "load spreads to balls farther from its line"),
+        (ALL_AROUND, FAN_RIG, "balls near the line of the load carry more of it, so k_xx falls"),
+        # of other balls and contacts it is no cause where the loads lie
+        *((scene_of(name), scene_of(former), "Another bearing: k_") for former, name in
+          (("30206", "2206"), ("NU 208", "608"), ("2206", "1205"))),
+    ],
+)  # fmt: skip
+def test_no_cause_that_works_the_other_way(now: Scene, before: Scene, cause: str) -> None:
+    said = told(now, before)
+    assert cause in said
+    outwards, inwards = "(beside the defect|spreads)", "(gathers|carry more of it)"
+    wrong = rf"{outwards}[^;.]*k_(yy rises|xx falls)|{inwards}[^;.]*k_(yy falls|xx rises)"
+    assert not re.search(wrong, said), said
 
 
 def test_a_change_of_bearing_is_one_cause_and_names_the_rotor_that_came_with_it() -> None:
@@ -104,6 +126,9 @@ def test_what_has_no_answer_is_said_too() -> None:
     assert "now there is an equilibrium" in told(FAN_RIG, loose)
     still = told(FAN_RIG.replace(shaft_speed=0.0), FAN_RIG)
     assert still.endswith("there is no spectrum: nothing turns.")
+    begun = told(FAN_RIG, FAN_RIG.replace(shaft_speed=0.0))
+    assert begun.endswith("now there is a spectrum, which there was not before.")
+    assert "hardly" not in begun
 
 
 def test_two_causes_are_weighed_against_each_other() -> None:
@@ -184,6 +209,17 @@ def test_each_link_in_words(news: dict, words: str) -> None:
     assert changed(**news) == words
 
 
+def test_a_ball_that_carries_more_is_no_cause_of_less_stiffness() -> None:
+    softer = dataclasses.replace(
+        CHAIN, greatest_load=60.0, stiffness={"k_xx": 1.8e7, "k_yy": 3.6e7}
+    )
+    assert story(Cause("So", defect=True), softer, CHAIN) == (
+        "So: each contact is softer on average, so k_yy falls by 10 %."
+    )
+    none = dataclasses.replace(softer, stiffness={"k_xx": 1.8e7, "k_yy": 1e3})
+    assert "k_yy falls to 0.0025 %" in story(Cause("So"), none, CHAIN)
+
+
 def test_only_terms_that_matter_are_lively() -> None:
     view = OverviewStiffness(PackedSource())
     terms = view.data(Results(FAN_RIG, 0.1))[0]["overview_terms"]
@@ -216,7 +252,7 @@ def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     assert all(f"{missing} (no load along the shaft, no moment)." in words for words in full)
     chosen = FAN_RIG.replace(dofs=("x", "y", "z"))
     assert all("θx and θy are held by choice." in words for words in said(chosen))
-    rollers = "cylindrical rollers carry nothing along the others"
+    rollers = "cylindrical rollers carry nothing along the shaft and resist no tilt"
     assert all(rollers in words for words in said(presets["nu208"])[1:])
     free = said(presets["liew-lim"])
     assert not any("are held" in words or "Not needed" in words for words in free)

@@ -115,7 +115,7 @@ def test_pictures_of_other_scenes_say_that_they_are_not_ready(compilation: Compi
     async def live() -> tuple[str, str]:
         explorer = SceneSession(SECTIONS)
         before = explorer.scene
-        explorer.requests.change_scene({"set": {"extent_deg": 33.0}})
+        explorer.change_scene({"set": {"extent_deg": 33.0}})
         assert explorer.scene == before, "sliders do not move yet"
         explorer.editor.set({"extent_deg": 33.0})  # as a link does
         explorer.draw()

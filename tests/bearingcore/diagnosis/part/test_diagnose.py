@@ -113,7 +113,7 @@ def test_a_race_is_no_ball_of_a_bearing_whose_ball_lines_are_there(damaged, part
     bearing = presets[preset].bearing
     assert part_lines(bearing)[2].order == pytest.approx(MOTOR.lines[part] / MOTOR.turns, rel=0.025)
     found = diagnose(Recording(damaged[part], MOTOR.rate, ("y",)), bearing, MOTOR.shaft_speed)
-    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.NOT_ALONE)
+    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
     assert found.of("ball").level > found.of("ball").noise + 2.0
     assert "Check the bearing's geometry" in found.sentence
 

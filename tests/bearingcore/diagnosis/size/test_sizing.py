@@ -15,12 +15,11 @@ from bearingcore.diagnosis.size.judge import judged
 from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.diagnosis.size.synthesis import Simulator
 from bearingcore.files.table import read_table
-from bearingcore.scene.pits import pit
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing import FAMILIES, as_given, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
-from tests.helpers.simulated import simulated_recording
+from tests.helpers.simulated import pit, simulated_recording
 
 sized_by = partial(size_defect, support_known=True)
 """Sizing where the scene's support is that of the machine."""
@@ -50,6 +49,7 @@ def test_a_file_from_elsewhere_is_sized(measured):
     assert sized.passes.frequency == pytest.approx(1.001 * nominal, rel=1.5e-4)
 
 
+@pytest.mark.proof
 def test_in_another_unit_it_says_so(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording([1, 2], ["x", "y"], "m/s²")

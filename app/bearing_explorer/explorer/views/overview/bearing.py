@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from bokeh.models import LinearColorMapper, Range1d
 from bokeh.plotting import figure
 
 from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing import BearingDrawing
 from bearing_explorer.kit.plots import style
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
 
 
 class OverviewBearing(BearingDrawing):

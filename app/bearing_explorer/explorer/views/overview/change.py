@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import panel as pn
 
 from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.difference import difference, separated
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.overview.words import Cause, each_alone, story
@@ -15,12 +16,9 @@ from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.sentences import label_inside
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
+from bearingcore import Bearing, Scene
 from bearingcore.common import number
 from bearingcore.fields import FIELD_OF
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Bearing, Scene
 
 _PLAY = ("contact_angle", "radial_clearance")
 """Fields of a bearing that are its play."""

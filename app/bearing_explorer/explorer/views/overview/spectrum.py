@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.compared_levels import levels_of_compared
+from bearing_explorer.explorer.plots.spectra import levels_of_compared
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.vibration_spectrum import (
     VibrationSpectra,
     loudest_words,
@@ -32,9 +33,6 @@ from bearing_explorer.kit.plots.levels import (
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
 
 LEFT = 68
 """[px] left of the frame: the widest numbers fit, so that no drag moves it."""

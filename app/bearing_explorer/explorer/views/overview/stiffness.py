@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from bokeh.core.properties import value
@@ -22,18 +22,15 @@ from bearing_explorer.explorer.plots.matrix_cells import (
     trace_limits,
 )
 from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearingcore import STIFFNESS_TERMS
+from bearingcore import STIFFNESS_TERMS, Equilibrium
 from bearingcore.statics import TERM_UNITS
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Equilibrium
 
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""

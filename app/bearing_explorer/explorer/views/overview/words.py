@@ -69,7 +69,7 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     if before.answered == 0.0:
         return f"{whose}: now there is an equilibrium, which there was not before."
     along = direction(now, before)
-    load, stiff = load_words(now, before, by.defect), stiffness_words(now, before, along)
+    moved, stiff = moved_load(now, before, by.defect), stiffness_words(now, before, along)
     label = moved_band(now, before, along)
     peaks = (along, *(dof for dof in now.peaks if dof != along))
     heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
@@ -79,8 +79,11 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     own = label and f"k_{label[:-1] * 2}"
     follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
-    # where the load went explains the stiffness only if balls push back elsewhere
-    text = load if load and (by.defect or not why or "push" in why) else why
+    # where the load went explains the stiffness only if balls push back elsewhere; what each
+    # carries, or another bearing's balls, do not
+    text = moved if "push" in why and moved else why
+    if not why and not (stiff and by.contacts):
+        text = moved or load_of_one(now, before)
     if by.play:
         text = f"{by.play}, {why}" if why else by.play
     if stiff:
@@ -89,6 +92,8 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     if text and last:
         text += ". Therefore " if band and follows and not by.masses else "; "
     text += (" and " if "with it" in heard else "; ").join(last)
+    if before.silent and not now.silent:
+        text += f"{'; ' if text else ''}now there is a spectrum, which there was not before"
     text = text or unchanged(now, before, why_not)
     text = f"{cause}: {text}" if cause else text[0].upper() + text[1:]
     if now.answered < 1.0:
@@ -196,10 +201,10 @@ def band_follows(now: Chain, before: Chain, label: str) -> bool:
     return moved * _change(now, before, f"k_{label[:-1] * 2}") > 0.0
 
 
-def load_words(now: Chain, before: Chain, by_defect: bool = False) -> str:
-    """Shift of the load, or change of the load of the most loaded ball.
+def moved_load(now: Chain, before: Chain, by_defect: bool = False) -> str:
+    """Shift of the load to other balls.
 
-    `by_defect`: nothing else was changed, so that it is defects that move the load.
+    `by_defect`: nothing else was changed. Its neighbours take over only what they carry more.
     """
     around = math.degrees(now.direction - before.direction)
     around = abs((around + 180.0) % 360.0 - 180.0)
@@ -207,17 +212,20 @@ def load_words(now: Chain, before: Chain, by_defect: bool = False) -> str:
         return f"the load turns by {style.number(around, 2)}°"
     turned = now.off_line - before.off_line
     if turned >= LEAST_TURN:
-        if by_defect:
+        if by_defect and now.greatest_load > before.greatest_load:
             return "the balls beside the defect take over the load"
         return "load spreads to balls farther from its line"
     if turned <= -LEAST_TURN:
         if by_defect:
-            return "balls near the line of the load carry more of it again"
+            return "balls near the line of the load carry more of it"
         return "load gathers on balls nearer its line"
-    grown = _ratio(now.greatest_load, before.greatest_load)
-    if abs(grown) >= LEAST_LOAD:
-        return f"the greatest load of a ball {_by(grown)}"
     return ""
+
+
+def load_of_one(now: Chain, before: Chain) -> str:
+    """Change of the load of the most loaded ball."""
+    grown = _ratio(now.greatest_load, before.greatest_load)
+    return f"the greatest load of a ball {_by(grown)}" if abs(grown) >= LEAST_LOAD else ""
 
 
 def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
@@ -328,6 +336,8 @@ def _ratio(now: float, before: float) -> float:
 def _by(grown: float) -> str:
     if grown >= 1.0:
         return f"rises to {style.number(1.0 + grown, 2)} times"
+    if grown <= -0.995:
+        return f"falls to {style.number(100.0 * (1.0 + grown), 2)} %"
     return f"{'rises' if grown > 0.0 else 'falls'} by {style.number(100.0 * abs(grown), 2)} %"
 
 

@@ -1,0 +1,111 @@
+"""Spectra of a scene, of the grey reference and of the compared scenes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from bokeh.plotting import figure
+
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots.layers import Layer, add_all, sources_of
+from bearing_explorer.kit.plots.levels import (
+    DEPTH_OF_VIEW,
+    FREQUENCY,
+    SHOWN,
+    density_axis,
+    drawn_levels,
+    seen_levels,
+)
+from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import Ranges, Sources
+
+TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz] of logarithmic axes
+FREQUENCY_WITH_UNITS = style.AxisQuantity("Frequency", "f", "")
+"""Of such an axis, whose numbers have their units."""
+HEIGHT = 286  # [px]: the label of the axis is whole in large type too
+ROOM = 6.0  # [dB] above the loudest line
+
+
+class SpectrumFigures:
+    """A figure along x and one along y: the spectrum of the scene over the others.
+
+    Parameters
+    ----------
+    name
+        of the sources and ranges; "lines" are the spectra of the scene, "grey" the grey ones.
+    layers
+        of the figure along a direction.
+    frequencies
+        [Hz] at first; from 0 the axis is linear, else logarithmic.
+    levels
+        range of the axis [dB].
+    depth
+        [dB] below the loudest line for which there is room.
+    """
+
+    def __init__(
+        self,
+        packed: PackedSource,
+        name: str,
+        layers: Callable[[str], list[Layer]],
+        frequencies: tuple[float, float],
+        levels: StickyRange,
+        depth: float = DEPTH_OF_VIEW,
+    ) -> None:
+        self._name, self._levels, self._depth = name, levels, depth
+        self._lowest, _ = frequencies
+        frequency = packed.range(f"{name}_frequency", *frequencies)
+        level = packed.range(f"{name}_level", levels.start, levels.end)
+        sources = sources_of(packed, [layer for dof in SHOWN for layer in layers(dof)])
+        logarithmic = self._lowest > 0.0
+        #: along x and along y
+        self.plots: list[figure] = []
+        for dof in SHOWN:
+            plot = style.make_figure(
+                FREQUENCY_WITH_UNITS if logarithmic else FREQUENCY,
+                density_axis(f"S{dof}"),
+                frequency,
+                level,
+                height=HEIGHT,
+                x_axis_type="log" if logarithmic else "linear",
+            )
+            if logarithmic:
+                in_hertz(plot)
+            add_all(plot, sources, layers(dof))
+            self.plots.append(plot)
+
+    def data(self, results: Results, top: float) -> tuple[Sources, Ranges]:
+        """Sources and ranges of the spectra up to `top` [Hz]; grey ones beyond a linear axis
+        are cut.
+        """
+        name, lowest = self._name, self._lowest
+        both = results.late_spectra, results.reference.late_spectra
+        drawn, grey = (drawn_levels(one, top, lowest) for one in both)
+        compared = levels_of_compared(name, results, top, lowest)
+        seen = [drawn, *compared.values(), *([grey] if lowest else [])]
+        return {**compared, f"{name}_lines": drawn, f"{name}_grey": grey}, {
+            f"{name}_frequency": (lowest, top),
+            f"{name}_level": self._levels.fit(*seen_levels(ROOM, *seen, depth=self._depth)),
+        }
+
+
+def levels_of_compared(
+    name: str, results: Results, top: float, lowest: float = 0.0
+) -> dict[str, dict[str, np.ndarray]]:
+    """Spectra of the compared scenes from `lowest` to `top` [Hz], for `compared_curves`."""
+    return compared_curves.sources(
+        name,
+        ("frequency", *SHOWN),
+        results.compared_results,
+        lambda other: drawn_levels(other.late_spectra, top, lowest),
+    )
+
+
+def in_hertz(plot: figure) -> None:
+    """Write frequencies along a logarithmic axis, each with its unit."""
+    plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
+    style.fixed_ticks(plot.xaxis[0], TICKS)
+    plot.xgrid[0].ticker = plot.xaxis[0].ticker

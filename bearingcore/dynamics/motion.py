@@ -256,7 +256,7 @@ class Motion:
         n, first = len(self.time), 0 if body == "inner" else 3
         if self.filtered is not None:  # of balls with mass not every step is kept
             scaled = self.filtered[first // 3]
-        elif self.status is MotionStatus.TOO_MANY_STEPS:
+        elif not self.right_hand_side_calls:
             scaled = np.full((n, len(self.dofs)), math.nan)
         else:
             scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
@@ -308,8 +308,9 @@ def simulate(
         whether to return the balls' loads too.
     step_rate
         [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
-        balls a multiple and as many as keep a ball from jumping about between its contacts. None
-        takes that of `default_step_rate`. Samples between steps come from quintic interpolation.
+        balls a multiple: fewer than keep a ball from jumping about between its contacts are not
+        taken, and the status says how many are needed. None takes that of `default_step_rate`.
+        Samples between steps come from quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
         taken, and the status says how many there would be. A light body on a stiff support needs
@@ -354,9 +355,6 @@ def simulate(
             step_rate,
             f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
-    if with_mass and step_rate < (least := least_step_rate(packed)):
-        allowed = f"at least {least:.0f} Hz, or balls with mass jump about between their contacts"
-        raise checks.refuse("step_rate", step_rate, allowed, "Hz")
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
@@ -374,18 +372,26 @@ def simulate(
     time = np.arange(n) / sample_rate
     n_balls = packed.contacts.angle.size
     parts = place_parts(scene, dofs)
-    if shown > most_steps:
+    least = least_step_rate(packed) if with_mass else 0.0
+    if shown > most_steps or step_rate < least:
         # NaN everywhere, without the memory of it
         nothing = np.broadcast_to(
             np.float64(math.nan), (n if with_mass else shown + 1, 6, len(dofs))
         )
+        status = MotionStatus.TOO_MANY_STEPS
         detail = (
             f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
             f"allowed are most_steps = {thousands(most_steps)}"
         )
+        if step_rate < least:
+            status = MotionStatus.DIVERGED
+            detail = (
+                f": {thousands(step_rate)} steps a second are too few, balls with mass need "
+                f"{thousands(math.ceil(least))}"
+            )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
         return Motion(
-            scene, dofs, sample_rate, step_rate, MotionStatus.TOO_MANY_STEPS, 0, time,
+            scene, dofs, sample_rate, step_rate, status, 0, time,
             np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
             nowhere if with_mass else None, detail,
         )  # fmt: skip

@@ -20,7 +20,7 @@ from bearingcore.statics.validity import state_of_limits
 
 
 def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
-    groups = groups_of(Results(presets[name], life_inputs=inputs))
+    groups = groups_of(Results(presets[name], life_inputs=inputs or LifeInputs()))
     return {
         group.title: {fact.name: fact.value for fact in group.facts} | {"words": group.words}
         for group in groups

@@ -104,7 +104,11 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
         if one.level - one.noise >= NOISE_MARGIN and one.swing >= LEAST_SWING
     ]
     clear = [one for one in seen if one.part != BALL]
-    even = [one for one in seen if one.line_lead >= LEAD and one.modulation < 0.0]
+    even = [
+        one
+        for one in seen
+        if one.line_lead >= LEAD and one.modulation < 0.0 and one.level > judged.other.level
+    ]
     if even:
         loudest = max(even, key=lambda one: one.line_lead)
         return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)

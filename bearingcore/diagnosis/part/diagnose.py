@@ -24,7 +24,7 @@ from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
 from bearingcore.diagnosis.part.evidence import NONE_SEEN, Diagnosis
 from bearingcore.diagnosis.part.judged import judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
-from bearingcore.diagnosis.part.parts import BALL, PartLines, part_lines
+from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.diagnosis.part.unknown_speed import in_range
 from bearingcore.signals.recording import Recording
@@ -115,7 +115,11 @@ def _diagnose(
     if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
         source = f"{speed_source} as a range"
         return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
-    return in_range(signal, bearing, low, high, slip, source)
+    answer = in_range(signal, bearing, low, high, slip, source)
+    if answer.shaft_speed is None or answer.fault in (OUTER, INNER):
+        return answer
+    shaft = answer.shaft_speed / (2.0 * math.pi)
+    return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
 
 
 def _speeds(
@@ -171,7 +175,7 @@ def _at_speed(
         slip += reach
         source += ", its middle" if reach else ""
     answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
-    if answer.names_a_part and answer.fault != BALL:
+    if answer.fault in (OUTER, INNER):
         return answer
     return _second_opinion(signal, parts, answer, shaft, given, slip)
 
@@ -217,7 +221,7 @@ def _second_opinion(
     if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
         alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
         return again if alone else answer
-    if again.names_a_part and again.fault != BALL:
+    if again.fault in (OUTER, INNER):
         return again
     seen = again.status in _INSTEAD_OF.get(answer.status, ())
     if answer.fault == NONE_SEEN and judged.own.swing < ENOUGH_SWING:

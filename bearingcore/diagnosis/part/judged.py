@@ -178,7 +178,8 @@ def compare(
             if _carried(compared, turning.frequency) < 0.0:
                 deviations = min(deviations, 0.0)
         else:
-            best = replace(best, lead=min(best.lead, finest.above_source(best.frequency)))
+            source = finest.above_source(best.frequency)
+            best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
         evidence.append(replace(best, deviations=deviations))
     other, above, swing = max(
         (one.others(evidence) for one in compared), key=lambda found: found[1]

@@ -59,7 +59,7 @@ OWN_FREQUENCIES = (
     " Another bearing has other frequencies, however alike: choose “by its frequencies” and take "
     "them from the maker's sheet."
 )
-"""What to do about a bearing that is not in the table."""
+"""Follows the refusal of a bearing that is not in the table: a way on."""
 
 find_published = BearingTable().find
 """The published bearing of a name, or the one of a designation."""

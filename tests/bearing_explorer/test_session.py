@@ -146,6 +146,7 @@ def test_the_first_picture_of_a_change_has_the_limits_of_its_scene() -> None:
     explorer = session(rest=True)
     moving = explorer.content
     assert moving.moving
+    explorer._moved_at -= 2.0
     assert [explorer._limits_due(moving) for _ in range(3)] == [True, False, False]
 
 

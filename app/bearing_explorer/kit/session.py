@@ -49,9 +49,9 @@ _AT_ONCE = 0.025
 #: a tab opens together with its fine picture where that takes less than this [s]
 _SOON = 0.2
 
-#: the limits of the model are checked when the slider rests and with the first picture of a change;
-#: while it moves after so long [s], and where many share the machine, after so many pictures: they
-#: cost as much as two
+#: the limits of the model are checked when the slider rests, and with the first change after so
+#: long [s]: what was typed may be far over them. While a slider moves they are checked after so
+#: long, and where many share the machine, after so many pictures: they cost as much as two
 _LIMITS_EVERY = 1.0
 _LIMITS_PICTURES = 10
 
@@ -121,7 +121,7 @@ class Session:
         self._views: dict[str, list[View]] = {}
         self._drawn_mark = 0
         self._slow_cost = self._quick_cost = math.inf
-        self._slow_at = self._limits_at = -math.inf
+        self._slow_at = self._limits_at = self._moved_at = -math.inf
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
@@ -367,14 +367,14 @@ class Session:
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)
         self._refined = self._on_screen, *content.fine_key
-        # the next change may be a typed number far from here
-        self._limits_at, self._pictures = -math.inf, _LIMITS_PICTURES
 
     def _limits_due(self, content: Content) -> bool:
         now = time.perf_counter()
         self._pictures += 1
         long_ago = now - self._limits_at > _LIMITS_EVERY
-        due = not content.moving or (long_ago and self._pictures >= _LIMITS_PICTURES)
+        paused = now - self._moved_at > _LIMITS_EVERY
+        self._moved_at = now if content.moving else self._moved_at
+        due = not content.moving or paused or (long_ago and self._pictures >= _LIMITS_PICTURES)
         if due:
             self._limits_at, self._pictures = now, 0
         return due

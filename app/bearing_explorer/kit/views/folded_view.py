@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import C, Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.widgets.form import button
@@ -15,6 +16,7 @@ class FoldedView(View[C]):
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
         self.opened = True
+        self._named = self.title
         self._opener = button("", self._turn, css_classes=["unfold"])
         self._body = list(self.panel)[1:]  # below its caption
         self.panel.insert(1, self._opener)
@@ -34,7 +36,7 @@ class FoldedView(View[C]):
     def _show_fold(self) -> None:
         self.needs = type(self).needs if self.opened else frozenset()
         self._opener.visible = self.parts is not None
-        self._opener.name = "Hide" if self.opened else f"Show: {self._caption.title}"
+        self._opener.name = "Hide" if self.opened else f"Show: {self._named}"
         if not self.opened:
             for part in self._body:
                 part.visible = False
@@ -47,6 +49,10 @@ class FoldedView(View[C]):
             part.visible = self.opened
         super().say(results, sentence)
         self._show_fold()
+
+    def put_head(self, content: C) -> None:
+        self._named = with_elements_of(content.scene.bearing, self.title)
+        super().put_head(content)
 
     def words(self, results: C) -> str:
         """`View.sentence` of what is drawn."""

@@ -13,7 +13,6 @@ from bearingcore.common.arrays import Array
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.dynamics.motion import moving_system, static_start
-from bearingcore.scene.packing import typical_compression
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import equilibrium_of
 from bearingcore.statics.passes import path_kinks
@@ -72,7 +71,7 @@ def motion_problem(scene: Scene) -> MotionProblem:
         reason = state.reason(0)
         raise checks.refuse("scene", reason, "one with a static state to start from")
     load = float(np.linalg.norm(packed.bodies.force)) or 1.0
-    compression = typical_compression(scene.bearing, load)
+    compression = packed.contacts.compression(load)
     turning = 2.0 * math.pi * (highest_frequency_of(packed) or 1000.0)
     scale = compression * np.repeat([1.0, turning, 1.0, turning], len(packed.dofs))
     return MotionProblem(

@@ -85,7 +85,7 @@ def static_problem(scene: Scene, angles: Array) -> StaticProblem:
     load = float(np.linalg.norm(force[active]))
     if load > 0.0:
         reach = packed.clearance[0] / packed.line_r[0]
-        reach += packing.typical_compression(scene.bearing, load)
+        reach += packed.compression(load)
         guess[active] = reach * force[active] / load
     drop = drops_at(scene, angles)
     return StaticProblem(

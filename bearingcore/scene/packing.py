@@ -214,11 +214,6 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     )
 
 
-def typical_compression(bearing: Bearing, load: float) -> float:
-    """Compression [m] of one contact of a bearing that carries a load [N]."""
-    return contacts(bearing).compression(load)
-
-
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
     """Indices of directions in x, y, z, rx, ry."""
     return np.array([DOF_NAMES.index(name) for name in dofs], dtype=np.int64)

@@ -49,7 +49,7 @@ from bearingcore.bearings.inside import accuracy
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array, weighted_quantile
 from bearingcore.common.numbers import number, percent, with_prefix
-from bearingcore.scene.packing import typical_compression
+from bearingcore.scene.packing import contacts
 from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.ball_positions import centrifugal_effect
 from bearingcore.statics.equilibrium import Equilibrium
@@ -296,8 +296,8 @@ def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | 
     reach, angles = angles[carries], angles[carries]
     known = bearing.knows_contacts
     if known:
-        contacts = map(bearing.race_contact, bearing.kind.shoulders)
-        half = [contact.semi_axes(loads[carries])[0] for contact in contacts]
+        ellipses = map(bearing.race_contact, bearing.kind.shoulders)
+        half = [ellipse.semi_axes(loads[carries])[0] for ellipse in ellipses]
         spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
@@ -388,7 +388,7 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
 
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
-    compression = typical_compression(bearing, load)
+    compression = contacts(bearing).compression(load)
     apart = center_distance(bearing.groove_center_distance)
     share = compression / apart
     most = percent(GREATEST_COMPRESSION)

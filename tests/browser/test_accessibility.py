@@ -19,6 +19,7 @@ from tests.browser.explorer_page import (
     value,
 )
 from tests.browser.helpers import Server
+from tests.browser.visitor import Visitor
 
 NAMES = list({one.tab or one.title: one.name for one in reversed(SECTIONS)}.values())[::-1]
 """Of the tabs, each by that of its first part."""
@@ -238,9 +239,11 @@ def test_everything_is_reached_by_keys(page: Page, explorer: Server) -> None:
     assert [name for name, _, there in seen if not there] == []
 
 
-def test_a_view_fills_the_page_and_the_screen(page: Page, explorer: Server) -> None:
+def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
+    page = desk.page
+    page.evaluate(DEEP)
     page.set_viewport_size({"width": 1920, "height": 1080})
-    opened(page, explorer, "modes")
+    desk.begin("Frequencies")
     page.wait_for_function(  # no part of the page is empty, and none out of view
         """() => {
           const [view] = [...deep(document, '.view-modes')], main = document.querySelector('main')
@@ -271,8 +274,10 @@ def test_a_view_fills_the_page_and_the_screen(page: Page, explorer: Server) -> N
     assert view.locator("canvas").evaluate_all(heights) == before
 
 
-def test_help_and_menus_are_gone_through_by_keys(page: Page, explorer: Server) -> None:
-    opened(page, explorer, "stiffness")
+def test_help_and_menus_are_gone_through_by_keys(desk: Visitor) -> None:
+    page = desk.page
+    page.evaluate(DEEP)
+    desk.begin("Stiffness")
     helps = page.locator("aside .control .symbol")
     assert helps.count() >= 10
     expect(page.locator("aside .control-fy_n .named")).to_have_attribute(

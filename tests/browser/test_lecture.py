@@ -13,6 +13,7 @@ from playwright.sync_api import BrowserContext, Page, expect
 from tests.browser.explorer_page import export, place, rest, show, slider, source
 from tests.browser.helpers import Server
 from tests.browser.test_first_minute import COUNTS, SEEN
+from tests.browser.visitor import Visitor
 
 SOUNDS = """
 window.sounds = []
@@ -26,16 +27,11 @@ AudioBufferSourceNode.prototype.start = function (when, from) {
 """
 
 
-def open_tab(page: Page, server: Server, tab: str, more: str = "") -> None:
-    """A tab of the default scene, or of one by more of the link, drawn finely."""
-    page.goto(f"{server.url}?v=1&tab={tab}{more}")
-    page.wait_for_function(f"window.__tab == '{tab}'")
-    rest(page)
-
-
 def test_a_ball_crosses_the_defect_slowly_and_is_heard(page: Page, explorer: Server) -> None:
     page.add_init_script(SOUNDS)
-    open_tab(page, explorer, "vibration")
+    page.goto(f"{explorer.url}?v=1&tab=vibration")
+    page.wait_for_function("window.__tab == 'vibration'")
+    rest(page)
     view = page.locator(".view-slow-passage")
     instant = view.get_by_role("slider", name="Instant")
     frames, start = source(page, "slow_frames"), source(page, "slow_start")
@@ -94,9 +90,10 @@ RANGES = """() => {
 }"""
 
 
-def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(page: Page, explorer: Server) -> None:
+def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(desk: Visitor) -> None:
+    page = desk.page
     page.set_viewport_size({"width": 1920, "height": 1080})
-    open_tab(page, explorer, "stiffness")
+    desk.begin("Stiffness")
     show(page, "load")
     page.keyboard.press("Escape")  # keys are for the open tab, and for this one when it comes back
     show(page, "stiffness")
@@ -126,8 +123,13 @@ def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(page: Page, explore
     assert page.evaluate(RANGES) == whole
 
 
-def test_pictures_say_what_they_show(page: Page, explorer: Server, browser: BrowserContext) -> None:
-    open_tab(page, explorer, "load", "&extent_deg=20")
+def test_pictures_say_what_they_show(
+    desk: Visitor, explorer: Server, browser: BrowserContext
+) -> None:
+    page = desk.page
+    desk.begin("Load")
+    desk.type("Length of the defect", "20")
+    rest(page)
     view = page.locator(".view-load-distribution")
     export(view, "svg").wait_for()
     with page.expect_download() as download:

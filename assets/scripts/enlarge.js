@@ -74,8 +74,9 @@ function enlarging(model, root) {
   const show_named = () => {
     const projected = page.hasAttribute("data-projector"), small = innerWidth <= NARROW
     const wanted = (projected || small) && model.cells.length ? page.dataset.cell ?? "" : ""
+    if (wanted === named || is_large()) return  // where the figure is is asked for no sooner: each drawing comes here
     const [view] = figures_on_screen(model.figures)
-    if (wanted === named || is_large() || !view) return
+    if (!view) return
     named = wanted
     steps.hidden = !named
     root.classList.toggle("only-steps", Boolean(named) && projected)

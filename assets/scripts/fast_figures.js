@@ -197,12 +197,15 @@
 
   // A tab may be many screens long: a figure that is not nearly in sight is painted once all others
   // rest, one at a time. Whether its axes have room is looked at when it is shown.
+  let paint_together = (act) => act(), comes_back = false
+  const build_layout = method(figure, "_update_layout")
   const paint = method(figure, "paint")
   const save = method(figure, "export")
   const relayout = method(figure, "_invalidate_layout_if_needed")
-  part("figures out of sight", [paint, save, relayout], () => {
+  part("figures out of sight", [build_layout, paint, save, relayout], () => {
     const NEAR = 0.7, REST = 700  // of the window, above and below it; ms
     const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
+    const missed = new WeakSet()  // to be painted while their tab was closed
     const paint_now = (view) => {
       unpainted.delete(view)
       return paint.call(view)
@@ -216,6 +219,7 @@
       const [view] = unpainted
       if (view === undefined) return
       if (view.is_displayed) paint_now(view)
+      else missed.add(view)
       unpainted.delete(view)
       idle(paint_one)
     }
@@ -242,9 +246,25 @@
       }
       return near.get(view)
     }
+    // Figures that are laid out together are painted when all of them are: else each would be asked
+    // where it is after another one has changed a style.
+    let together = null
     figure.paint = function () {
-      if (this.is_displayed && !is_near(this)) paint_later(this)
+      missed[this.is_displayed ? "delete" : "add"](this)
+      if (together) together.add(this)
+      else if (this.is_displayed && !is_near(this)) paint_later(this)
       else paint_now(this)
+    }
+    paint_together = (act) => {
+      if (together) return act()
+      const figures = together = new Set()
+      try {
+        act()
+      } finally {
+        together = null
+        for (const one of figures) if (one.is_displayed) is_near(one)
+        written_once(() => { for (const one of figures) one.paint() })
+      }
     }
     figure.export = function (...rest) {
       if (unpainted.has(this)) paint_now(this)
@@ -252,6 +272,34 @@
     }
     figure._invalidate_layout_if_needed = function () {
       if (this.is_displayed) relayout.call(this)
+    }
+    // In a tab that comes back a figure as large as it was has the right pixels.
+    figure._update_layout = function () {
+      const before = { _needs_paint: this._needs_paint, _invalidate_all: this._invalidate_all }
+      build_layout.call(this)
+      if (comes_back && !missed.has(this)) Object.assign(this, before)
+    }
+  })
+
+  // A toolbar is hidden until the mouse is over its figure: its buttons, each with six style sheets,
+  // come then.
+  const toolbar = view_of("Toolbar")
+  const add_buttons = method(toolbar, "_build_tool_button_views")
+  const arrange = method(toolbar, "_after_render")
+  const turn = method(toolbar, "_on_visible_change")
+  part("hidden toolbars", [add_buttons, arrange, turn, getter(toolbar, "visible")], () => {
+    const bare = new WeakSet()
+    toolbar._build_tool_button_views = async function () {
+      if (this.visible) return add_buttons.call(this)
+      bare.add(this)
+      this._tool_buttons = []
+    }
+    toolbar._after_render = function () {
+      if (!bare.has(this)) arrange.call(this)
+    }
+    toolbar._on_visible_change = function () {
+      turn.call(this)
+      if (this.visible && bare.delete(this)) add_buttons.call(this).then(() => this.rerender())
     }
   })
 
@@ -390,7 +438,7 @@
       view.measure_layout()
       view.update_bbox()
       view._compute_layout()
-      view.after_layout()
+      paint_together(() => view.after_layout())
       view._layout_computed = true
     }
     owner(column, "_after_resize")._after_resize = function () {
@@ -414,11 +462,16 @@
 
     // What is out of the document costs nothing: styles are worked out for all that is in it.
     owner(column, "update_layout").update_layout = function () {
+      const before = comes_back
       for (const { el } of this.child_views) {
         if (el.classList.contains("off-screen")) el.remove()
-        else if (el.classList.contains("on-screen") && !el.isConnected) this.shadow_el.append(el)
+        else if (el.classList.contains("on-screen") && !el.isConnected) {
+          this.shadow_el.append(el)
+          comes_back = true  // and nothing else is in this column
+        }
       }
       update.call(this)
+      comes_back = before
     }
 
     const waiting = new Set()
@@ -427,7 +480,7 @@
       const tops = [...waiting].filter((view) => view.el.isConnected && !closed(view) && !within(view))
       waiting.clear()
       written_once(() => { for (const view of tops) view.update_layout() })
-      for (const view of tops) lay_out_all(view)
+      paint_together(() => { for (const view of tops) lay_out_all(view) })
     }
     place.invalidate_layout = function () {
       let top = this

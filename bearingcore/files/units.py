@@ -214,7 +214,8 @@ Of a sine, which stays longest at its peaks, it is 2.4 times.
 
 def cut_off(signal: Array) -> str:
     """A sentence where the peaks of a signal (n,) are cut off by its recorder, else ""."""
-    most, limits = 0, []
+    most = 0
+    limits: list[str] = []
     for sign in (1.0, -1.0):
         side = sign * signal
         limit, inside = side.max(initial=-np.inf), side[side < side.max(initial=-np.inf)]

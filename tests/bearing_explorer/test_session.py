@@ -110,7 +110,11 @@ def drawn(explorer: SceneSession, section: str) -> list[float]:
     return explorer._views[section][0].drawn  # type: ignore[attr-defined]
 
 
-def test_a_slider_reaches_the_view_on_screen_and_no_other(news: list[dict]) -> None:
+def test_a_slider_reaches_the_view_on_screen_and_no_other(
+    news: list[dict], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # a kernel that is loaded first may take longer, and a tab is then drawn coarsely as well
+    monkeypatch.setattr("bearing_explorer.kit.session._SOON", 60.0)
     explorer = session(changing({"mark": 4, "set": {"depth_um": 80}}))
     assert explorer.scene.defect.depth == pytest.approx(80e-6)
     assert drawn(explorer, "one")[-1] == explorer.scene.defect.depth
@@ -122,6 +126,19 @@ def test_a_slider_reaches_the_view_on_screen_and_no_other(news: list[dict]) -> N
     shown = session(showing("two"))
     assert drawn(shown, "two") == [pytest.approx(50e-6)], "a view that appears is up to date"
     assert len(drawn(shown, "one")) == 1, "a view that went is left alone"
+
+
+@pytest.mark.parametrize(("soon", "resting"), [(60.0, [True]), (0.0, [False, True])])
+def test_a_tab_opens_with_its_fine_picture_where_that_is_there_soon(
+    monkeypatch: pytest.MonkeyPatch, soon: float, resting: list[bool]
+) -> None:
+    monkeypatch.setattr("bearing_explorer.kit.session._SOON", soon)
+    shown: list[dict] = []
+    monkeypatch.setattr(
+        "bearing_explorer.kit.widgets.status.StatusLine.put", lambda self, **n: shown.append(n)
+    )
+    session(rest=True)
+    assert [one["line"]["resting"] for one in shown if "line" in one] == resting
 
 
 def test_the_first_picture_of_a_change_has_the_limits_of_its_scene() -> None:

@@ -1,7 +1,7 @@
 """What is left out of BokehJS's repaints changes no pixel, and comes back when it is needed."""
 
 import pytest
-from playwright.sync_api import BrowserContext, Page
+from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.explorer_page import open_page, rest, settle, show, slider
 from tests.browser.helpers import Server, move
@@ -42,3 +42,14 @@ def test_every_pixel_is_as_bokeh_paints_it(
         shown.append(found)
     page.close()
     assert shown[0] == shown[1]
+
+
+def test_buttons_of_a_figure_come_with_the_mouse(page: Page, explorer: Server) -> None:
+    open_page(page, explorer, "load")
+    buttons = page.locator(".view-load-distribution .bk-Toolbar .bk-OnOffButton")
+    expect(buttons).to_have_count(0)
+    page.locator(".view-load-distribution .bk-events").first.hover()
+    expect(buttons.first).to_be_visible()
+    expect(buttons).to_have_count(3)
+    page.locator(".view-bearing .bk-events").first.hover()
+    expect(buttons.first).to_be_hidden()

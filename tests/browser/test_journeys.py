@@ -478,6 +478,10 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     drawn = page.locator(".drawing svg").evaluate_all("all => all.map(e => e.clientHeight)")
     assert len(drawn) == 4
     assert min(drawn) > 100
+    boxes = page.locator(".drawing svg").evaluate_all(
+        "all => all.map(e => e.attributes.viewBox.value)"
+    )
+    assert len(set(boxes)) == 1  # as wide as each other
     assert page.pdf(prefer_css_page_size=True).count(b"/Type /Page\n") == 1
     page.close()
 

@@ -254,7 +254,7 @@ WHOLE = pytest.approx(1.0, abs=0.01)
 @pytest.mark.parametrize(
     "size",
     [
-        "1366x650",
+        pytest.param("1366x650", marks=pytest.mark.proof),
         "390x664",  # a phone less the bars of its browser
         "1366x650#projector",
         pytest.param("1920x940#projector", marks=pytest.mark.proof),

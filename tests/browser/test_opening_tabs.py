@@ -86,6 +86,40 @@ def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explore
     assert len(laid_out) <= 4 * len(figures)
 
 
+_COUNT_PAINTS = """() => {
+  const place = Bokeh.Models.get("Plot").prototype.default_view.prototype
+  const paint = place._actual_paint
+  window.__painted = {}
+  place._actual_paint = function () {
+    window.__painted[this.model.id] = (window.__painted[this.model.id] ?? 0) + 1
+    return paint.call(this)
+  }
+}"""
+
+
+def test_a_tab_that_opens_again_is_neither_sent_nor_painted(page: Page, explorer: Server) -> None:
+    sent: list[int] = []
+
+    def note(frame: str | bytes) -> None:
+        if isinstance(frame, bytes):
+            sent.append(len(frame))
+
+    page.on("websocket", lambda socket: socket.on("framereceived", note))
+    open_page(page, explorer, "load")
+    rest(page)
+    for tab in ("vibration", "life"):
+        show(page, tab)
+        rest(page)
+    assert sum(sent) > 100_000, "numbers"
+    page.evaluate(_COUNT_PAINTS)
+    sent.clear()
+    for tab in ("load", "vibration"):
+        show(page, tab)
+        rest(page)
+    assert sum(sent) < 200, "marks, and no numbers"
+    assert page.evaluate("window.__painted") == {}
+
+
 def test_tabs_are_right_after_the_window_changed_while_they_were_closed(
     page: Page, explorer: Server
 ) -> None:
@@ -119,17 +153,6 @@ def test_a_closed_tab_follows_the_theme(page: Page, explorer: Server) -> None:
         # the paper, also along the edges
         assert not set(one[:3]) & set(other[:3])
         assert other[3] > 20
-
-
-_COUNT_PAINTS = """() => {
-  const place = Bokeh.Models.get("Plot").prototype.default_view.prototype
-  const paint = place._actual_paint
-  window.__painted = {}
-  place._actual_paint = function () {
-    window.__painted[this.model.id] = (window.__painted[this.model.id] ?? 0) + 1
-    return paint.call(this)
-  }
-}"""
 
 
 def test_what_is_out_of_sight_is_painted_once_all_rests(page: Page, explorer: Server) -> None:

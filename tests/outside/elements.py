@@ -19,13 +19,14 @@ STEP = 1e-20
 
 @dataclass(frozen=True)
 class Defect:
-    """Of the outer race with exact edges or those of Eq. 6: SI, angles in radians."""
+    """Of a race with exact edges or those of Eq. 6: SI, angles in radians, `inner` at angle 0."""
 
     extent: float
     depth: float
     race: float
     edge: str = "exact"
     center: float = 1.5 * math.pi
+    inner: bool = False
 
     def drop(self, phi: Array, ball: float) -> Array:
         """How far a ball's centre of that radius goes into it at angles phi."""
@@ -39,7 +40,8 @@ class Defect:
         else:
             under = ball**2 - (self.race * np.sin(part)) ** 2
             under_root = np.sqrt(np.where(under.real > 0.0, under, 0.0))
-            drop = self.race * np.cos(part) - under_root - (self.race - ball)
+            bulge = -self.race if self.inner else self.race
+            drop = bulge * (np.cos(part) - 1.0) + ball - under_root
         return np.where((under.real > 0.0) & (drop.real < self.depth), drop, self.depth)
 
 

@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from tests.outside.elements import Array, Rows
 
 EDGES = {"published": 0.0, "chord": 1.0, "exact": 2.0}
+"""3 is exact too, of the inner race."""
 
 
 @njit(cache=True)
@@ -29,9 +30,10 @@ def drop(s: float, ball: float, race: float, depth: float, edge: float) -> tuple
         return depth, 0.0
     root = math.sqrt(ball * ball - half * half)
     down, slope = ball - root, half * turn / root
-    if edge == 2.0:
-        down += race * (math.cos(s) - 1.0)
-        slope -= race * math.sin(s)
+    if edge >= 2.0:
+        bulge = race if edge == 2.0 else -race
+        down += bulge * (math.cos(s) - 1.0)
+        slope -= bulge * math.sin(s)
     return (down, slope) if down < depth else (depth, 0.0)
 
 
@@ -42,6 +44,7 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
     """
     count, ball, ca, sa, lever, apart, clearance, K, n, preload = own[:10]
     extent, depth, race, edge, center, cage, c_contact, least = own[10:18]
+    turn = own[20]  # of the defect
     out[:] = 0.0
     for r in range(rows.shape[0]):
         z, facing = rows[r, 0], rows[r, 1]
@@ -50,9 +53,9 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
             c, s = math.cos(phi), math.sin(phi)
             down = slope = 0.0
             if r == 0:
-                away = (phi - center + math.pi) % (2.0 * math.pi) - math.pi
+                away = (phi - center - turn * t + math.pi) % (2.0 * math.pi) - math.pi
                 down, slope = drop(0.5 * extent - abs(away), ball, race, depth, edge)
-                slope *= -cage if away > 0.0 else cage
+                slope *= turn - cage if away > 0.0 else cage - turn
             radial = q[0] * c + q[1] * s + z * (q[4] * c - q[3] * s) - clearance
             radial_rate = v[0] * c + v[1] * s + z * (v[4] * c - v[3] * s)
             radial_rate += cage * (q[1] * c - q[0] * s - z * (q[4] * s + q[3] * c))
@@ -149,8 +152,9 @@ class Problem:
         own = (
             one.count, 0.5 * one.element, math.cos(one.angle), math.sin(one.angle), one.lever,
             one.apart, one.clearance, *one.law, one.preload, hurt.extent, hurt.depth, hurt.race,
-            EDGES[hurt.edge], hurt.center, self.cage, self.c, 0.0 if self.no_tension else -math.inf,
-            self.unbalance, self.shaft,
+            EDGES[hurt.edge] + hurt.inner, hurt.center, self.cage, self.c,
+            0.0 if self.no_tension else -math.inf, self.unbalance, self.shaft,
+            self.shaft if hurt.inner else 0.0,
         )  # fmt: skip
         free = list(self.free)
         rig = np.stack([self.mass, self.stiffness, self.damping, self.force[free]])

@@ -208,3 +208,31 @@ def test_motion(kind: str, law: str) -> None:
         for ours, theirs in zip(found.T, expected.T, strict=True):
             swing = max(np.ptp(theirs), 1e-2 * np.ptp(expected))
             assert np.abs(ours - theirs).max() < 1e-3 * swing
+
+
+@witness(
+    "race: inner", "function: simulate", by="SciPy's DOP853 on the equations of `march.py`",
+    compared="displacements of both rings over 2.5 ms with a defect that turns with the shaft",
+    within=1e-3,
+)  # fmt: skip
+@pytest.mark.parametrize("kind", ["ball", "rows"])
+def test_motion_over_a_defect_that_turns(kind: str) -> None:
+    """The shaft overtakes the balls: one in the load zone enters within the first millisecond."""
+    case, speed = CASES[kind], 300.0
+    spacing, hurt = 2.0 * math.pi / case.rows.count, case.rows.defect
+    center = math.floor(1.5 * math.pi / spacing) * spacing - 0.5 * hurt.extent - 0.02
+    inner = replace(hurt, center=center, race=hurt.race - case.rows.element, inner=True)
+    scene = case.scene.replace(
+        race="inner", center=center, contact_damping=C, shaft_speed=speed
+    )  # fmt: skip
+    case = case._replace(scene=scene)
+    one = problem_of(case, replace(case.rows, defect=inner))
+    motion = simulate(scene, 2.5e-3, 65536.0, step_rate=16 * 65536.0)
+    states, n = 1e-6 * one.solved(one.start(), motion.time), len(case.free)
+    assert np.ptp(states[:, :n], axis=0).max() > 1e-7
+    for found, expected in (
+        (motion.inner_displacement, states[:, :n]),
+        (motion.outer_displacement, states[:, n : 2 * n]),
+    ):
+        swing = np.maximum(np.ptp(expected, axis=0), 1e-2 * np.ptp(expected))
+        assert (np.abs(found - expected).max(axis=0) < 1e-3 * swing).all()

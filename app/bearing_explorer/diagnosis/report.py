@@ -37,7 +37,7 @@ from bearingcore.diagnosis import time_in
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
-WIDTH, HEIGHT = 470, 250
+WIDTH, HEIGHT = 600, 200
 """Of a figure as it is drawn [px]; two are side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {

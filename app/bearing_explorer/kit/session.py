@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
+import threading
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
@@ -43,6 +45,9 @@ _PATIENCE = 0.25
 #: pictures that took less than this [s] of a processor are made on the event loop: where thirty
 #: people share the interpreter, threads that wait for one another take half as long again
 _AT_ONCE = 0.025
+
+#: a tab opens together with its fine picture where that takes less than this [s]
+_SOON = 0.2
 
 #: the limits of the model are checked when the slider rests and with the first picture of a change;
 #: while it moves after so long [s], and where many share the machine, after so many pictures: they
@@ -128,7 +133,7 @@ class Session:
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.status = StatusLine(folded=True, css_classes=["one-line"])
         self.limits = LimitsStrip()
-        self._on_screen = ""
+        self._on_screen = self._attached = ""  # on the server, and in the browser
         self.tabs = Tabs(
             self.show_tab,
             names=[[one.name, one.title, one.tab or one.title] for one in halves],
@@ -183,11 +188,7 @@ class Session:
     def draw(self) -> None:
         """Bring what is on screen up to date."""
         content = self.content
-        self._loop.submit(content.at_rest(self._refined == self._what_is_fine(content)))
-
-    def _what_is_fine(self, content: Content) -> tuple[object, ...]:
-        """The key of a fine picture; another key needs one of its own."""
-        return self._shown, *content.fine_key
+        self._loop.submit(content.at_rest(self._refined == (self._shown, *content.fine_key)))
 
     async def _draw_when_compiled(self) -> None:
         """Draw anew whenever a part of the kernels is ready, and say how far it is."""
@@ -232,42 +233,89 @@ class Session:
                 half.tab_opened(name)
             self.draw()
 
-    async def _open_tab(self, name: str) -> None:
-        """Put a section on screen; its figures are made when it is first opened.
+    async def _make_tab(self, name: str) -> None:
+        """Have the section that is to be on screen: its figures are made when it is first opened.
 
-        Done by the worker, in the same order of messages as what is drawn on them: the browser
-        must know a figure before its numbers arrive. All of it holds the interpreter, and is done
-        on the event loop, one session after the other: where 30 come at once, threads that take it
-        from each other have the last picture come a sixth later.
+        All of it holds the interpreter, and is done on the event loop, one session after the other:
+        where 30 come at once, threads that take it from each other have the last picture come a
+        sixth later.
         """
         if name not in self._views:
             kinds = self._sections[name].views
             self._views[name] = await in_turn(lambda: [view(self.packed) for view in kinds])
             for view in self._views[name]:
                 self._halves[name].attach(view)
-        new = not self._containers[name].objects
-        await one_message(self._doc, lambda: self._attach_tab(name), new_models=new)
+        self._on_screen = name
+
+    async def _send(self, change: Callable[[], None]) -> None:
+        """Change models of the page, in one message with the section that is to be on screen.
+
+        The browser must know a figure before its numbers arrive.
+        """
+        name = self._on_screen
+
+        def act() -> None:
+            if name != self._attached:
+                self._attach_tab(name)
+            change()
+
+        await one_message(self._doc, act)
 
     def _attach_tab(self, name: str) -> None:
-        if not self._containers[name].objects:
-            self._containers[name].objects = [view.panel for view in self._views[name]]
-        for other, container in self._containers.items():
-            container.css_classes = _classes(other, shown=other == name)
-            if other != name:
-                for view in self._views.get(other, ()):
-                    view.put_away()
-        self.packed.introduce()
-        self.tabs.active = self._on_screen = name
+        new = not self._containers[name].objects and self._doc is not None
+        # Bokeh counts the models of the document once, and before numbers bring more of them
+        with self._doc.models.freeze() if new else nullcontext():
+            if not self._containers[name].objects:
+                self._containers[name].objects = [view.panel for view in self._views[name]]
+            for other, container in self._containers.items():
+                container.css_classes = _classes(other, shown=other == name)
+                if other != name:
+                    for view in self._views.get(other, ()):
+                        view.put_away()
+            self.packed.introduce()
+        self.tabs.active = self._attached = name
+
+    async def _opens_finely(self, content: Content) -> bool:
+        """Open the tab with its fine picture, if that is there soon, or empty and say no.
+
+        Else it would be laid out and painted three times: empty, coarsely and finely.
+        """
+        late = threading.Event()
+        fine, views = content.at_rest(give_up=late.is_set), self._views[self._on_screen]
+        drawing = asyncio.ensure_future(in_thread(picture_of, fine, views, True))
+        await asyncio.wait({drawing}, timeout=_SOON)
+        if not drawing.done():
+            late.set()
+            drawing.add_done_callback(lambda done: done.cancelled() or done.exception())
+            await self._send(lambda: None)
+            return False
+        await self._draw_fine(content, drawing.result())
+        return True
 
     # Drawing: off the event loop to compute, on it to assign.
 
     async def _draw_newest(self, content: Content) -> Content:
         started = time.perf_counter()
-        if self._on_screen != self._shown:
-            await self._open_tab(self._shown)
+        opens = self._on_screen != self._shown
+        if opens:
+            await self._make_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
         if not self._is_for_screen(content):  # of before the tab of the other half was opened
             content = self._halves[self._on_screen].content()
+        if opens and await self._opens_finely(content):
+            content = content.at_rest()
+        else:
+            content = await self._draw_following(content.at_rest(False) if opens else content)
+        write.update(self._doc, content.scene, self._on_screen, time.perf_counter() - started)
+        compiling.drawn()
+        if self._on_screen != self._shown:
+            # opened meanwhile, and this content may have been the newest
+            self.draw()
+        return content
+
+    async def _draw_following(self, content: Content) -> Content:
+        """Draw what follows a slider, what takes long after the others."""
+        started = time.perf_counter()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
@@ -290,11 +338,6 @@ class Session:
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(picture, content.mark)
-        write.update(self._doc, content.scene, self._on_screen, time.perf_counter() - started)
-        compiling.drawn()
-        if self._on_screen != self._shown:
-            # opened meanwhile, and this content may have been the newest
-            self.draw()
         return content
 
     def _is_for_screen(self, content: Content) -> bool:
@@ -323,7 +366,7 @@ class Session:
 
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)
-        self._refined = self._what_is_fine(content)
+        self._refined = self._on_screen, *content.fine_key
         # the next change may be a typed number far from here
         self._limits_at, self._pictures = -math.inf, _LIMITS_PICTURES
 
@@ -355,7 +398,7 @@ class Session:
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
 
-        await one_message(self._doc, change)
+        await self._send(change)
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
@@ -367,7 +410,7 @@ class Session:
             self.packed.send({}, {}, self._drawn_mark)
             self.status.put(line={"mood": "bad", "words": BROKEN, "details": []})
 
-        await one_message(self._doc, change)
+        await self._send(change)
 
 
 def _classes(name: str, *, shown: bool) -> list[str]:

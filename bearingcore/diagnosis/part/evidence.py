@@ -45,8 +45,9 @@ class PartEvidence:
     line_lead
         [dB] the same of the lines alone, whatever their sidebands.
     modulation
-        [dB] by which the sidebands that the part's own turning makes are above what noise reaches
-        in one of a hundred signals; infinite for an outer race, which stands still.
+        logarithm of how often noise reaches the sidebands that the part's own turning makes,
+        against one signal of a hundred, with its sign changed: above 0 they are there. Infinite for
+        an outer race, which stands still.
     depth
         by how much the envelope swings at these lines, as a share of its mean.
     swing

@@ -55,6 +55,10 @@ SIDEBAND_CHANCE = 0.01
 """Probability with which noise reaches the level at which sidebands are there as probably as not:
 one in a hundred, as the band is chosen by the lines and not by these."""
 
+SIDEBAND_SCALE = 0.77
+"""[dB] in which that probability falls by e in a single spectrum: at a line of noise it is 1 % at
+6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
+
 SIDEBAND_EXCESS = 2.5
 """[dB] by which a comb at a sideband may be above the lines that it follows from."""
 
@@ -338,7 +342,9 @@ class _Comparison:
         above = modulation = math.inf
         if own.part in (INNER, BALL):
             turning, other = (shaft, cage) if own.part == INNER else (cage, shaft)
-            modulation = turning - _sidebands_of_noise(level, one.levels.averages)
+            averages = one.levels.averages
+            modulation = turning - _sidebands_of_noise(level, averages)
+            modulation *= math.sqrt(averages) / SIDEBAND_SCALE
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
         place = int(np.abs(combs.frequency - own.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage

@@ -205,7 +205,7 @@ def status(found: MeasuredExtent) -> dict[str, Any]:
         details.append(f"{apart:.1f}° between the peaks and {offset:.1f}° at the edges")
     if found.n_passes:
         frequency = style.number(found.frequency, 4)
-        details.append(f"{found.n_passes} ball passes at {frequency} Hz")
+        details.append(f"mean of {found.n_passes} ball passes, at {frequency} Hz")
     return {
         "mood": "good" if found.measured else "bad",
         "words": found.answer,

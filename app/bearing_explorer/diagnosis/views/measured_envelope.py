@@ -130,7 +130,7 @@ class MeasuredEnvelope(FrequencyView):
             f"Envelope along {shown.direction} between {low:.0f} and {high:.0f} Hz, "
             f"{self.band(measured, shown.direction).reason}. "
         )
-        sets = []
+        sets: list[dict[str, float]] = []
         if turning is not None:
             turn = turning.shaft_speed / (2.0 * math.pi)
             sets = [first | {"shaft": turn} for first in of_rows(turning)]

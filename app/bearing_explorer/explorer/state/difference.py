@@ -16,6 +16,7 @@ from bearing_explorer.explorer.state.field_values import (
 )
 from bearing_explorer.kit.sentences import label_inside
 from bearingcore import Scene
+from bearingcore.common import number
 from bearingcore.fields import FIELD_OF, SCENE_PARTS, Field
 
 MOST_NUMBERS = 3
@@ -102,4 +103,4 @@ def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
 
 
 def _number(value: float, digits: int) -> str:
-    return "left empty" if math.isnan(value) else f"{value:.{digits}g}".replace("-", "−")
+    return "left empty" if math.isnan(value) else number(value, digits)

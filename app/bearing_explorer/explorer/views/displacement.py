@@ -12,7 +12,7 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
-from bearing_explorer.kit.widgets.facts import facts_pane, html_table, html_text
+from bearing_explorer.kit.widgets.facts import LiveFacts, html_table, html_text
 from bearingcore import DOF_NAMES
 from bearingcore.common import ResultTable
 from bearingcore.scene import DOF_SYMBOLS
@@ -43,11 +43,11 @@ class Displacement(View):
         return True
 
     def build(self, packed: PackedSource) -> Any:
-        self._numbers = facts_pane()
+        self._numbers = LiveFacts()
         return self._numbers
 
     def show(self, results: Results) -> None:
-        self._numbers.object = "".join(self.html(one) for one in _scenes(results))
+        self._numbers.put(text="".join(self.html(one) for one in _scenes(results)))
 
     def html(self, named: tuple[str, Results]) -> str:
         """The table of a scene, under its name where it has one."""

@@ -21,7 +21,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.widgets.facts import Fact, FactGroup, facts_pane, groups_html
+from bearing_explorer.kit.widgets.facts import Fact, FactGroup, LiveFacts, facts_pane, groups_html
 from bearing_explorer.kit.widgets.form import Fields, entry, row
 from bearingcore import Life
 from bearingcore.common import percent
@@ -113,7 +113,7 @@ class LifeOfBearing(View):
             )
             parts += [self._fields.add(field.name, given), facts_pane(f"<p>{field.about}</p>")]
         self._fields.put(self._values())
-        self._answers = facts_pane("", styles={"flex": "2 1 340px"})
+        self._answers = LiveFacts(styles={"flex": "2 1 340px"})
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
         return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
 
@@ -145,7 +145,7 @@ class LifeOfBearing(View):
         return f"{healthy}{found.healthy.sentence}"
 
     def show(self, results: Results) -> None:
-        self._answers.object = groups_html(groups_of(results))
+        self._answers.put(text=groups_html(groups_of(results)))
         if not self._refusal.visible:
             self._fields.put(self._values())
 

@@ -170,8 +170,8 @@ class Stiffness(View):
         over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(found.scene.bearing)} carry load"
         why = with_elements_of(found.scene.bearing, reasons.stiffness(results))
-        why += f" {reasons.not_needed(results.scene)}"
-        text = f"{'; '.join(parts)}. {why} {count} {carry}. Marked: cage angle {at}."
+        said = f"{'; '.join(parts)}.", why, reasons.not_needed(results.scene), f"{count} {carry}."
+        text = f"{' '.join(filter(None, said))} Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
 
     def show(self, results: Results) -> None:

@@ -51,8 +51,10 @@ _POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setti
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
 
 _PLACE_LABELS = """
-const {x_range, y_range, inner_width, inner_height} = plot
-if (!(inner_width > 0)) return
+const {x_range, y_range} = plot
+let inner_width = 0, inner_height = 0
+try { ({inner_width, inner_height} = plot) } catch {}
+if (!(inner_width > 0)) return  // not laid out yet
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.3 : 1
 const {cost, error, label, first, text, right, down} = source.data
 const part = (value, {start, end}) => Math.log(value/start)/Math.log(end/start)

@@ -47,17 +47,13 @@ async def hand_on(session: Any, model: Any, data: Any) -> None:
     await locked(session, act)
 
 
-async def one_message(
-    doc: Document | None, change: Callable[[], None], new_models: bool = False
-) -> None:
+async def one_message(doc: Document | None, change: Callable[[], None]) -> None:
     """Run `change`, which changes models of `doc`, and send all its changes as one message.
 
     For tasks of the event loop, which hold no lock on the document. The lock is taken and held
     until the message is written, so messages arrive in the order of the changes. Panel's own
     ``unlocked`` does not promise that: where two of its writes meet, the second may lie about
     until a third comes, and the last position of a slider would not be drawn.
-
-    With `new_models` Bokeh counts the models of the document once, after all of the change.
     """
     session = getattr(getattr(doc, "session_context", None), "session", None)
     if doc is None or session is None:
@@ -66,7 +62,7 @@ async def one_message(
 
     async def act(document: Document) -> None:
         def in_document() -> None:
-            with set_curdoc(document), document.models.freeze() if new_models else nullcontext():
+            with set_curdoc(document):
                 change()
 
         await send_changes(session, document, in_document)

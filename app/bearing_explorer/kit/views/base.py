@@ -186,6 +186,7 @@ class View(Generic[C]):
         self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
             zoomable(plot, self.equal_aspect)
+            plot.syncable = False  # how large it is is not asked on the server
         self.panel: pn.viewable.Viewable = stack(
             self._caption,
             body,

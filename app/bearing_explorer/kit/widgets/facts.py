@@ -6,13 +6,15 @@ import html
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import zip_longest
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import panel as pn
+import param
 from numpy.typing import NDArray
 
-from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.assets import asset_path, asset_text
+from bearing_explorer.kit.serve.live_component import LiveComponent
 from bearingcore.common import count, number
 from bearingcore.units import UNITS
 
@@ -44,6 +46,15 @@ class FactGroup(NamedTuple):
     title: str
     words: str
     facts: list[Fact]
+
+
+class LiveFacts(LiveComponent):
+    """Facts that follow a slider; a pane would have its card laid out anew at each step."""
+
+    text = param.String()
+
+    _esm = asset_path("facts.js")
+    _stylesheets: ClassVar[list[str]] = [asset_text("facts.css")]
 
 
 def facts_pane(content: str = "", **params: Any) -> pn.pane.HTML:

@@ -20,6 +20,7 @@ TWO = SCENE.replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
          "Defect shorter by 2 ball spacings (64.33 → 12.9°)"),
         (SCENE.replace(fy=-120.0), SCENE, "Load, downwards (100 → 120 N)"),
         (SCENE.replace(fy=-100.01), SCENE, "Load, downwards (100 → 100.01 N)"),
+        (SCENE.replace(fy=-1e6), SCENE, "Load, downwards (100 → 1000000 N)"),
         (SCENE.replace(fy=-120.0, depth=8e-5), SCENE,
          "Depth (50 → 80 µm), load, downwards (100 → 120 N)"),
         (SCENE.healthy(), SCENE, "Without the defect"),

@@ -53,7 +53,7 @@ export function render({ model }) {
 
   // with the scene, "bearing-load-fan-rig-defect-12.9deg-50-um-load-100-N.png", or with the file that was measured
   const file = (ending) => {
-    const scene = (model.subject || (document.documentElement.dataset.scene ?? "")).replaceAll("°", "deg").replaceAll("µ", "u")
+    const scene = (model.subject.replace(/\.[a-z]\w{1,4}$/i, "") || (document.documentElement.dataset.scene ?? "")).replaceAll("°", "deg").replaceAll("µ", "u")
       .replace(/[^\p{L}\p{N}.]+/gu, "-").slice(0, 90)
     return `bearing-${model.name_of_files}${scene && `-${scene}`.replace(/-$/, "")}.${ending}`
   }

@@ -272,7 +272,7 @@ def reasons(table: Table) -> dict[str, str]:
     elif (guessed := contents.bearing or contents.orders) is not None:
         found["bearing"] = _because(guessed)
     elif contents.designation is not None and machine.guess(contents)["designation"]:
-        found["bearing"] = _because(contents.designation)
+        found["designation"] = _because(contents.designation)
     if speed is not None:
         found["speed"] = _because(speed)
     return {name: words[:1].upper() + words[1:] for name, words in found.items()}

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from bokeh.embed import json_item
@@ -158,7 +159,9 @@ def measured_report(
     ]
     style = asset_text("part.css") + asset_text("measured_report.css")
     return {
-        "name": FILE.format(re.sub(r"[^\w.-]+", "-", question.measured.recording.name)[:60]),
+        "name": FILE.format(
+            re.sub(r"[^\w.-]+", "-", Path(question.measured.recording.name).stem)[:60]
+        ),
         "html": document(about, title, body, style),
         "items": items,
         "figures": drawn,

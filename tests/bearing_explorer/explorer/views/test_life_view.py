@@ -19,8 +19,8 @@ from bearingcore import (
 from bearingcore.statics.validity import state_of_limits
 
 
-def facts(name: str, inputs: LifeInputs | None = None) -> dict[str, dict[str, str]]:
-    groups = groups_of(Results(presets[name], life_inputs=inputs or LifeInputs()))
+def facts(name: str, **given: float) -> dict[str, dict[str, str]]:
+    groups = groups_of(Results(presets[name], life_inputs=LifeInputs(**given)))
     return {
         group.title: {fact.name: fact.value for fact in group.facts} | {"words": group.words}
         for group in groups
@@ -79,7 +79,7 @@ def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() ->
     rollers = facts("nu208")
     assert "profile of ISO 16281" in rollers["Life of the healthy bearing"]["words"]
     assert "assumed viscosity" in rollers["Oil film"]["words"]
-    assert "assumed" not in facts("nu208", LifeInputs(viscosity=1.0))["Oil film"]["words"]
+    assert "assumed" not in facts("nu208", viscosity=1.0)["Oil film"]["words"]
 
 
 @pytest.mark.parametrize("name", list(presets))

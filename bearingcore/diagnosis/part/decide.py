@@ -111,6 +111,8 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     ]
     if even:
         loudest = max(even, key=lambda one: one.line_lead)
+        if loudest.magnetic > 0.0:
+            return DiagnosisStatus.MAGNETIC, say.magnetic(loudest)
         return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
     own = max(judged.evidence, key=lambda one: (one in clear, one.lead))
     needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING

@@ -88,6 +88,7 @@ function enlarging(model, root) {
     show_cell(model.cells.findIndex(([words]) => words === named))
   }
   for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)
+  new ResizeObserver(show_named).observe(enlarge)  // a tab that opens with its picture is drawn before it is seen
   on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
     if (!model.figures.includes(figure) || cell >= 0) return
     const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)

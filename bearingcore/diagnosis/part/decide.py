@@ -146,6 +146,8 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
     blows = _impulsiveness(judged, signal)
     if blows > SMOOTH:
         return DiagnosisStatus.IRREGULAR, say.blows(blows, signal.duration)
+    if signal.only_rounding:
+        return DiagnosisStatus.ROUNDED, say.rounded()
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(judged.detectable, signal.duration)
     broadest = max(judged.evidence, key=lambda one: one.deviations)

@@ -239,16 +239,25 @@ class Diagnosis:
         raise KeyError(part)
 
     def table(self) -> ResultTable:
-        """A row a part with its evidence; next to them the spectrum of the envelope, if any."""
+        """A row a part with its evidence; next to them the spectrum of the envelope, if any.
+
+        Without a shaft speed what rests on it is NaN.
+        """
+        turns = math.nan if self.shaft_speed is None else 1.0
         parts, spectrum = self.evidence, self.spectrum
         count = len(parts[0].harmonics) if parts else 0
         columns = table_of(
             ("part", "", [one.part for one in parts]),
             ("frequency", "Hz", [one.frequency for one in parts], "of its strongest lines"),
-            ("nominal_frequency", "Hz", [one.nominal_frequency for one in parts], "by geometry"),
-            ("order", "1", [one.order for one in parts], "turns of the shaft"),
+            (
+                "nominal_frequency",
+                "Hz",
+                [one.nominal_frequency * turns for one in parts],
+                "by geometry",
+            ),
+            ("order", "1", [one.order * turns for one in parts], "turns of the shaft"),
             ("nominal_order", "1", [one.nominal_order for one in parts]),
-            ("slip", "1", [one.slip for one in parts]),
+            ("slip", "1", [one.slip * turns for one in parts]),
             ("level", "dB", [one.level for one in parts], "of all harmonics but the loudest"),
             ("noise", "dB", [one.noise for one in parts], "reached in one of a thousand signals"),
             *(
@@ -256,7 +265,7 @@ class Diagnosis:
                 for k in range(count)
             ),
             ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
-            ("sideband_spacing", "Hz", [one.sideband_spacing for one in parts]),
+            ("sideband_spacing", "Hz", [one.sideband_spacing * turns for one in parts]),
             ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
             ("swing_with_sidebands", "1", [one.swing for one in parts]),
             ("lead", "dB", [one.lead for one in parts], "above noise and all other lines"),

@@ -25,6 +25,9 @@ MOST_DROPPED = 0.5
 NOISE_FLOOR = 1e-4
 """Of a signal's deviation that is added as noise (-80 dB)."""
 
+ABOVE_ROUNDING = 4.0
+"""Times the power of rounding that a tenth of all frequencies hold where a bearing runs."""
+
 NARROWEST = 16.0
 """Turns of the shaft a second that a band is wide at least."""
 
@@ -44,6 +47,9 @@ class ListenedSignal:
         self.names = [recording.directions[index] for index in usable]
         self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
+        self.only_rounding = bool(usable) and all(
+            _only_rounding(np.asarray(columns[index]), self.rate) for index in usable
+        )
         self.whitening: float | None = WHITENING
         self.unusable: Reason | None = None
         if not usable:
@@ -94,6 +100,19 @@ def _with_a_floor(samples: np.ndarray) -> np.ndarray:
     """
     noise = np.random.default_rng(0).standard_normal(len(samples))
     return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
+
+
+def _only_rounding(samples: np.ndarray, rate: float) -> bool:
+    """Whether between tones there is no more than the steps of the numbers and our own noise.
+
+    Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
+    """
+    from scipy.signal import welch  # imported late: see `spectrum`
+
+    step = float(np.median(np.diff(np.unique(samples)))) if np.ptp(samples) else 0.0
+    rounding = (step**2 / 12.0 + (NOISE_FLOOR * float(samples.std())) ** 2) / (0.5 * rate)
+    density = welch(samples, rate, nperseg=min(4096, len(samples)))[1]
+    return bool(np.quantile(density, 0.9) <= ABOVE_ROUNDING * rounding)
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:

@@ -175,6 +175,14 @@ def weak(detectable: float, duration: float) -> str:
     )
 
 
+def rounded() -> str:
+    """Nothing seen, in a signal that shows nothing of a bearing."""
+    return (
+        "No damage shows, but between its tones the signal holds no vibration, only the rounding "
+        "of its numbers: a running bearing would show too. Check the sensor, its range and filter."
+    )
+
+
 def healthy(detectable: float) -> str:
     """None seen."""
     return (

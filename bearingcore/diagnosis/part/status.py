@@ -35,6 +35,10 @@ class DiagnosisStatus(Status):
         "too short to exclude damage",
         "No damage shows, but the signal is too short to exclude it.",
     )
+    ROUNDED = (
+        "nothing but rounding",
+        "Between its tones the signal holds no vibration, only the rounding of its numbers.",
+    )
     TOO_SHORT = "too short", "The recording holds too few ball passes."
     TOO_COARSE = "sampled too slowly", "The sample rate is too low to show how impacts repeat."
     TOO_LONG = "too many samples", "The recording has more samples than are allowed."

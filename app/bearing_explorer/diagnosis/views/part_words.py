@@ -246,6 +246,9 @@ def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
     if found.conclusive:
         for row, one in zip(rows, found.evidence, strict=True):
             row["probability"] = probability(one.probability)
+    if found.shaft_speed is None:  # what rests on it would be of one of the speeds that were tried
+        for row in rows:
+            row |= {"order": "?", "slip": "not known", "spacing": ""}
     return rows
 
 

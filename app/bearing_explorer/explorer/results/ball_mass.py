@@ -64,8 +64,8 @@ class BallMass:
 
     Attributes
     ----------
-    scene, sample_rate [Hz]
-        what moves, and how often it is known.
+    scene, sample_rate [Hz], samples
+        what moves, and for how many samples.
     step_rates : {balls: step rate} [Hz]
     broke_off
         why one of the motions ended early; empty if none did.
@@ -94,6 +94,7 @@ class BallMass:
 
     scene: Scene
     sample_rate: float
+    samples: int
     step_rates: dict[str, float]
     broke_off: str
     time: Array
@@ -190,6 +191,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     return BallMass(
         scene=scene,
         sample_rate=rate,
+        samples=len(heavy.time),
         step_rates={motion.scene.balls: motion.step_rate for motion in (massless, heavy)},
         broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
         time=time,

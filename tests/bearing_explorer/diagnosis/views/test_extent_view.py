@@ -16,6 +16,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import MeasuredExtent, Recording, presets
 from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
+from tests.helpers.loops import run
 from tests.helpers.measuring import at, measuring
 
 SCENE = presets["6205"].replace(shaft_speed=SPEED)
@@ -106,7 +107,7 @@ def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():
             await asyncio.sleep(0.02)
         return view.answer()
 
-    assert asyncio.run(go()).measured
+    assert run(go()).measured
 
 
 def test_the_race_may_be_known_and_a_figure_alone_needs_no_session():

@@ -256,6 +256,16 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     assert found.fault == "outer race"
 
 
+@pytest.mark.parametrize(("noise", "fault"), [(0.0, CANNOT_TELL), (1e-3, NONE_SEEN)])
+def test_a_tone_alone_does_not_show_that_nothing_is_damaged(noise, fault):
+    """Rounded to 1e-4, a tone of 1 holds nothing else; noise of 1e-3 is what a bearing may make."""
+    t = np.arange(round(4.0 * MOTOR.rate)) / MOTOR.rate
+    rest = noise * np.random.default_rng(4).standard_normal(t.size)
+    found = answer(np.round(np.sin(TURN * 30.0 * t) + rest, 4))
+    assert found.fault == fault
+    assert (found.status == DiagnosisStatus.ROUNDED) == (fault == CANNOT_TELL)
+
+
 def test_a_speed_the_recording_carries_is_taken(damaged):
     recording = Recording(damaged["outer race"], MOTOR.rate, ("y",))
     object.__setattr__(recording, "shaft_speed", MOTOR.shaft_speed)

@@ -26,8 +26,8 @@ export function render({ model }) {
   const copy = async () => {
     const copied = await copy_text(link.value)
     if (!copied) link.focus()
-    say(copied || document.execCommand("copy") ? "The link is copied."
-      : "The link is selected: copy it with the keyboard.")
+    if (copied || document.execCommand("copy")) say_shortly("The link is copied.")
+    else say("The link is selected: copy it with the keyboard.")
   }
   const root = markup(SHARE, {
     undo: asks({ undo: true }),
@@ -50,8 +50,8 @@ export function render({ model }) {
     part("notice").hidden = !sentence
     if (sentence) root.querySelector(":popover-open")?.hidePopover()
   }
-  const say_saved = (file) => {  // which is news for some seconds
-    say(`${file} is saved.`)
+  const say_shortly = (sentence) => {  // which is news for some seconds
+    say(sentence)
     passing = setTimeout(say, 6000, "")
   }
   link.addEventListener("focus", () => link.select())
@@ -149,7 +149,7 @@ export function render({ model }) {
   model.on("msg:custom", ({ file: saved, kept, report: page }) => {
     if (saved) {
       save_file(saved.name, saved.text, saved.type)
-      say_saved(saved.name)
+      say_shortly(`${saved.name} is saved.`)
     }
     if (kept) {
       const others = read_kept().filter((item) => item.name !== kept.name)
@@ -160,7 +160,7 @@ export function render({ model }) {
       }
     }
     if (page === null) failed("on the server")
-    else if (page) make_report(page).then(say_saved, failed)
+    else if (page) make_report(page).then((name) => say_shortly(`${name} is saved.`), failed)
   })
 
   // Keys: not where text is typed, which has an undo of its own.

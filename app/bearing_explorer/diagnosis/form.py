@@ -207,6 +207,19 @@ def roles_and_units(text: str) -> tuple[list[str], list[str]]:
     return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
 
+def says_the_same(name: str, text: str, first: str) -> bool:
+    """Whether a field still says what the file alone does.
+
+    The field of columns holds units too, which are a question of their own.
+    """
+    if name != "columns":
+        return text == first
+    texts = (text, first)
+    roles = [roles_and_units(one)[0] for one in texts]
+    places = [[role.partition(AT)[2] for role in one.split(APART)] for one in texts]
+    return roles[0] == roles[1] and places[0] == places[1]
+
+
 def _unit(table: Table) -> str:
     """The unit of the signals as the file says it, or `NOT_KNOWN`."""
     contents = table.contents

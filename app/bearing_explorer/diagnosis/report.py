@@ -229,7 +229,8 @@ def assumptions(
         ("Slip", given["Slip"], "Assumed"),
         ("Bearing", given["Bearing"], machine.source_of("bearing").capitalize()),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
-         machine.source_of("bearing").capitalize()),
+         machine.source_of("bearing").capitalize() if typed
+         else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
         ("Machine and support", kind or "not said: no zone", "Given" if kind else ""),
         ("Load", "typical ones, for the extent" if load is None
          else with_prefix(load, "N"),

@@ -22,6 +22,7 @@ from bearing_explorer.diagnosis.form import (
     questions,
     reasons,
     said,
+    says_the_same,
     size_questions,
     speeds_of,
 )
@@ -100,7 +101,7 @@ class SignalForm(Findings):
     def source_of(self, name: str) -> str:
         """Where the value of a field comes from; empty where there is no such field."""
         value = self.state.values.get(name, "")
-        if value != self._first.get(name, ""):
+        if not says_the_same(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
             return f"Given for the file before, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
@@ -126,8 +127,13 @@ class SignalForm(Findings):
         )  # fmt: skip
 
     def forget_machine(self) -> None:
-        """Ask for bearing and speed again, which were given for the file before."""
-        names = (name for name in GROUPS if name in self._kept)
+        """Ask for bearing and speed again, which were given for the file before.
+
+        Files of the machine before are no series with this one.
+        """
+        self.series = Series() if self._table is None else Series().with_table(self._table)
+        names = [name for name in GROUPS if name in self._kept]
+        self._kept = {}  # what is typed now is given for this file, be it the same
         self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
 
     def _take_read(self, found: Read) -> None:
@@ -167,7 +173,7 @@ class SignalForm(Findings):
             bearings=bearings_of(table, own=self._own_bearings),
             speeds=speeds_of(table),
             settling=False,
-            kept_from=before if found.kept else "",
+            kept_from=(self.state.kept_from or before) if found.kept else "",
             parts=self.series.parts,
             arrival=self.state.arrival + 1,
             **self._in_short(found.form),
@@ -221,7 +227,7 @@ class SignalForm(Findings):
             "values": texts,
             "refused": {name: words for name, words in refused.items() if name not in left},
             "reasons": {
-                name: words if texts[name] == self._first[name] else AS_GIVEN
+                name: words if says_the_same(name, texts[name], self._first[name]) else AS_GIVEN
                 for name, words in reasons(table).items()
             }
             | asks

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,15 +18,15 @@ if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results
     from bearingcore import Equilibrium, Scene, Spectrum
 
-PEAK_BAND = (100.0, 2500.0)
-"""[Hz] where the loudest line of a spectrum is looked for."""
+LOWEST_PEAK = 100.0
+"""[Hz] from which on the loudest line of a spectrum is looked for, as far as it is known."""
 LEVEL_FLOOR = 1e-20
 """[(m/s²)²/Hz] below which a housing does not move at all."""
 
 
 @dataclass(frozen=True)
 class Peak:
-    """The highest line within `PEAK_BAND`.
+    """The highest line from `LOWEST_PEAK` on.
 
     Attributes
     ----------
@@ -124,7 +125,7 @@ def chain(results: Results) -> Chain:
         bands = {label: band for label, band in results.bands.items() if math.isfinite(band[0])}
         turns = results.scene.shaft_speed > 0.0
         spectra = results.late_spectra if turns else {}
-        peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
+        peaks = peaks_of(spectra)
         if not spectra:
             silent = why_ended(results.motion) if turns else "nothing turns"
     except StillCompiling:
@@ -175,10 +176,22 @@ def direction(scene: Scene) -> float:
     return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
 
 
+def peaks_of(spectra: Mapping[str, Spectrum]) -> dict[str, Peak]:
+    """The highest lines along x and y, where the housing moves along them."""
+    return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
+
+
+def picture_top(results: Results) -> float:
+    """The frequency [Hz] up to which bands and highest lines are: a picture shows all of them."""
+    ends = [peak.frequency for peak in peaks_of(results.late_spectra).values()]
+    ends += [high for _, high in results.bands.values() if not math.isnan(high)]
+    return 1.05 * max(ends, default=0.0)
+
+
 def loudest(spectrum: Spectrum) -> Peak:
-    """The highest line of one direction within `PEAK_BAND`."""
+    """The highest line of one direction from `LOWEST_PEAK` on."""
     frequency, density = spectrum
-    inside = np.flatnonzero((frequency >= PEAK_BAND[0]) & (frequency <= PEAK_BAND[1]))
-    most = inside[np.argmax(density[inside])]
+    first = int(np.searchsorted(frequency, LOWEST_PEAK))
+    most = first + int(np.argmax(density[first:]))
     level = 10.0 * math.log10(max(float(density[most]), LEVEL_FLOOR))
     return Peak(float(frequency[most]), level, float(frequency[1] - frequency[0]))

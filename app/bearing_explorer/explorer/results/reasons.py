@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.chain import Peak, direction, loudest
+from bearing_explorer.explorer.results.chain import Peak, direction, peaks_of
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
@@ -82,8 +82,10 @@ def most_loaded(
     said = _named(bearing, inside)
     if briefly:
         return f"{text}: {said} {'is' if inside.size == 1 else 'are'} in the defect."
-    left = load[inside].sum()
-    carry = f"only {style.with_prefix(left, 'N')}" if left > 0.0 else "nothing"
+    left = load[inside].max()
+    share = style.with_prefix(left, "N")
+    one = f"only {share}" if inside.size == 1 else f"at most {share} each"
+    carry = one if left > 0.0 else "nothing"
     verb = "lies" if inside.size == 1 else "lie"
     hold = "carries" if inside.size == 1 else "carry"
     return f"{text}: {said}, nearer the line of the load, {verb} in the defect and {hold} {carry}."
@@ -312,8 +314,7 @@ def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
     """Why the largest peak of the settled vibration is where it is; `rates` [Hz] of ball passes."""
-    spectra = results.late_spectra
-    peaks = {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
+    peaks = peaks_of(results.late_spectra)
     if not peaks:
         return ""
     dof = max(peaks, key=lambda one: peaks[one].level)

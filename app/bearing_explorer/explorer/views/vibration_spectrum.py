@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.spectra import SpectrumFigures
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.chain import loudest
+from bearing_explorer.explorer.results.chain import loudest, peaks_of, picture_top
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
+from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along
 from bearing_explorer.kit.plots.layers import (
     CENTERED,
     ON_PAPER,
@@ -31,7 +31,7 @@ from bearing_explorer.kit.plots.layers import (
     toggle,
     uprights,
 )
-from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN, decibels
+from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -49,7 +49,7 @@ GREY: FieldSpec = {
 AXIS: FieldSpec = {
     "name": "axis",
     "label": "Frequency",
-    "options": [["linear", f"0–{HIGHEST / 1e3:g} kHz"], ["logarithmic", "Full range (log)"]],
+    "options": [["linear", "Bands and peaks"], ["logarithmic", "Full range (log)"]],
 }
 """The switches above the figures."""
 
@@ -207,7 +207,7 @@ class VibrationSpectra(LookView):
         return {"low": low, "high": high, "above": above, "label_at": 0.97 * np.minimum(low, top)}
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
+        top = self._frequency.fit(HIGHEST, picture_top(results))[1]
         sources, ranges = self._linear.data(results, top)
         if self.wide:
             known = results.motion.bandwidth
@@ -255,15 +255,8 @@ def loudest_words(results: Results) -> str:
     words = []
     if not results.late_spectra:
         return f"There is no spectrum, as {why_ended(results.motion)}."
-    for dof in SHOWN:
-        if dof in results.late_spectra:
-            frequency, density = results.late_spectra[dof]
-            heard = (frequency >= 100.0) & (frequency <= HIGHEST)
-            most = np.flatnonzero(heard)[np.argmax(density[heard])]
-            words.append(
-                f"{style.number(decibels(density[most]), 2)} dB at {frequency[most]:.0f} Hz "
-                f"along {dof}"
-            )
+    for dof, peak in peaks_of(results.late_spectra).items():
+        words.append(f"{style.number(peak.level, 2)} dB at {peak.frequency:.0f} Hz along {dof}")
     text = (
         "Above 100 Hz the housing vibrates most with "
         + style.list_words(words)

@@ -13,7 +13,7 @@ from bearingcore import Spectrum
 
 FREQUENCY = style.AxisQuantity("Frequency", "f", "Hz")
 SHOWN = ("x", "y")
-HIGHEST = 2500.0  # [Hz] of the picture, more where a band lies higher
+HIGHEST = 2500.0  # [Hz] of the picture, more where a band or a peak lies higher
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 

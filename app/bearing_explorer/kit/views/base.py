@@ -111,6 +111,10 @@ class SessionParts(Protocol):
 C = TypeVar("C", bound=Content)
 
 
+FADED = {"opacity": "0.2"}
+"""Of a picture of an earlier scene."""
+
+
 class View(Generic[C]):
     """One picture of the scene. The head of this module lists the parts of a subclass."""
 
@@ -243,8 +247,9 @@ class View(Generic[C]):
     def say(self, results: C | None, sentence: str) -> None:
         """Show the sentence and keep the results for the table. On the event loop only.
 
-        Without results the last ones stay, as the last picture does. Before the first picture, and
-        where it has no numbers, the sentence stands in its place, and no empty axes.
+        Without results the last ones stay, as the last picture does, which is faded. Before the
+        first picture, and where it has no numbers, the sentence stands in its place, and no empty
+        axes.
         """
         self._results = results or self._results
         if results is not None:
@@ -254,6 +259,8 @@ class View(Generic[C]):
         if self._pictures:
             for picture in self._pictures:
                 picture.visible = self._has_drawn
+                own = {name: value for name, value in picture.styles.items() if name not in FADED}
+                picture.styles = own if results is not None else own | FADED
             looks = self.sentence_looks if self._has_drawn else ()
             self._sentence.css_classes = ["sentence", *looks]
             # hidden figures are not to be saved

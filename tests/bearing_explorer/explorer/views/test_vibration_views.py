@@ -108,3 +108,28 @@ def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> N
     assert up.excerpt.static_load.max() == 0.0
     _, ranges = VibrationInTime(PackedSource()).data(up)
     assert ranges["vibration_load"][1] > 35.0
+
+
+@pytest.mark.parametrize("speed", [7.0, 1000.0])
+def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(speed: float) -> None:
+    """At 1000 Hz balls pass at 5755 Hz, and the housing moves most as often as that."""
+    found = Results(FAN_RIG.replace(shaft_speed=2.0 * np.pi * speed))
+    view = VibrationSpectra(PackedSource())
+    frequency, density = found.late_spectra["y"]
+    above = frequency >= 100.0
+    largest = frequency[above][np.argmax(density[above])]
+    assert f"{largest:.0f} Hz along y" in view.sentence(found)
+    assert view.data(found)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
+    assert (largest > 5000.0) == (speed > 7.0)
+
+
+def test_a_picture_that_is_of_an_earlier_scene_is_faded(results: Results) -> None:
+    view = VibrationInTime(PackedSource())
+    view.say(results, view.sentence(results))
+    (picture,) = view._pictures
+    assert "opacity" not in picture.styles
+    view.say(None, "Not shown for this scene: nothing turns.")
+    assert picture.visible
+    assert float(picture.styles["opacity"]) < 0.5
+    view.say(results, view.sentence(results))
+    assert "opacity" not in picture.styles

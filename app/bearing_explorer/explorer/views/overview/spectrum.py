@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
+from bearing_explorer.explorer.results.chain import picture_top
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.vibration_spectrum import (
     VibrationSpectra,
@@ -19,7 +20,6 @@ from bearing_explorer.kit.plots.frequency_bands import (
     BAND_NAME,
     BAND_SPAN,
     band_rows,
-    highest,
     spread,
 )
 from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
@@ -125,7 +125,7 @@ class OverviewSpectrum(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        top = self._frequency.fit(HIGHEST, 1.05 * highest(results.bands))[1]
+        top = self._frequency.fit(HIGHEST, picture_top(results))[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.reference.late_spectra, top)
         compared = levels_of_compared("overview_spectrum", results, top)
@@ -200,7 +200,8 @@ def grey_name(
     level = np.fmax(healthy["x"], healthy["y"])
     wide = int(NAME_WIDTH * level.size)
     free = []
-    for i in range(wide, int(END * level.size)):  # beyond are the names of the others
+    # narrower cards leave less room to the left; beyond the end are the names of the others
+    for i in range(wide + wide // 3, int(END * level.size)):
         y = level[i] + room
         under = slice(i - wide, i + 1)
         others = [level[under], *(drawn[dof][under] for dof in SHOWN)]

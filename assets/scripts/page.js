@@ -152,7 +152,7 @@
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
       return drawn.size > 0
     }
-    has_figure(document.body)
+    if (!has_figure(document.body) && large) coming = setTimeout(enlarge_words, 500)  // figures come after their message
     setTimeout(fit, 120)
   }
   const in_two_lines = (words) => {

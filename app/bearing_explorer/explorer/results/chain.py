@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -124,9 +123,8 @@ def chain(results: Results) -> Chain:
     try:
         bands = {label: band for label, band in results.bands.items() if math.isfinite(band[0])}
         turns = results.scene.shaft_speed > 0.0
-        spectra = results.late_spectra if turns else {}
-        peaks = peaks_of(spectra)
-        if not spectra:
+        peaks = results.peaks if turns else {}
+        if not (turns and results.late_spectra):
             silent = why_ended(results.motion) if turns else "nothing turns"
     except StillCompiling:
         raise
@@ -176,14 +174,9 @@ def direction(scene: Scene) -> float:
     return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
 
 
-def peaks_of(spectra: Mapping[str, Spectrum]) -> dict[str, Peak]:
-    """The highest lines along x and y, where the housing moves along them."""
-    return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
-
-
 def picture_top(results: Results) -> float:
     """The frequency [Hz] up to which bands and highest lines are: a picture shows all of them."""
-    ends = [peak.frequency for peak in peaks_of(results.late_spectra).values()]
+    ends = [peak.frequency for peak in results.peaks.values()]
     ends += [high for _, high in results.bands.values() if not math.isnan(high)]
     return 1.05 * max(ends, default=0.0)
 

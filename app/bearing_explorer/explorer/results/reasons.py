@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.chain import Peak, direction, peaks_of
+from bearing_explorer.explorer.results.chain import Peak, direction
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
@@ -314,7 +314,7 @@ def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
     """Why the largest peak of the settled vibration is where it is; `rates` [Hz] of ball passes."""
-    peaks = peaks_of(results.late_spectra)
+    peaks = results.peaks
     if not peaks:
         return ""
     dof = max(peaks, key=lambda one: peaks[one].level)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearing_explorer.explorer.results import endurance, motions, statics
 from bearing_explorer.explorer.results.ball_mass import BallMass
-from bearing_explorer.explorer.results.chain import Chain, chain
+from bearing_explorer.explorer.results.chain import Chain, Peak, chain, loudest
 from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt
@@ -423,6 +423,12 @@ class Results(Content):
         Empty where it did not stay finite.
         """
         return motions.late_spectra(self.scene, self.marching)
+
+    @cached_property
+    def peaks(self) -> dict[str, Peak]:
+        """The highest lines of these spectra along x and y, where the housing moves along them."""
+        spectra = self.late_spectra
+        return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
     @of_kind(SLOW, OF_MOTION)

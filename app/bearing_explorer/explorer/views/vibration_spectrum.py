@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.spectra import SpectrumFigures
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.chain import loudest, peaks_of, picture_top
+from bearing_explorer.explorer.results.chain import picture_top
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
@@ -255,7 +255,7 @@ def loudest_words(results: Results) -> str:
     words = []
     if not results.late_spectra:
         return f"There is no spectrum, as {why_ended(results.motion)}."
-    for dof, peak in peaks_of(results.late_spectra).items():
+    for dof, peak in results.peaks.items():
         words.append(f"{style.number(peak.level, 2)} dB at {peak.frequency:.0f} Hz along {dof}")
     text = (
         "Above 100 Hz the housing vibrates most with "
@@ -280,10 +280,10 @@ def loudest_words(results: Results) -> str:
 
 def why_words(results: Results, *, briefly: bool = False) -> str:
     """Why the largest peak is where it is, and whether one stands at the ball-pass frequency."""
-    spectra = {dof: results.late_spectra[dof] for dof in SHOWN if dof in results.late_spectra}
-    if not spectra:
+    peaks = results.peaks
+    if not peaks:
         return ""
-    most = max(spectra.values(), key=lambda spectrum: loudest(spectrum).level)
+    most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
     rates = [rate for _, _, rate in passed(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
     words.append(reasons.passes(most, min(rates), briefly=briefly))

@@ -45,11 +45,9 @@ class ListenedSignal:
         faults = [signal_faults(column) for column in columns]
         usable = [index for index, one in enumerate(faults) if one.dropped_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
-        self.columns = [_with_a_floor(np.asarray(columns[index])) for index in usable]
+        self._measured = [np.asarray(columns[index]) for index in usable]
+        self.columns = [_with_a_floor(samples) for samples in self._measured]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
-        self.only_rounding = bool(usable) and all(
-            _only_rounding(np.asarray(columns[index]), self.rate) for index in usable
-        )
         self.whitening: float | None = WHITENING
         self.unusable: Reason | None = None
         if not usable:
@@ -71,6 +69,11 @@ class ListenedSignal:
     def clipped(self) -> float:
         """Share of the samples that are clipped."""
         return max(one.clipped_share for one in self.faults)
+
+    @property
+    def only_rounding(self) -> bool:
+        """Whether it holds nothing between its tones, along any direction."""
+        return all(_only_rounding(samples, self.rate) for samples in self._measured)
 
     def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
         """Envelopes in all bands, with their directions."""

@@ -27,6 +27,8 @@ STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
 """Decay of a ball's motion in its contacts, times the step: that is taken, and the limit of such
 steps."""
 
+RACES_OF_LOADS = ("inner", "outer")
+"""In the order of the loads."""
 
 LIGHTLY = 0.1
 """Part of the heaviest load from which on a ball counts for the band of contact resonances."""
@@ -268,7 +270,3 @@ def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
                     Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
                 )
     return tuple(sorted(found, key=lambda strike: (strike.time, strike.ball)))
-
-
-RACES_OF_LOADS = ("inner", "outer")
-"""In the order of the loads."""

@@ -28,11 +28,11 @@ from bearingcore.files.units import (
     SPEEDS,
     TIMES,
     UNITS,
-    cut_off,
     differentiated,
     kind_of,
     level_doubt,
 )
+from bearingcore.signals.dropouts import cut_off
 from bearingcore.signals.recording import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20

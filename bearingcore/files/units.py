@@ -16,7 +16,6 @@ from types import MappingProxyType
 import numpy as np
 
 from bearingcore.common.arrays import Array
-from bearingcore.common.numbers import count as counted
 from bearingcore.common.numbers import number
 from bearingcore.units import INCH, STANDARD_GRAVITY
 
@@ -203,37 +202,6 @@ def differentiated(signal: Array, sample_rate: float) -> Array:
     if len(turned) % 2 == 0:
         lines[-1] = 0.0  # at half the rate a slope has no sign
     return np.fft.irfft(lines, len(turned), axis=0)[:n] + slope * sample_rate
-
-
-FEWEST_CUT, CUT_PILE = 10, 5
-"""Samples at one limit, and times as many as at the next value, from which on peaks are cut off.
-
-Of a sine, which stays longest at its peaks, it is 2.4 times.
-"""
-
-
-def cut_off(signal: Array) -> str:
-    """A sentence where the peaks of a signal (n,) are cut off by its recorder, else ""."""
-    most = 0
-    limits: list[str] = []
-    for sign in (1.0, -1.0):
-        side = sign * signal
-        limit, inside = side.max(initial=-np.inf), side[side < side.max(initial=-np.inf)]
-        at = side.size - inside.size
-        if not inside.size or at < FEWEST_CUT:
-            continue
-        next_to = np.count_nonzero(inside == inside.max())
-        # a signal that rests there, as between pulses, is not cut off
-        if at >= CUT_PILE * next_to and limit - np.median(side) > 0.2 * (limit - inside.min()):
-            most += at
-            limits.append(number(sign * limit, 4))
-    if not most:
-        return ""
-    return (
-        f"{counted(most, 'sample')} of the file reach exactly {' or '.join(limits)}: the recorder "
-        "cut the peaks off. Level, peak, crest factor and kurtosis are too low; measure with a "
-        "wider range."
-    )
 
 
 def level_doubt(level: float) -> str:

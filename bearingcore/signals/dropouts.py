@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common.arrays import Array, runs
+from bearingcore.common.numbers import count, number
 
 LEAST_RUN = 16
 """Equal samples in a row from which a sensor is taken to have dropped out."""
@@ -17,6 +18,12 @@ LEAST_RUN_AT_RAIL = 256
 
 RAIL = 1e-6
 """Of the greatest swing: samples this close to an extreme are at it."""
+
+FEWEST_CUT, CUT_PILE = 10, 5
+"""Samples at one limit, and times as many as at the next value, from which on peaks are cut off.
+
+Of a sine, which stays longest at its peaks, it is 2.4 times.
+"""
 
 
 @dataclass(frozen=True)
@@ -52,3 +59,28 @@ def signal_faults(samples: Array) -> SignalFaults:
         elif at_rail:
             clipped += end - begin + 1
     return SignalFaults(dropped, float(dropped.mean()), clipped / len(samples))
+
+
+def cut_off(signal: Array) -> str:
+    """A sentence where the peaks of a signal (n,) are cut off by its recorder, else ""."""
+    reaching = 0
+    limits: list[str] = []
+    for sign in (1.0, -1.0):
+        side = sign * signal
+        limit = side.max(initial=-np.inf)
+        inside = side[side < limit]
+        at = side.size - inside.size
+        if not inside.size or at < FEWEST_CUT:
+            continue
+        next_to = np.count_nonzero(inside == inside.max())
+        # a signal that rests there, as between pulses, is not cut off
+        if at >= CUT_PILE * next_to and limit - np.median(side) > 0.2 * (limit - inside.min()):
+            reaching += at
+            limits.append(number(sign * limit, 4))
+    if not reaching:
+        return ""
+    return (
+        f"{count(reaching, 'sample')} of the file reach exactly {' or '.join(limits)}: the "
+        "recorder cut the peaks off. Level, peak, crest factor and kurtosis are too low; measure "
+        "with a wider range."
+    )

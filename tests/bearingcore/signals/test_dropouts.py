@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bearingcore.signals.dropouts import LEAST_RUN, signal_faults
+from bearingcore.signals.dropouts import LEAST_RUN, cut_off, signal_faults
 
 
 @pytest.fixture
@@ -44,3 +44,17 @@ def test_a_sensor_that_stays_at_its_rail_has_dropped_out(noise):
     found = signal_faults(noise)
     assert found.dropped_share == 0.1
     assert found.clipped_share == 0.0
+
+
+@pytest.mark.parametrize("step", [1e-9, 1e-3, 0.02])
+def test_peaks_that_a_recorder_cut_off_are_said_and_coarse_numbers_are_not(step: float) -> None:
+    """Noise, a sine and pulses between rests, in numbers as coarse as cheap recorders give."""
+    noise = np.random.default_rng(3).standard_normal(20_000)
+    sine = np.sin(2.0 * np.pi * 29.5 / 12_800.0 * np.arange(20_000))
+    pulses = np.where(np.arange(20_000) % 400 < 40, np.abs(noise) + 1.0, 0.0)
+    for whole in (noise, sine, pulses):
+        assert not cut_off(np.round(whole / step) * step)
+    both = np.round(np.clip(noise, -2.0, 2.0) / step) * step
+    count = np.count_nonzero(np.abs(both) == both.max())
+    assert f"{count} samples of the file reach exactly 2 or −2:" in cut_off(both)
+    assert " exactly 2:" in cut_off(np.minimum(np.round(noise / step) * step, 2.0))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from bearingcore.signals.dropouts import LEAST_RUN, cut_off, signal_faults
+from tests.outside.witness import witness
 
 
 @pytest.fixture
@@ -46,6 +47,12 @@ def test_a_sensor_that_stays_at_its_rail_has_dropped_out(noise):
     assert found.clipped_share == 0.0
 
 
+@witness(
+    "signal: cut_off",
+    by="counting: noise clipped at a known limit",
+    compared="samples at the limit; none of whole signals in coarse numbers",
+    within="each sample",
+)
 @pytest.mark.parametrize("step", [1e-9, 1e-3, 0.02])
 def test_peaks_that_a_recorder_cut_off_are_said_and_coarse_numbers_are_not(step: float) -> None:
     """Noise, a sine and pulses between rests, in numbers as coarse as cheap recorders give."""

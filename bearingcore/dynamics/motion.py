@@ -347,7 +347,7 @@ def simulate(
     rest = equilibrium_of(packed, [0.0])
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
-        step_rate = step_rate_of(packed, sample_rate, highest)
+        step_rate = step_rate_of(packed, sample_rate)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(

@@ -187,7 +187,7 @@ def stability_chart(
     """
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
-    usual = default_step_rate(scene, 65536.0, highest)
+    usual = default_step_rate(scene, 65536.0)
     sample_rate = max(65536.0, usual)
     report = watch.within(0.0, _SHARE_OF_REFERENCE)
     reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)

@@ -85,7 +85,7 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
     highest = highest_natural_frequency(scene)
     if scene.shaft_speed == 0.0 or not math.isfinite(highest):
         return None
-    return default_step_rate(scene, sample_rate, highest)
+    return default_step_rate(scene, sample_rate)
 
 
 def _contacts(scene: Scene, how: Marching) -> float:
@@ -136,7 +136,7 @@ def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> fl
 
 
 def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
-    return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
+    return default_step_rate(scene, sample_rate, COARSE_STEPS)
 
 
 # Motions and what is made of them

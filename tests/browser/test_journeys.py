@@ -701,6 +701,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     menu = visitor.menu("Compare")
     menu.get_by_role("textbox", name="Name of this scene").fill(_NAME)
     menu.get_by_role("button", name="Compare", exact=True).click()
+    expect(menu).to_be_hidden()  # what was done is said in its place
     visitor.menu("Compare")
     expect(curves).to_have_count(2)
     curves.nth(1).fill("long")

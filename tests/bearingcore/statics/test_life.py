@@ -142,30 +142,6 @@ def test_defects_of_both_races_by_counting() -> None:
     assert found.outer[0] == pytest.approx(outer, rel=2e-3)
 
 
-@pytest.mark.parametrize("name", ["6205", "6206", "7208-25deg"])
-def test_a_defect_of_the_outer_race_by_equal_steps(name: str) -> None:
-    scene = presets[name]
-    found = race_loads(scene, P, E)
-    angles = (np.arange(20_000) + 0.5) * scene.bearing.ball_spacing / 20_000
-    Q = equilibrium(scene, angles).ball_load
-    assert found.inner[0] == pytest.approx(float(np.mean(Q**P) ** (1 / P)), rel=2e-5)
-    assert found.outer[0] == pytest.approx(float(np.mean(Q ** (P * E)) ** (1 / (P * E))), rel=2e-5)
-
-
-@pytest.mark.parametrize("race", ["inner", "outer"])
-def test_turning_the_whole_scene_changes_nothing(race: str) -> None:
-    scene = damaged(race)
-    assert isinstance(scene.defect, Defect)
-    turn = 0.37
-    turned = scene.replace(
-        fx=-scene.load.fy * math.sin(turn),
-        fy=scene.load.fy * math.cos(turn),
-        center=scene.defect.center + turn,
-    )
-    before, after = life(scene, 19_500.0), life(turned, 19_500.0)
-    assert after.million_revolutions == pytest.approx(before.million_revolutions, rel=2e-4)
-
-
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
     scene = presets["6205"].healthy()
     inner, outer = life(scene, 14e3), life(scene, 14e3, turning_race="outer")

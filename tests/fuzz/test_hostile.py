@@ -15,6 +15,7 @@ from tests.helpers.page_client import PageClient
 from tests.helpers.served import served
 
 
+@pytest.mark.proof
 def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
     caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

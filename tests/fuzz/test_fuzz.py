@@ -1,4 +1,4 @@
-"""Broken inputs of every parser: ``FUZZ_INPUTS=100000 pytest -n 0 tests/fuzz/test_fuzz.py``."""
+"""Broken inputs: ``FUZZ_INPUTS=100000 pytest -n 0 -m proof tests/fuzz/test_fuzz.py``."""
 
 import os
 import warnings

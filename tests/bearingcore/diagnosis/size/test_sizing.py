@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bearingcore import Defect, Scene, presets, simulate
+from bearingcore import Defect, Scene, simulate
 from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
 from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT
 from bearingcore.diagnosis.size.judge import judged
@@ -17,9 +17,10 @@ from bearingcore.diagnosis.size.synthesis import Simulator
 from bearingcore.files.table import read_table
 from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
 from bearingcore.signals.recording import Recording
-from tests.benchmarks.sizing import FAMILIES, as_given, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 from tests.helpers.simulated import pit, simulated_recording
+
+pytestmark = pytest.mark.proof
 
 sized_by = partial(size_defect, support_known=True)
 """Sizing where the scene's support is that of the machine."""
@@ -32,7 +33,6 @@ def measured() -> tuple[Scene, bytes]:
     return file_from_elsewhere()
 
 
-@pytest.mark.proof
 def test_a_file_from_elsewhere_is_sized(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording(
@@ -49,7 +49,6 @@ def test_a_file_from_elsewhere_is_sized(measured):
     assert sized.passes.frequency == pytest.approx(1.001 * nominal, rel=1.5e-4)
 
 
-@pytest.mark.proof
 def test_in_another_unit_it_says_so(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording([1, 2], ["x", "y"], "m/s²")
@@ -136,7 +135,6 @@ def test_only_outer_races_can_be_told_by_hand():
         sized_by(noise, RIG, fault="inner race")
 
 
-@pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
     rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
@@ -205,32 +203,6 @@ def marched(scene, frequency, count, columns) -> BallPasses:
     each = coefficients(signal.reshape(passes, n, len(columns)), count)
     power = (np.abs(each) ** 2).mean(axis=0)
     return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
-
-
-@pytest.mark.proof
-def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
-    """A small part of `python -m tests.benchmarks.sizing given`, with room for bad luck."""
-    answers = list(size_all(partial(as_given, FAMILIES["given"], noises=(20.0,)), 8))
-    right = [a for a in answers if a.kind == "right, 20 dB"]
-    wrong = [a for a in answers if a not in right]
-    assert len(right) == 8
-    assert len(wrong) >= 8
-    assert sum(a.right_turns for a in right) >= 7
-    assert sum(a.right_extent for a in right) >= 7
-    assert sum(a.right_turns for a in wrong) >= 0.8 * len(wrong)
-    assert sum(a.right_extent for a in wrong) >= 0.7 * len(wrong)
-    sure = [a for a in answers if a.conclusive]
-    assert sum(a.right_turns for a in sure) >= 0.9 * len(sure)
-    # whole ball spacings long, a defect looks like a pit and none is sized
-    like_a_pit = [a for a in answers if _from_whole_spacings(a.truth) < 2.0]
-    assert not any(a.conclusive for a in like_a_pit)
-    assert len(sure) >= 0.7 * (len(answers) - len(like_a_pit))
-
-
-def _from_whole_spacings(extent: float) -> float:
-    """How far [deg] an extent is from one, two, ... ball spacings of the fan rig."""
-    spacing = math.degrees(presets["fan-rig"].bearing.ball_spacing)
-    return abs(extent - max(round(extent / spacing), 1) * spacing)
 
 
 def apart(one, other) -> float:

@@ -155,55 +155,59 @@ MOST_RATES = 500_000
 """Right-hand sides after which a general-purpose method is given up."""
 
 
-def _by_scipy(
-    problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, method: str
-) -> March:
-    """`scipy.integrate.solve_ivp`."""
-    from scipy.integrate import solve_ivp  # imported late: slow to import
+States = Callable[[Rates, Array, float], Array]
+"""(rates, times (n,) [s], tolerance) -> scaled states (≤ n, 4 directions), as far as it came."""
 
+
+def _own_steps(
+    problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, states: States
+) -> March:
+    """Steps that a general-purpose method chooses itself."""
     time = instants(sample_rate, duration)
     rates = Rates(problem, most=MOST_RATES)
-    states, why = np.empty((0, rates.start.size)), ""
+    found, why = np.empty((0, rates.start.size)), ""
     try:
-        answer = solve_ivp(  # type: ignore[call-overload]
-            rates, (0.0, time[-1]), rates.start, method=method, t_eval=time,
-            rtol=max(tolerance, 2.3e-14), atol=tolerance,
-        )  # fmt: skip
-        states, why = answer.y.T, "" if answer.success else str(answer.message)
+        found = states(rates, time, tolerance)
+        if len(found) < len(time):
+            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(found) - 1, 0)]:.2g} s"
     except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
         why = str(error) or type(error).__name__
-    return March(rates.history(time, states), sample_rate, rates.calls, why)
+    return March(rates.history(time, found), sample_rate, rates.calls, why)
 
 
-def _by_cvode(
-    problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, method: str
-) -> March:
-    """CVODE of SUNDIALS, through scikit-sundae."""
-    time = instants(sample_rate, duration)
-    rates = Rates(problem, most=MOST_RATES)
-    states, why = np.empty((0, rates.start.size)), ""
-    try:
-        states = cvode_states(rates, time, method, tolerance)
-        if len(states) < len(time):
-            why = f"{MotionStatus.STEP_VANISHED} after {time[len(states) - 1]:.2g} s"
-    except TooManyRatesError as error:
-        why = str(error)
-    return March(rates.history(time, states), sample_rate, rates.calls, why)
+def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
+    """`scipy.integrate.solve_ivp` by the name of its method."""
+
+    def states(rates: Rates, time: Array, tolerance: float) -> Array:
+        from scipy.integrate import solve_ivp  # imported late: slow to import
+
+        relative = max(tolerance, 2.3e-14)
+        answer = solve_ivp(  # type: ignore[call-overload]
+            rates, (0.0, time[-1]), rates.start, name, time, rtol=relative, atol=tolerance
+        )
+        return np.asarray(answer.y).T
+
+    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances, slow=slow)
 
 
 HAS_CVODE = importlib.util.find_spec("sksundae") is not None
 """Whether scikit-sundae is installed: the extra "cvode"."""
 
 
-def cvode_states(rates: Rates, time: Array, method: str, tolerance: float) -> Array:
-    """Scaled states at times [s], as far as CVODE came. `method`: "Adams" or "BDF"."""
+def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams") -> Array:
+    """Scaled states at times [s], as far as CVODE of SUNDIALS came; also `name` "BDF"."""
     from sksundae.cvode import CVODE  # imported late: optional
 
     def fill(t: float, y: Array, out: Array) -> None:
         out[:] = rates(t, y)
 
-    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
+    solver = CVODE(fill, method=name, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
     return np.array(solver.solve(time, rates.start).y)
+
+
+def _cvode(name: str, *tolerances: float) -> Method:
+    march = partial(_own_steps, states=partial(cvode_states, name=name))
+    return Method(f"CVODE {name}", march, tolerances)
 
 
 FINE, COARSE = (1e-2, 1e-4, 1e-6, 1e-9, 1e-11), (1e-3, 1e-6)
@@ -216,13 +220,13 @@ METHODS: dict[str, Method] = {
         Method("RK4", _runge_kutta, order=4),
         # with velocities as variables, whose rates jump as a ball touches
         Method("RK4 in velocities", partial(_runge_kutta, velocities=True), order=4),
-        Method("scipy RK45", partial(_by_scipy, method="RK45"), FINE[:-1]),
-        Method("scipy DOP853", partial(_by_scipy, method="DOP853"), FINE, slow=True),
-        Method("scipy LSODA", partial(_by_scipy, method="LSODA"), FINE),
-        Method("scipy Radau", partial(_by_scipy, method="Radau"), COARSE, slow=True),
-        Method("scipy BDF", partial(_by_scipy, method="BDF"), COARSE, slow=True),
-        Method("CVODE Adams", partial(_by_cvode, method="Adams"), FINE),
-        Method("CVODE BDF", partial(_by_cvode, method="BDF"), (*COARSE, 1e-9)),
+        _scipy("RK45", *FINE[:-1]),
+        _scipy("DOP853", *FINE, slow=True),
+        _scipy("LSODA", *FINE),
+        _scipy("Radau", *COARSE, slow=True),
+        _scipy("BDF", *COARSE, slow=True),
+        _cvode("Adams", *FINE),
+        _cvode("BDF", *COARSE, 1e-9),
     )
 }
 """Ways to march by name."""

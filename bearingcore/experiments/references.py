@@ -177,6 +177,6 @@ def _embedded_pair(rates: Rates, time: Array) -> Array:
 FAMILIES = (
     ("LSODA (multistep)", _multistep),
     ("DOP853 (embedded pair)", _embedded_pair),
-    ("CVODE (Adams)", lambda rates, time: cvode_states(rates, time, "Adams", TOLERANCE)),
+    ("CVODE (Adams)", lambda rates, time: cvode_states(rates, time, TOLERANCE)),
 )
 """Integrators of the references; the last one only where it is installed."""

@@ -291,12 +291,15 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     def at(one: OrbitAtSpeed) -> str:
         return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
 
-    changes = [
-        f"{b.loss or 'stable again'} from {at(b)}" for a, b in pairwise(found) if a.loss != b.loss
-    ]
+    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
+    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
     first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
+    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
+    named = dict.fromkeys([found[0], *changed, found[-1]])
+    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
     missing = len(orbits) - len(found)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    changes = changes or [f"and so to {at(found[-1])}"]
-    words = ", ".join([first, *changes])
-    return f"{words}. The factor by which a ball pass changes a small disturbance.{rest}"
+    return (
+        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
+        f"the orbit is unstable: {sizes}.{rest}"
+    )

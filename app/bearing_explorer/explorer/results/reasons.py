@@ -87,8 +87,8 @@ def most_loaded(
             where, brief = f"{near}, where the rings are pressed together most", "nearest the load"
     # in a defect, farther than those that carry most, and with less load
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
-    inside, beside = nearer[lost[nearer]], _neighbours(bearing, most)
-    gone = inside if inside.size else beside[lost[beside]]
+    inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
+    gone = inside if inside.size else adjacent[lost[adjacent]]
     said, single = _named(bearing, gone), gone.size == 1
     if briefly:
         if gone.size and brief == where:
@@ -108,14 +108,14 @@ def most_loaded(
 
 def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
     """Elements beside these in their rows."""
-    beside = [
+    adjacent = [
         its.start + (int(k) - its.start + side) % (its.stop - its.start)
         for its in bearing.balls_of_rows
         for k in which
         if its.start <= k < its.stop
         for side in (-1, 1)
     ]
-    return np.unique(np.array(beside, dtype=np.int64))
+    return np.unique(np.array(adjacent, dtype=np.int64))
 
 
 def greatest_load(results: Results) -> str:

@@ -103,7 +103,7 @@ class SignalForm(Findings):
         value = self.state.values.get(name, "")
         if not says_the_same(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
-            return f"Given for the file before, {kept}" if kept else "Given"
+            return f"Assumed, kept from the file before, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     @property
@@ -125,6 +125,11 @@ class SignalForm(Findings):
             name for name, fields in GROUPS.items()
             if name in kept and all(form[field] == kept[field] for field in fields)
         )  # fmt: skip
+
+    def keep_machine(self) -> None:
+        """Bearing and speed, given for the file before, are those of this one too."""
+        self._kept = {}
+        self.take_form(self.state.values)
 
     def forget_machine(self) -> None:
         """Ask for bearing and speed again, which were given for the file before.

@@ -116,16 +116,22 @@ def speed_alone(machine: Machine) -> str:
 
 
 def assumed(question: Question) -> str:
-    """Assumptions of the answer that a file only suggests, in a sentence after the finding."""
+    """Assumptions of the answer that no person made for this file, in sentences after it."""
     machine = question.measured.machine
     names = {
         "bearing": f"the bearing ({machine.bearing_name})",
         "speed": f"the shaft speed ({_rpm(machine.shaft_speed or 0.0)})",
     }
-    guessed = [words for name, words in names.items() if name in machine.guessed]
-    if not guessed:
-        return ""
-    return f" Assumed from the look of the file: {style.list_words(guessed)}."
+    words = ""
+    for why, assumed in (
+        ("Assumed from the look of the file", machine.guessed),
+        ("Assumed to be as for the file before", machine.kept),
+    ):
+        if listed := [one for name, one in names.items() if name in assumed]:
+            words += f" {why}: {style.list_words(listed)}."
+    if machine.unread:
+        words += f" “{machine.unread}” in the designation is not known here, and is passed over."
+    return words
 
 
 def _rpm(speed: float) -> str:

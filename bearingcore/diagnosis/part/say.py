@@ -170,8 +170,9 @@ def blows(kurtosis: float, duration: float) -> str:
 def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (
-        f"No damage shows, but {number(duration)} s are enough only for damage that modulates the "
-        f"envelope by {percent(detectable, 2)} or more. A longer recording shows more."
+        f"No damage shows, but {number(duration)} s are enough only for damage that makes the "
+        f"vibration's power swing by {percent(detectable, 2)} of its mean or more. A longer "
+        "recording shows more."
     )
 
 
@@ -186,8 +187,9 @@ def rounded() -> str:
 def healthy(detectable: float) -> str:
     """None seen."""
     return (
-        "No damage seen on outer race, inner race or balls: their lines do not show, and "
-        f"impacts that modulate the envelope by {percent(detectable, 2)} would have been seen."
+        "No damage seen on outer race, inner race or balls: their lines do not show. "
+        f"Impacts that make the vibration's power swing by {percent(detectable, 2)} of its mean, "
+        "at their frequency and its harmonics, would have been seen in nine of ten such records."
     )
 
 

@@ -63,7 +63,8 @@ def plain(found: Diagnosis, question: Question) -> str:
     if found.fault == NONE_SEEN:
         return (
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
-            f"that modulate the vibration by {swing(found.detectable_depth)} would have shown."
+            f"that make its power swing by {swing(found.detectable_depth)} of the mean, at each "
+            "harmonic, would have shown in nine of ten such records."
             f"{counted(question)}"
         )
     return found.detail

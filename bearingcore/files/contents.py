@@ -199,7 +199,7 @@ def contents_of(table: FileColumns) -> FileContents:
         choice,
         _unit(table, columns, picked, known),
         rate,
-        speed or _speed_of_pulses(table, columns, rate),
+        speed or _speed_of_pulses(table, columns, rate, sampling),
         facts.load_in(named) or known.load,
         sampling,
         said,
@@ -438,14 +438,20 @@ def _speed(
 
 
 def _speed_of_pulses(
-    table: FileColumns, columns: Sequence[Column], rate: Finding[float] | None
+    table: FileColumns,
+    columns: Sequence[Column],
+    rate: Finding[float] | None,
+    sampling: Sampling | None,
 ) -> Finding[float] | None:
     """A guess at the shaft speed from a tachometer's even pulses, as if each were a turn."""
     for index, column in enumerate(columns):
         if rate is None or column.role != OTHER or not words_of(column.name) & PULSES:
             continue
-        values = table.columns[:, index]
-        low, high = np.nanquantile(values, (0.001, 0.999))
+        first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
+        values = table.columns[first:last, index]
+        if not np.isfinite(values).all():
+            continue
+        low, high = np.quantile(values, (0.001, 0.999))
         begins = np.flatnonzero(np.diff((values > 0.5 * (low + high)).astype(int)) == 1)
         if len(begins) < FEWEST_PULSES or np.ptp(turns := np.diff(begins)) > 0.1 * turns.mean() + 2:
             continue

@@ -233,8 +233,9 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
             if grain is not None:
                 rounded = _rounded_times(grain, part, unit)
                 trouble = f"{said} {rounded.trouble}"
-                rate, reason = rounded.sample_rate, rounded.reason
-                return Sampling(rate, False, first, last, trouble, reason, parts)
+                return dataclasses.replace(
+                    rounded, first=first, last=last, trouble=trouble, parts=parts
+                )
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     trouble = (

@@ -32,7 +32,7 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
     """Too few knocks."""
     return (
         f"{number(duration)} s hold "
-        f"{count(round(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
+        f"{count(int(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
         "needed."
     )
 
@@ -55,6 +55,14 @@ def too_far(known: str, end: str, speed: float, why: str) -> str:
     return (
         f"The shaft speed {known}. At the {end} speed looked for, {number(60.0 * speed, 4)} rpm: "
         f"{why} Give the shaft speed; this record may be enough then."
+    )
+
+
+def other_unit(speed: float, other: float) -> str:
+    """The shaft's lines show at 60 times the speed [Hz] that is given, or at a 60th of it."""
+    return (
+        f"Lines of a shaft do not show at {number(60.0 * speed, 4)} rpm, but clearly at "
+        f"{number(60.0 * other, 4)} rpm: is the speed given in Hz for rpm, or the other way?"
     )
 
 

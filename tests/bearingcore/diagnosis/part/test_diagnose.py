@@ -27,6 +27,7 @@ from tests.bearingcore.diagnosis.signals_made import (
 )
 from tests.benchmarks.measured_records import ball_bearing, records
 from tests.benchmarks.scoreboard import FILE, WRONG, verdict
+from tests.outside.motor_signals import Motor
 from tests.outside.witness import witness
 
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
@@ -152,6 +153,17 @@ def test_a_healthy_machine_is_told_so_in_words(healthy):
     assert not found.names_a_part
     assert "No damage seen" in found.sentence
     assert found.detectable_depth < 0.12
+
+
+def test_a_speed_in_the_wrong_unit_is_asked_about_where_the_shaft_shows_at_60_times_it():
+    machine = Motor(1500.0, shaft_lines=(0.5, 0.3, 0.2))
+    recording = Recording(machine.signal(1), machine.rate, ("y",))
+    for rpm in (25.0, 90_000.0):
+        sentence = diagnose(recording, "6205", rpm * TURN / 60.0).sentence
+        assert f"do not show at {rpm:.0f} rpm, but clearly at 1500 rpm" in sentence
+    quiet = Motor(1500.0, shaft_lines=())
+    recording = Recording(quiet.signal(1), quiet.rate, ("y",))
+    assert "clearly at" not in diagnose(recording, "6205", 25.0 * TURN / 60.0).sentence
 
 
 @pytest.mark.proof

@@ -126,7 +126,7 @@ def _diagnose(
 def _if_in_another_unit(
     signal: ListenedSignal, answer: Diagnosis, speed: float, slip: float
 ) -> Diagnosis:
-    """The answer with a question where the shaft's lines show at 60 times the speed [Hz], or a 60th.
+    """The answer, with a question where the shaft shows at 60 times the speed [Hz], or a 60th.
 
     Hz and rpm are confused then, most likely.
     """

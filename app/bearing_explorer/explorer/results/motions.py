@@ -153,8 +153,10 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
     duration = quick_duration(scene, how)
     if rate is not None:
         duration = _affordable(scene, duration, rate, by_hand is not None)
+    # the default takes more steps where contacts that let go need them
+    chosen = rate if how.coarse or by_hand is not None else None
     found = core.simulate(
-        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
+        scene, duration, how.sample_rate, step_rate=chosen, most_steps=MOST_STEPS_WITH_MASS
     )
     preview = how.coarse and duration < SHORTEST
     return SettledMotion(found, (PREVIEW_TRANSIENT_SHARE if preview else 0.5) * duration)

@@ -47,8 +47,8 @@ MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
-"""How often steps are halved where contacts let go, up to which part of a level half as many are
-alike, and the level [m/s] below which nothing counts."""
+"""Doublings of the steps a second where contacts let go, at most; the part of a level up to which
+two motions are alike; and the level [m/s] below which nothing counts."""
 
 KEPT = 4
 """Rows a sample, at most, that a motion of balls with mass is filtered from."""

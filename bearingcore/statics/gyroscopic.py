@@ -105,7 +105,7 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
 
 
 def _turn_words(found: _Gyroscopic) -> str:
-    """How far the outer contact turns; the moment grows as it does, which the estimate leaves."""
+    """Turn of the outer contact; the moment grows with it, which the estimate leaves out."""
     turn, most = math.degrees(found.turn), math.degrees(found.share)
     if found.turn > GREATEST_ESTIMATE:
         return f"more than {number(turn, 2)}°"

@@ -358,12 +358,14 @@ def simulate(
         if not with_mass and scene.contact_law != CONTACT_LAWS[0]:
 
             def at(rate: float) -> Motion:
-                return simulate(scene, duration, sample_rate, step_rate=rate, most_steps=most_steps)
+                return simulate(
+                    scene, duration, sample_rate, ball_loads=ball_loads, step_rate=rate,
+                    most_steps=most_steps,
+                )  # fmt: skip
 
             a_sample = step_rate / sample_rate
             half = sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * step_rate
-            motion = _with_enough_steps(at, half, step_rate)
-            return motion.with_ball_loads(packed) if ball_loads else motion
+            return _with_enough_steps(at, half, step_rate)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(
@@ -471,6 +473,7 @@ def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: floa
         detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
         "the vibration by more than a tenth",
         history=np.full_like(motion.history, math.nan),
+        ball_load=None if motion.ball_load is None else np.full_like(motion.ball_load, math.nan),
     )
 
 

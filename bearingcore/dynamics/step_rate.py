@@ -11,7 +11,7 @@ from bearingcore.dynamics.ball_motion import STABLE_DECAY, ball_step_rate
 from bearingcore.dynamics.damping import packed_motion
 from bearingcore.dynamics.modes import highest_frequency_of
 from bearingcore.scene.packing import PackedMotion, pack
-from bearingcore.scene.scene import CONTACT_LAWS, WITH_MASS, Scene
+from bearingcore.scene.scene import WITH_MASS, Scene
 from bearingcore.statics.passes import STEPS_A_PASSAGE, shortest_passage
 
 STEPS_A_CYCLE = 16.0
@@ -24,9 +24,6 @@ that needs them, as steps stay stable down to 2.2."""
 LEAST_STEPS_A_SAMPLE = 0.5
 """However slow the modes are: contacts that open and close shake faster. A heavy rotor on few
 balls, stepped at an eighth of the samples, was 4 dB off."""
-
-QUIET_DECAY = 0.5
-"""As `STABLE_DECAY`, where contacts without tension let go in the middle of a step."""
 
 
 def default_step_rate(scene: Scene, sample_rate: float, part: float = 1.0) -> float:
@@ -48,8 +45,7 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, part: float = 1.0) ->
     if not math.isfinite(highest):
         needed = sample_rate
     needed = max(needed, STEPS_A_PASSAGE * scene.cage_speed / shortest_passage(scene))
-    decay = STABLE_DECAY if scene.contact_law == CONTACT_LAWS[0] else QUIET_DECAY
-    needed = max(needed, _greatest_decay(packed) / decay)
+    needed = max(needed, _greatest_decay(packed) / STABLE_DECAY)
     if scene.balls == WITH_MASS:
         needed = max(needed, ball_step_rate(packed, sample_rate))
     if not math.isfinite(needed):

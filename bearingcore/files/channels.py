@@ -40,7 +40,8 @@ _NOT_SIGNALS = {
     "rpm", "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
     "pulses", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
-    "load", "index", "sample", "samples", "row", "no",
+    "load", "index", "sample", "samples", "row", "no", "gyro", "gyroscope", "gyr", "magnetic",
+    "magnetometer",
 }  # fmt: skip
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
@@ -100,8 +101,8 @@ def column_of(name: str) -> Column:
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    if unit is None and kind_of(unit_named(first) or "") == "time" and len(first) > 1 and not more:
-        unit = unit_named(first)  # "milliseconds"
+    if unit is None and len(first) > 1 and more in ([], ["elapsed"]):  # "seconds_elapsed"
+        unit = unit_named(first) if kind_of(unit_named(first) or "") == "time" else None
     timed = (
         first in _TIMES
         or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})

@@ -254,13 +254,11 @@ def _columns(
             return tuple(columns), times_of(values)
         found = sampling_of(values, TIMES[unit])
         return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
-    if stamped:
-        return tuple(columns), times_of(table.columns[:, stamped[0]], "s", sure=True)
-    return _with_times(table, columns)
+    return _with_times(table, columns, stamped)
 
 
 def _with_times(
-    table: FileColumns, columns: list[Column]
+    table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what those say that count rows or are times: by name, or as they rise."""
     found: dict[int, Sampling] = {}
@@ -270,7 +268,7 @@ def _with_times(
         if index in table.given or not (timed or rises):
             continue
         if timed:
-            found[index] = times_of(values, column.unit)
+            found[index] = times_of(values, column.unit, sure=index in stamped)
         elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
             # what rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
@@ -285,7 +283,7 @@ def _with_times(
     first = found[time]
     for index, other in found.items():
         rate = other.sample_rate
-        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
+        if rate and first.sample_rate and other.stated and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
             said = (
                 f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
             )
@@ -345,7 +343,7 @@ def _counts(time: Array, column: Column) -> bool:
 
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
-    return finite.size > 0 and bool(np.ptp(finite) > 0.0)
+    return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
 
 
 def _rate(
@@ -420,7 +418,7 @@ def _speed(
             speeds = table.columns[:, index]
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
-            if mean > 0.0:
+            if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
                 steady = is_steady(speeds)
                 words = f"the column “{column.name}”" + (
                     ""

@@ -129,8 +129,9 @@ BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
 
-LEAST_STATED, GREATEST_STATED = 100.0, 5e6
-"""[Hz] of recordings of vibration; another "sample rate" is asked about."""
+LEAST_STATED, GREATEST_STATED = 90.0, 5e6
+"""[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
+"sample rate" is asked about."""
 
 LEAST_RATE = 500.0
 """[Hz] below which a "rate" is the shaft's, not that of the samples."""
@@ -232,7 +233,7 @@ def _rate_key(name: str) -> str:
 
 
 _OTHER_RATE = re.compile(
-    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf|f_?max|lines|baud|bit"
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
 )
 
 

@@ -25,6 +25,10 @@ wander."""
 JUMP = 1.5
 """Steps longer than this many usual ones leave samples out."""
 
+PARTS, DRIFT = 10, 5e-3
+"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts, or
+is read a little early and late: that is less than bearings slip."""
+
 SHARED = 0.2
 """Share of rows with the time of the row before, from which on times are rounded to over a step."""
 
@@ -63,18 +67,22 @@ class Sampling:
     reason: str = "the time column"
 
 
-LIKELY_RATES = 500.0, 1e6
+LIKELY_RATES = 100.0, 1e6
 """[Hz]"""
 
 _SINCE_1970 = 1e9, 2.6e9
 """[s] from 2001 to 2052, counted as computers do."""
+
+_SINCE_1900 = 3e4
+"""[d] to 1982, as sheets count days."""
 
 
 def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
     """Sample rate and faults of a column of times whose unit may not be known.
 
     Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
-    has is a proposal, in the unit that would make it a likely one; none where the unit is `sure`.
+    has is a proposal, in the unit that would make it a likely one where none is given; no rate where
+    the unit is `sure`.
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
@@ -93,7 +101,8 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
         return dataclasses.replace(found, sample_rate=None, stated=False, trouble=trouble)
     per_second = rate * TIMES[unit or dated or "s"]
     low, high = LIKELY_RATES
-    likely = next((name for name in _PARTS if low <= per_second / TIMES[name] <= high), None)
+    parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
+    likely = next((name for name in parts if low <= per_second / TIMES[name] <= high), None)
     said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
     if likely is None:
         reason = f"{found.reason}; no recording of vibration is so: in {said}"
@@ -172,7 +181,7 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
 
 def _rounded(time: Array, steps: Array) -> float | None:
     """Grain to which times were rounded where this is more than a step, else None."""
-    if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
+    if steps.min() < 0.0 or not SHARED <= np.mean(steps == 0.0) < 1.0:
         return None
     grain = float(steps[steps > 0.0].min())
     step = float(time[-1] - time[0]) / (len(time) - 1)
@@ -221,6 +230,10 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
                 return Sampling(rounded.sample_rate, False, first, last, trouble, rounded.reason)
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
+    ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
+    means = np.diff(time[ends]) / np.maximum(np.diff(ends), 1)
+    if n > FEWEST_SAMPLES and not jumps.size and means.max() <= (1.0 + DRIFT) * means.min():
+        return Sampling(mean / unit, True, 0, n, reason="the mean of a time column that drifts")
     trouble = (
         f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
         f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "

@@ -106,10 +106,11 @@ def read_text(
             )
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style)
+    said: list[str] = []
     read = _numbers(body, style, most_rows)
     if read is None:
         above = content.count(b"\n", 0, begin) + 1
-        body, more = _mended(name, body, style, above)
+        body, more, said = _mended(name, body, style, above)
         notes += more
         read = _numbers(body, style, most_rows)
         if read is None:
@@ -127,7 +128,7 @@ def read_text(
     if len(kept) < width and kept:
         read = read[:, kept]
         headings = headings and [headings[i] for i in kept]
-    return _about(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+    return _about(read, headings, remarks + said, [kept.index(i) for i in style.stamps], notes)
 
 
 def _of_two_bytes(start: bytes) -> str:
@@ -334,9 +335,10 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
         first = _row(line, style.delimiter) if len(second) > 1 else None
     if first is None:
         return None
-    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
-    width = len(first) - (closed and len(first) > 1)
     rows = [_row(line, style.delimiter, words) for line in plain]
+    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
+    closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
+    width = len(first) - (closed and len(first) > 1)
     fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
@@ -357,7 +359,7 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
     if any(
-        word and not re.search(r"[^\W\d]", cell) for word, cell in zip(words, rows[0], strict=False)
+        word and not re.search(r"[^\W\d]|\d:\d", cell) for word, cell in zip(words, rows[0], strict=False)
     ):
         return ()  # "000125 −0" between two commas of decimals
     return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
@@ -513,7 +515,8 @@ LONGEST_HEADING = 4
 
 _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
-    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled",
+    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled", "start",
+    "increment",
 }  # fmt: skip
 _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
@@ -552,8 +555,12 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if _is_a_value(names):
             continue
-        while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
-            names.pop()  # LabVIEW names a column of words, which is empty
+        while len(names) > width and (
+            _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
+        ):
+            names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+        if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
+            names += [""] * (width - len(names))  # rows with empty cells at their ends
         if len(names) == width - 1 and _counts_rows(columns[:, 0]):
             names.insert(0, "")  # R names no column of the rows' names
         if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
@@ -657,10 +664,12 @@ def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
     return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
 
 
-def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, list[str]]:
-    """Lines with gaps in place of a few that hold no numbers, and sentences on them.
+def _mended(
+    name: str, body: bytes, style: _Style, above: int
+) -> tuple[bytes, list[str], list[str]]:
+    """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
-    The first line has the number `above`.
+    The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
     """
     lines, width = body.splitlines(keepends=True), style.width
     few, many = (
@@ -691,11 +700,12 @@ def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, l
         lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
         lines[index] += b"\n"
     if not wrong:
-        return b"".join(lines), []
+        return b"".join(lines), [], []
     index, text, _ = wrong[0]
     number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
     first = f"line {above + index}, “{text}”"
-    return b"".join(lines), [f"{number} numbers ({first}), which count as missing."]
+    notes = [f"{number} numbers ({first}), which count as missing."]
+    return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
 
 
 def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:

@@ -117,7 +117,9 @@ def column_of(name: str) -> Column:
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = words & _NOT_SIGNALS and (unit is None or unit in VOLTAGES)  # of a sensor for it
+    other = (words & _NOT_SIGNALS or first == "mag") and (
+        unit is None or unit in VOLTAGES
+    )  # of a sensor for it
     if other or (unit is not None and unit not in UNITS):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")

@@ -289,7 +289,12 @@ def _with_times(
     first = found[time]
     for index, other in found.items():
         rate = other.sample_rate
-        if rate and first.sample_rate and other.stated and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
+        if (
+            rate
+            and first.sample_rate
+            and other.stated
+            and abs(rate / first.sample_rate - 1.0) > TWO_RATES
+        ):
             said = (
                 f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
             )

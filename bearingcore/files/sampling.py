@@ -34,8 +34,8 @@ JUMP = 1.5
 """Steps longer than this many usual ones leave samples out."""
 
 PARTS, DRIFT = 10, 5e-3
-"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts, or
-is read a little early and late: that is less than bearings slip."""
+"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts
+or is read a little early and late: that is less than bearings slip."""
 
 SHARED = 0.2
 """Share of rows with the time of the row before, from which on times are rounded to over a step."""
@@ -92,8 +92,8 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
     """Sample rate and faults of a column of times whose unit may not be known.
 
     Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
-    has is a proposal, in the unit that would make it a likely one where none is given; no rate where
-    the unit is `sure`.
+    has is a proposal, where no unit is given in the one that would make it a likely one; there is
+    none where the unit is `sure`.
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0

@@ -90,6 +90,7 @@ def read_text(
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
+    content = _without_labels(content)
     style, begin, remarks = _beginning(name, content)
     width = style.width
     if width > min(LONG_ROW, most_columns):
@@ -139,6 +140,35 @@ def _of_two_bytes(start: bytes) -> str:
     if min(even, odd) > 0 or max(even, odd) < 0.45 * len(start) or not start:
         return ""
     return "utf-16-le" if odd else "utf-16-be"
+
+
+_LABELLED = re.compile(
+    r"([^\W\d][\w .()-]{0,30}?) ?[:=]\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?) ?([a-zA-Z/²]{1,5}|%)?"
+    r"[,;\s]*(?=[^\W\d]|$)"
+)
+"""A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
+
+
+def _without_labels(content: bytes) -> bytes:
+    """Lines of such numbers as a table with a heading; any other text as it is."""
+
+    def labels(line: str) -> list[tuple[str, str, str]]:
+        found = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
+        whole = "".join(one[0] for one in found) == line
+        return [(one[1].strip(), one[2], one[3] or "") for one in found] if whole else []
+
+    first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
+    heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
+    named = heads[-1]
+    if not named or 2 * heads.count(named) < len(heads) or len(heads) < SAMPLE:
+        return content
+    heading = [",".join(f"{name} [{unit}]" if unit else name for name, unit in named)]
+    made: list[str] = []
+    for line in content.splitlines():
+        said = labels(text := _decoded(line).strip())
+        made += [heading.pop()] if said and heading else []
+        made.append(",".join(value for _, value, _ in said) if said else text)
+    return "\n".join(made).encode()
 
 
 def _about(
@@ -359,7 +389,8 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
     if any(
-        word and not re.search(r"[^\W\d]|\d:\d", cell) for word, cell in zip(words, rows[0], strict=False)
+        word and not re.search(r"[^\W\d]|\d:\d", cell)
+        for word, cell in zip(words, rows[0], strict=False)
     ):
         return ()  # "000125 −0" between two commas of decimals
     return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()

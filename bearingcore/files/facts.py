@@ -87,7 +87,7 @@ def is_steady(values: Array) -> bool:
 
 MOST_REMARKS = 100
 
-_NUMBER = r"[-+]?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
+_NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
     r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?"
     rf"({_NUMBER})\"?"

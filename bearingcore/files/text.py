@@ -24,7 +24,7 @@ from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
-from bearingcore.files.facts import named_in, names_a_fact, units_said
+from bearingcore.files.facts import named_in, names_a_fact, sample_rate_in, units_said
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -105,6 +105,11 @@ def read_text(
                 width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
+    if _goes_on(remarks, content[begin:], style):
+        content, width, style = (
+            b"\n".join(content[begin:].split()), 1, dataclasses.replace(style, width=1)
+        )  # fmt: skip
+        begin = 0
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style)
     said: list[str] = []
@@ -171,6 +176,30 @@ def _without_labels(content: bytes) -> bytes:
     return "\n".join(made).encode()
 
 
+_COUNT = re.compile(r"(?i)npts|n?samples|points|(number|no\.?) of (samples|points|data)")
+
+
+def _goes_on(remarks: list[str], body: bytes, style: _Style) -> bool:
+    """Whether one signal goes on from row to row, as in records of earthquakes.
+
+    The count of its samples that is said above shows it, or its duration.
+    """
+    named = named_in(remarks)
+    counts = {one.value for one in named if _COUNT.fullmatch(one.name)}
+    counts |= {float(said) for line in remarks for said in re.findall(r"(\d+) samples", line)}
+    rate = sample_rate_in(named, "")
+    if rate is not None:
+        lasts = re.findall(r"(?i)duration\D{0,20}(\d+\.?\d*)", " ".join(remarks))
+        counts |= {rate.value * float(seconds) for seconds in lasts}
+    if style.delimiter is not None or style.width == 1 or style.stamps or not counts:
+        return False
+    above = remarks[-1].split()
+    if len(above) == style.width and all(re.match(r"[^\W\d]", cell) for cell in above):
+        return False  # the names of columns
+    rows = body.strip().count(b"\n") + 1
+    return any(rows - 1 < count / style.width <= rows for count in counts)
+
+
 def _about(
     columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
 ) -> tuple[dict[str, Any], Array]:
@@ -185,14 +214,16 @@ def _about(
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
 _DATE = rf"(?:{_DAY})[T _;,\t]+"
-_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d"
-_ZONE = r"(\s?Z|[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
+_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d?:\d\d?"
+_ZONE = r"(\s?Z|{space}[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
 _POINT_STAMP, _COMMA_STAMP = (
     # minutes and seconds alone are known by the part of a second behind them
     re.compile(
-        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?{_ZONE}"
+        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?"
+        + _ZONE.format(space=space)
     )
-    for point in (r"\.", "[.,]")
+    # between blanks a number may come next
+    for point, space in ((r"\.", r"\s?"), ("[.,]", ""))
 )
 
 
@@ -389,7 +420,7 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
     if any(
-        word and not re.search(r"[^\W\d]|\d:\d", cell)
+        word and " " in cell and not re.search(r"[^\W\d]", cell)
         for word, cell in zip(words, rows[0], strict=False)
     ):
         return ()  # "000125 −0" between two commas of decimals
@@ -435,6 +466,9 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
             numbered = _is_numbered(sample)
             found = None if numbered else _style(sample, remarks[-1] if remarks else "")
+            follows = _style(sample[1:], "") if found and found.width == 1 < len(sample) else None
+            if follows is not None and follows.width > 2:
+                found = None  # how many lines follow
             if found is not None:
                 return _one_column(found, sample, remarks), place, remarks
             words += 1

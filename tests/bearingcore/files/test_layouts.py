@@ -363,7 +363,7 @@ SLOW = 0.5 + np.arange(N) / 99.7
             RATE, True, "V", ["CH1 [Volt]", "CH2 [Volt]"],
         ),
         (
-            lines(lambda i, x, y: f"{i},{x},", "X,CH1,Start,Increment,\nSequence,Volt,0.1,1.25e-4,"),
+            lines(lambda i, x, y: f"{i},{x},", "X,CH1,Start,Increment\nSequence,Volt,0.1,1.25e-4,"),
             RATE, True, "V", ["Volt"],
         ),
         (
@@ -401,6 +401,20 @@ SLOW = 0.5 + np.arange(N) / 99.7
             RATE, True, "g", ["ax [g]"],
         ),
         (
+            "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
+            + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
+            RATE, True, "g", ["Memo.  a comment"],
+        ),
+        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, "g",
+         ["column 2", "column 3"]),
+        (
+            lines(
+                lambda i, x, y: f"2024-1-01 10:0:{TIME[i]:.6f} -0700,my phone,192.168.1.1,{x}",
+                "time,device,address,acc",
+            ),
+            RATE, True, "g", ["acc"],
+        ),
+        (
             lines(lambda i, x, y: f"00:08,{TIME[i]:.6f},{x},,,", "Duration,time,acc,watch"),
             RATE, True, "g", ["acc"],
         ),
@@ -408,7 +422,8 @@ SLOW = 0.5 + np.arange(N) / 99.7
     ids=[
         "settings beside the first numbers", "scope of two channels", "scope that counts",
         "phone that counts twice", "seconds and milliseconds", "nine axes", "slow seconds",
-        "fast seconds", "nanoseconds without a heading", "labels", "empty cells at the ends",
+        "fast seconds", "nanoseconds without a heading", "labels", "rows of one signal",
+        "count above", "zone and address", "empty cells at the ends",
     ],
 )  # fmt: skip
 def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -> None:

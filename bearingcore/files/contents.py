@@ -288,13 +288,8 @@ def _with_times(
         return tuple(columns), None
     first = found[time]
     for index, other in found.items():
-        rate = other.sample_rate
-        if (
-            rate
-            and first.sample_rate
-            and other.stated
-            and abs(rate / first.sample_rate - 1.0) > TWO_RATES
-        ):
+        rate, usual = other.sample_rate, first.sample_rate
+        if other.stated and rate and usual and abs(rate / usual - 1.0) > TWO_RATES:
             said = (
                 f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
             )

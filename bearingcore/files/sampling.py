@@ -250,7 +250,9 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
     means = np.diff(time[ends]) / np.maximum(np.diff(ends), 1)
     if n > FEWEST_SAMPLES and not jumps.size and means.max() <= (1.0 + DRIFT) * means.min():
-        return Sampling(mean / unit, True, 0, n, reason="the mean of a time column that drifts")
+        drift = number(100.0 * (means.max() / means.min() - 1.0), 2)
+        trouble = f"The clock drifts: by {drift} % between tenths of the recording."
+        return Sampling(mean / unit, True, 0, n, trouble)
     trouble = (
         f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
         f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "

@@ -107,7 +107,8 @@ def test_only_the_longest_part_with_times_is_used() -> None:
 def test_a_clock_that_drifts_a_little_says_its_mean_rate() -> None:
     time = np.cumsum(np.linspace(0.998, 1.002, 3000)) / RATE
     found = sampling_of(time)
-    assert (found.stated, found.trouble) == (True, "")
+    assert found.stated
+    assert "drifts: by 0.36 %" in found.trouble
     assert found.sample_rate == pytest.approx(RATE, rel=1e-3)
     assert not sampling_of(np.cumsum(np.linspace(0.98, 1.02, 3000)) / RATE).stated
 

@@ -29,7 +29,14 @@ from bearingcore.files.channels import (
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named, is_steady
-from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
+from bearingcore.files.sampling import (
+    Sampling,
+    clock_columns,
+    clock_time,
+    sampling_of,
+    since_1970,
+    times_of,
+)
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
@@ -275,10 +282,12 @@ def _with_times(
             continue
         if timed:
             found[index] = times_of(values, column.unit, sure=index in stamped)
-        elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
+        elif table.sample_rate is None and (
+            (dated := since_1970(values)) or (sampling := sampling_of(values)).stated
+        ):
             # what rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
-            if not sampling.trouble and not names_a_frequency(column.name):
+            if (dated or not sampling.trouble) and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
@@ -361,11 +370,14 @@ def _rate(
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    if timed and said and timed.stated and said.stated:
-        if abs(timed.value / said.value - 1.0) > TWO_RATES:
-            reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
-            return dataclasses.replace(timed, reason=reason, stated=False)
-        return timed
+    if (
+        timed
+        and said
+        and timed.stated == said.stated
+        and abs(timed.value / said.value - 1.0) > TWO_RATES
+    ):
+        reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+        return dataclasses.replace(timed, reason=reason, stated=False)
     for finding in (timed, said):
         if finding is not None and finding.stated:
             return finding

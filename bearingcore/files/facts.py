@@ -264,12 +264,12 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
         if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
             return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
-    match = re.search(
-        r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower()
-    )
-    if match is not None and float(match[1]) > 0.0:
-        words = f"“{match[0]}” in the file's name"
-        return Finding(1e3 * float(match[1]), words, match[2] is not None, strong=True)
+    name = file_name.lower()
+    for match in re.finditer(r"(?<![a-z0-9])(\d+\.?\d*)[ _-]?(k(?:hz|sps)?|hz)(?![a-z0-9])", name):
+        value = float(match[1]) * (1.0 if match[2] == "hz" else 1e3)
+        if value >= LEAST_RATE:
+            words = f"“{match[0]}” in the file's name"
+            return Finding(value, words, match[2] in ("khz", "ksps"), strong=True)
     return None
 
 

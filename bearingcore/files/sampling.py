@@ -97,8 +97,7 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
-    low, high = _SINCE_1970
-    dated = next((name for name in _PARTS[:-1] if low <= first * TIMES[name] <= high), None)
+    dated = since_1970(time)
     found = sampling_of(time, TIMES[unit or dated or "s"])
     if unit is None and dated is not None:
         found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
@@ -124,6 +123,21 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")
+
+
+def since_1970(time: Array) -> str | None:
+    """The unit in which numbers count from 1970, None where they do not."""
+    finite = time[np.isfinite(time)]
+    ends = finite[[0, -1]] if finite.size else np.zeros(2)
+    low, high = _SINCE_1970
+    return next(
+        (
+            name
+            for name in _PARTS[:-1]
+            if low <= ends[0] * TIMES[name] <= ends[1] * TIMES[name] <= high
+        ),
+        None,
+    )
 
 
 def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:

@@ -624,6 +624,10 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
             _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
         ):
             names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+        if len(names) == width + 1 and re.fullmatch(
+            r"\W*(headers|columns|fields)", names[0].lower()
+        ):
+            names.pop(0)
         if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
             names += [""] * (width - len(names))  # rows with empty cells at their ends
         if len(names) == width - 1 and _counts_rows(columns[:, 0]):

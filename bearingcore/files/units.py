@@ -100,7 +100,10 @@ _ALIASES = {unit.lower(): unit for unit in (*UNITS, *_TIMES, *FORCES, *SPEEDS, *
 _ALIASES |= {word: unit for unit, words in _WRITTEN.items() for word in words.split()}
 
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?)\s*[\])]")
-_LOOSE = {*"g gs mg v mv s ms us ns volt volts rpm g's hz n kn ips".split()}
+_LOOSE = {
+    "g", "gs", "mg", "v", "mv", "s", "ms", "us", "ns", "volt", "volts", "rpm", "g's", "hz", "n",
+    "kn", "ips",
+}  # fmt: skip
 """Short words that are units at the end of a name, as in "sensor_g"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3

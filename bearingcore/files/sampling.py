@@ -128,15 +128,10 @@ _PARTS = ("s", "ms", "µs", "ns", "d")
 def since_1970(time: Array) -> str | None:
     """The unit in which numbers count from 1970, None where they do not."""
     finite = time[np.isfinite(time)]
-    ends = finite[[0, -1]] if finite.size else np.zeros(2)
+    least, most = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
     low, high = _SINCE_1970
     return next(
-        (
-            name
-            for name in _PARTS[:-1]
-            if low <= ends[0] * TIMES[name] <= ends[1] * TIMES[name] <= high
-        ),
-        None,
+        (p for p in _PARTS[:-1] if low <= least * TIMES[p] and most * TIMES[p] <= high), None
     )
 
 

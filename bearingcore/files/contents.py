@@ -292,7 +292,8 @@ def _with_times(
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
-    time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
+    known = {i: (one.stated, one.sample_rate is not None) for i, one in found.items()}
+    time = max(known, key=lambda index: known[index], default=None)
     if time is None:
         return tuple(columns), None
     first = found[time]

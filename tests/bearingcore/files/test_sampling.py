@@ -104,6 +104,19 @@ def test_only_the_longest_part_with_times_is_used() -> None:
     assert "Times are missing in 10 rows" in found.trouble
 
 
+def test_a_clock_that_drifts_a_little_says_its_mean_rate() -> None:
+    time = np.cumsum(np.linspace(0.998, 1.002, 3000)) / RATE
+    found = sampling_of(time)
+    assert found.stated
+    assert "drifts: by 0.36 %" in found.trouble
+    assert found.sample_rate == pytest.approx(RATE, rel=1e-3)
+    assert not sampling_of(np.cumsum(np.linspace(0.98, 1.02, 3000)) / RATE).stated
+
+
+def test_a_time_that_stands_still_after_a_jump_is_no_error() -> None:
+    assert not sampling_of(np.concatenate([np.arange(10.0), np.full(990, 1e3)])).stated
+
+
 def test_a_clock_that_is_off_is_believed() -> None:
     assert sampling_of(TIME * 1.001).sample_rate == pytest.approx(RATE / 1.001, rel=1e-9)
 

@@ -272,7 +272,7 @@ def play(now: Bearing, before: Bearing) -> str:
         return ""
     text = f"the play {'grows' if new > old else 'shrinks'} from {_micro(old)} to {_micro(new)}"
     of_angle = new - 2.0 * now.radial_clearance
-    if abs(of_angle) < ALIKE * abs(new):
+    if abs(of_angle) <= ALIKE * abs(new):
         return text
     rest = f", {_micro(2.0 * now.radial_clearance)} the clearance" if now.radial_clearance else ""
     return f"{text} ({_micro(of_angle)} of it the contact angle{rest})"

@@ -257,14 +257,10 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
         ends = zip(now.bands[label], before.bands[label], strict=True)
         return max(abs(_ratio(new, old)) for new, old in ends)
 
-    labels = [
-        label
-        for label in now.bands
-        if label[:-1] == along
-        and label in before.bands
-        and moved(label) >= LEAST
-        and is_same_mode(label, now, before)
-    ]
+    common = [label for label in now.bands if label[:-1] == along and label in before.bands]
+    if not all(is_same_mode(label, now, before) for label in common):
+        return ""
+    labels = [label for label in common if moved(label) >= LEAST]
     if along in now.peaks and along in before.peaks:
         for label in labels:
             if _goes_along(

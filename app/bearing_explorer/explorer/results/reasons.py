@@ -379,6 +379,8 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             times = hertz if halves == 2 else f"{style.number(0.5 * halves)} × {hertz}"
             why = "as often as balls pass" if halves == 2 else "a multiple of the ball passes"
             why = "so the motion does not repeat with each ball pass" if halves % 2 else why
+            if briefly:
+                return f"Peak{above} at the line nearest {times}, {why}."
             return (
                 f"{text} lies in no band of {dof}. It is the line nearest {times}, {why} (lines "
                 f"are {most.resolution:.0f} Hz apart)."
@@ -427,7 +429,7 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
     text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
     if around.min() > KEPT * load.max():
-        return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} all along."
+        return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} then."
     return f"{text} and {what} its load ({style.with_prefix(load.max(), 'N', 2)} at most)."
 
 

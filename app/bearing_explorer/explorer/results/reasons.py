@@ -239,6 +239,11 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     push = f"lie near {_ACROSS[dof]} and push back along it"
     if large < NEAR:
         push = f"push back more along {_ACROSS[dof]} than along {_ACROSS[other]}"
+    if briefly:
+        return (
+            f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: balls "
+            f"push back more along {_ACROSS[dof]} ({_SQUARE[dof]} {large:.2f})."
+        )
     return (
         f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: loaded balls "
         f"{push} ({_SQUARE[dof]} {large:.2f} on average, {_SQUARE[other]} {small:.2f})."

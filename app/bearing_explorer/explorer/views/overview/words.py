@@ -26,7 +26,7 @@ ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
 _MOSTLY = 3.0  # times the effect of the next cause, from which one is the main one
-_OF_STIFFNESS, _SHIFT = 0.75, 0.05  # of the logarithm of a stiffness; its root has 0.5
+_OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 

@@ -122,6 +122,7 @@ def test_a_tab_that_opens_again_is_neither_sent_nor_painted(page: Page, explorer
     assert page.evaluate("window.__painted") == {}
 
 
+@pytest.mark.proof
 def test_tabs_are_right_after_the_window_changed_while_they_were_closed(
     page: Page, explorer: Server
 ) -> None:
@@ -139,6 +140,7 @@ def test_tabs_are_right_after_the_window_changed_while_they_were_closed(
             assert wide > 200
 
 
+@pytest.mark.proof
 def test_a_closed_tab_follows_the_theme(page: Page, explorer: Server) -> None:
     open_page(page, explorer, "load")
     rest(page)

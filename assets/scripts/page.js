@@ -289,12 +289,11 @@
   // Figures have their places some time after their numbers: the event "laid-out".
   const announce_layouts = () => {
     const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
-    if (!follow) return
-    let coming = false
-    plot.after_layout = function () {
+    let coming
+    if (follow) plot.after_layout = function () {
       follow.call(this)
-      if (!coming) setTimeout(() => { coming = false; announce("laid-out") })
-      coming = true
+      clearTimeout(coming)
+      coming = setTimeout(() => announce("laid-out"))
     }
   }
 

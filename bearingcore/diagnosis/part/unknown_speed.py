@@ -66,7 +66,13 @@ def in_range(
             return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
         if not hypotheses:  # no lines, or such as no part has at any of these speeds
             judged = compare(resolutions, parts, reach)
-            return decide(signal, judged, None, f"{source}, not found")
+            answer = decide(signal, judged, None, f"{source}, not found")
+            if not answer.names_a_part:
+                return answer
+            # of a part only at a speed outside the range, or too faint to find one
+            best = judged.own
+            beyond = replace(judged, shaft=best.frequency / best.nominal_order)
+            return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
         return _undecided_speed(signal, hypotheses, strongest, source)
     first = holding[0]
     rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)

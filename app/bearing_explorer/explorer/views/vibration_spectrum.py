@@ -34,7 +34,7 @@ from bearing_explorer.kit.plots.layers import (
 from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
@@ -160,9 +160,18 @@ class VibrationSpectra(LookView):
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [box, *linear.plots]
         high = {"min-height": "calc(var(--room) - 170px)"}
-        return self.only_with_numbers(
+        self._all = self.only_with_numbers(
             self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
         )
+        return self._all
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.withhold(self._all, but=1 + len(self._narrow))
+
+    def bring(self) -> None:
+        if self.wide:
+            super().bring()
 
     @property
     def is_empty(self) -> bool:

@@ -25,7 +25,7 @@ from tests.bearingcore.diagnosis.signals_made import (
     resonances,
     tone,
 )
-from tests.benchmarks.measured_records import ball_bearing, records
+from tests.benchmarks.measured_records import records
 from tests.benchmarks.scoreboard import FILE, WRONG, verdict
 from tests.outside.witness import witness
 
@@ -57,16 +57,6 @@ def damaged() -> dict[str, np.ndarray]:
 @pytest.fixture(scope="module")
 def healthy() -> np.ndarray:
     return background(MOTOR, np.random.default_rng(12))
-
-
-def test_orders_are_those_of_the_textbook():
-    """SKF's 6205: outer race 3.585, inner race 5.415, ball spin 2.357, cage 0.3983 a turn."""
-    outer, inner, ball = part_lines(ball_bearing(9, 7.94, 39.04))
-    assert outer.order == pytest.approx(3.585, abs=5e-4)
-    assert inner.order == pytest.approx(5.415, abs=5e-4)
-    assert ball.order == pytest.approx(2.0 * 2.357, abs=5e-3)
-    assert (outer.sidebands, inner.sidebands) == (0.0, 1.0)
-    assert ball.sidebands == pytest.approx(0.3983, abs=5e-4)
 
 
 @pytest.mark.parametrize("part", PARTS)

@@ -96,8 +96,32 @@ def factor_between(given: str, wanted: str) -> float | None:
 _SPELLINGS = {
     **{"um": "µm", "μm": "µm", "inch": "in", '"': "in", "″": "in", "degree": "°", "degrees": "°"},
     **{"hz": "Hz", "n": "N", "nm": "N·m", "1/min": "rpm", "min⁻¹": "rpm", "r/min": "rpm"},
+    **{"kn": "kN", "khz": "kHz", "mpa": "MPa", "gpa": "GPa", "pa": "Pa", "n/um": "N/µm"},
 }
 """Other ways to write units; the second of them is a Greek letter that looks like the sign."""
+
+_TYPED: Mapping[str, tuple[float, str]] = {
+    **{"g": (1e-3, "kg"), "t": (1e3, "kg"), "kgf": (STANDARD_GRAVITY, "N")},
+    **{"N/mm": (1e3, "N/m"), "N/µm": (1e6, "N/m"), "N/mm²": (1e6, "Pa"), "cm": (1e-2, "m")},
+}
+"""Further units that may be typed: multiples of one of `UNITS`."""
+
+_PREFIXES = {"n": 1e-9, "µ": 1e-6, "u": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6, "G": 1e9}
+_WITH_PREFIX = (
+    "m",
+    "s",
+    "g",
+    "Hz",
+    "rad",
+    "N",
+    "N·m",
+    "Nm",
+    "N/m",
+    "N/mm",
+    "N/rad",
+    "N·m/rad",
+    "Pa",
+)
 
 _WITH_UNIT = re.compile(
     r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)"
@@ -107,8 +131,24 @@ _WITH_UNIT = re.compile(
 )
 
 
+def _factor_of(given: str, wanted: str) -> float | None:
+    """Factor from a unit as it was typed, also with an SI prefix: "kN", "MPa", "N/mm"."""
+    if given == wanted:
+        return 1.0
+    spelled = given if given in UNITS else _SPELLINGS.get(given.lower(), given)
+    times, known = _TYPED.get(spelled, (1.0, spelled))
+    factor = factor_between(known, wanted)
+    if factor is not None:
+        return times * factor
+    for name in (given, spelled):
+        if name[:1] in _PREFIXES and name[1:] in _WITH_PREFIX:
+            factor = _factor_of(name[1:], wanted)
+            return None if factor is None else _PREFIXES[name[0]] * factor
+    return None
+
+
 def read_number(text: str, unit: str) -> float:
-    """A number that was typed, in `unit`: "8 mm", "5/16 in", "1 1/4 in", "12 µm", "0,5".
+    """A number that was typed, in `unit`: "8 mm", "5/16 in", "12 µm", "0,5", "0.2 MN".
 
     Without a unit it is in `unit` already.
 
@@ -126,9 +166,7 @@ def read_number(text: str, unit: str) -> float:
         below = float(found["below"])
         part = float(found["above"] or value) / below if below else math.nan
         value = math.copysign(abs(value) + part, value) if found["above"] else part
-    given = (found["unit"] or unit).strip()
-    given = given if given in UNITS else _SPELLINGS.get(given.lower(), given)
-    factor = 1.0 if given == unit else factor_between(given, unit)
+    factor = _factor_of((found["unit"] or unit).strip(), unit)
     if factor is None or not math.isfinite(value):
         raise ValueError(f"“{text}” is no number in {unit}" if unit else f"“{text}” is no number")
     return value * factor

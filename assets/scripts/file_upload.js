@@ -1,15 +1,29 @@
 // Files, chosen or dropped, sent one after the other in pieces: the server asks for each piece by its
 // first byte, and for the next file once it has read one.
+// The name of the last file stays in this tab of the browser, to say after a reload that it is gone.
+const stored = () => {
+  try { return sessionStorage.getItem("signal-files") || "" } catch { return "" }
+}
+const store = (name) => {
+  window.signal_files = name
+  try { sessionStorage.setItem("signal-files", name) } catch { /* a browser that stores nothing */ }
+}
+
 export function render({ model }) {
   const input = (id, more) => element("input", { type: "file", id, "aria-describedby": "measurement-note", ...more })
   const files = input("measurement-file", { multiple: "" })
   const folder = input("measurement-folder", { webkitdirectory: "" })
   const sound = input("measurement-baseline", { tabindex: "-1", "aria-hidden": "true" })
+  const lost = window.signal_files ? "" : stored()
+  const note = element("p", { class: "lost", role: "status" },
+    lost && `The page was loaded again: ${lost}, and what was said of it, is not kept. Choose it again.`)
+  note.hidden = !lost
   const bar = element("progress", { "aria-label": "Upload", max: "1", value: "0" })
   const root = element("div", { class: "upload" },
     element("div", { class: "line" },
       files, element("label", { for: files.id }, "Choose a file …"),
       folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), sound, bar),
+    note,
     element("p", { id: "measurement-note" }, model.note))
   const { compare } = new Intl.Collator(undefined, { numeric: true })
   const place = (file) => file.webkitRelativePath || file.name
@@ -33,6 +47,8 @@ export function render({ model }) {
     chosen = all.length
     count = Math.min(chosen, model.most)
     // of more files than are taken some from first to last
+    if (chosen && !is_baseline) store(chosen > 1 ? `the signal of ${chosen} files` : all[0].name)
+    note.hidden = true
     queue = all.filter((_, k) => count === chosen || Math.floor(k * (count - 1) / (chosen - 1)) !== Math.floor((k - 1) * (count - 1) / (chosen - 1)))
     next()
   }

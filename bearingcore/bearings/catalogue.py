@@ -73,6 +73,8 @@ class CatalogueBearing:
         where the numbers come from, as given.
     assumed
         values assumed for empty cells, in words.
+    unread
+        letters of a designation of which no meaning is known.
     """
 
     name: str
@@ -80,6 +82,7 @@ class CatalogueBearing:
     dynamic_load_rating: float | None = None
     note: str = ""
     assumed: tuple[str, ...] = ()
+    unread: str = ""
 
 
 @lru_cache(maxsize=1)

@@ -116,6 +116,8 @@ class Designation:
         what the designation does not say, in words.
     reinforced
         the inside by its letters, where it is not the plain one of the number: "BECB".
+    unread
+        letters behind the number of which no meaning is known.
     """
 
     name: str
@@ -129,6 +131,7 @@ class Designation:
     bearing: Bearing
     assumed: tuple[str, ...]
     reinforced: str = ""
+    unread: str = ""
 
     @property
     def entry(self) -> CatalogueBearing:
@@ -153,7 +156,7 @@ class Designation:
             else f"JTEKT (Koyo) catalogue; others print up to 13 % more. {accuracy(tapered)}"
         )
         return CatalogueBearing(
-            self.name, self.bearing, self.dynamic_load_rating, note, self.assumed
+            self.name, self.bearing, self.dynamic_load_rating, note, self.assumed, self.unread
         )
 
 
@@ -195,8 +198,8 @@ def read_designation(text: str) -> Designation:
         )
     inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
     bearing = _built(kind, inside, angle, play, assumed)
-    if unknown := unknown_letters(suffix):
-        assumed.append(f"that {unknown}, which is not known here, changes nothing")
+    if unread := unknown_letters(kind, suffix):
+        assumed.append(f"that {unread}, which is not known here, changes nothing")
     if kind == ROLLERS:
         assumed += _of_flanges(form["letters"] or "", basic, suffix)
     if said.is_ceramic:
@@ -224,6 +227,7 @@ def read_designation(text: str) -> Designation:
         bearing.replace(dynamic_load_rating=known),
         tuple(assumed),
         said.inside,
+        unread,
     )
 
 

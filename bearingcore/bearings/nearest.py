@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from bearingcore.bearings.designation_tables import boundaries, series_of
+from bearingcore.bearings.suffix import BEFORE
 from bearingcore.common.numbers import number
 
 _LIKE = {
@@ -31,7 +32,7 @@ _LIKE = {
 }
 """Series of the table that stand in for others, and what they are instead."""
 
-_FORM = re.compile(r"(?:.*[ -])??(?P<letters>[A-Z]{0,3}?)[ -]?(?P<number>\d{3,5})(?!\d)")
+_FORM = re.compile(BEFORE + r"(?:.*[ -])??(?P<letters>[A-Z]{0,3}?)[ -]?(?P<number>\d{3,5})(?!\d)")
 _SMALL_BORES = {0: 10.0, 1: 12.0, 2: 15.0, 3: 17.0}
 _SHORT = {"68": "618", "69": "619"}
 _SMALL = {"63": "62"}
@@ -47,6 +48,8 @@ def nearest_known(name: str) -> str:
     letters = "UC" if letters.startswith("UC") else letters
     letters = "NU" if letters in ("N", "NJ", "NUP", "NF") else letters
     for key in dict.fromkeys((letters + digits, digits)):
+        if len(letters) > 1 and key == digits:
+            break  # another kind, of which the number says nothing
         if key[-3:].isdigit() and len(digits) == 3 and key == digits:  # bores below 10 mm: 608
             series, bore = _SMALL.get(digits[:2], digits[:2]), float(digits[2])
         else:

@@ -24,10 +24,13 @@ ANGLES = {"AC": 25, "A5": 25, "A": 30, "B": 40, "C": 15, "E": 25}
 
 BEFORE = (
     r"(?:(?P<count>\d) ?[X×Х*] ?)?"
-    r"(?:(?!NUP|NU|NJ|NF)(?!HCB?[ -])[A-Z]{2,8}[ -]+)?"  # the maker
+    r"(?:(?:SKF|FAG|INA|SCHAEFFLER|NSK|RHP|NTN|SNR|KOYO|JTEKT|NACHI|TIMKEN|FAFNIR|MRC|SNFA|BARDEN|GMN"
+    r"|IBC|NKE|ZVL|ZKL|URB|FKL|FLT|LFD|RIV|ISB|ORS|CX|KBC|NBC|NRB|ARB|TATA|HRB|ZWZ|LYC|C&U|TMB|KG|NMB"
+    r"|NIS|FBJ|EZO|PEER|PFI|RKB|CRAFT|ROLLWAY|HOFFMANN|STEYR|GPZ|MPZ|SLF|DKF)[ -]*)?"
     r"(?P<ceramic>(?:HCB?|3NC|5S)[ -]?)?"
 )
-"""Text that may stand before letters and number."""
+"""Text that may stand before letters and number: of other words many are another kind of bearing,
+as in HK 1210 and NA 6904."""
 
 _PAIR = re.compile(
     r"D(?P<letter>[BFT])(?:C(?P<play>\d{2,4}))?|(?P<words>BACK|FACE)[ -]TO[ -](?P=words)|TANDEM"
@@ -35,6 +38,7 @@ _PAIR = re.compile(
 _SETS = re.compile(r"[TQ][BF][CT]|(?<![A-Z])[TQ]T(?![A-Z])|D(?:[BF][DT]|T[DT])(?![A-Z])")
 _TWO = re.compile(r"\b(?:PAIR|PAAR|SET|MATCHED|DUPLEX)\b")
 _UNIVERSAL_PAIR = re.compile(r"(?<!D)DU")
+_SECOND = re.compile(r"(?<![A-Z\d])(?:(?:NUP|NU|NJ|NF|N)[ -]?)?\d{3,5}(?!\d)")
 _SPACER = re.compile(r"\+|^T\d{2,3}\b")
 _CLEARANCE = re.compile(r"C([2345N])(?!\d)")
 _CERAMIC = re.compile(r"(?<![A-Z])(?:HC5?|SN24)(?=$|[^A-Z]|C[2345N])")
@@ -56,6 +60,7 @@ ONE_OF_TWO = (
 SETS = "a single bearing, or a pair (DB, DF, DT): sets of three and more are not known by number"
 ONLY_PAIRS_OF = "a single bearing: pairs are known of angular-contact and tapered bearings"
 NO_TANDEM = "DB (back to back) or DF (face to face) of tapered roller bearings"
+ONE_NUMBER = "one bearing, as {} is the number of another"
 SPACED = (
     "one without spacers, whose width it does not say: take the pair and change the distance of "
     "its rows"
@@ -111,19 +116,22 @@ def is_steep(suffix: str) -> bool:
 
 
 _PASSED_OVER = re.compile(
-    r"[A-DHJLMNPRVXY]|(?:2?-?(?:H?RS[1-9RHLJTD]?|RSH2|RSL|ZZ?|RZ|Z[RN]|DDU?|LL[BUH]|LU|LB|VV|UU|EE)"
+    r"[A-DHJLMNPRY]|(?:(?:2?-?(?:H?RS[1-9RHLJTD]?|RSH2|RSL|ZZ?|RZ|Z[RN]|DDU?|LL[BUH]|LU|LB|VV|UU|EE)"
     r"|NSL|DSD|JR|TN[9HG]?|TVPB?|TVHB?|T[VWX]?|JP?|M[AB]?|F[AB]?|PH?|Y|NR?|ECM?[LPJA]?|E[MT]?[12P]?"
     r"|P[2456]X?|P6[23]|P5[23]|C[2345N]M?|CM|K(?:30)?|W(?:20|33|64)?|WT|[HLM]T\d*|GJ[NHB]|G[ABC]"
-    r"|LHT\d*|V[AELQ]\d*|S[0-4]|SQ1|Q\d?|XL|HC5?|SN24|BE[AP]?|AC|A5|D[BFTU]|U[ALO]|C[ABC]|\d)+"
+    r"|LHT\d*|V[AELQ]\d*|S[0-4]|SQ1|Q\d?|XL|HC5?|SN24|BE[AP]?|AC|A5|D[BFTU]|U[ALO]|C[ABC])\d?)+"
 )
 """Known letters, of cages, seals, tolerances, grease and what is read above."""
 
 
-def unknown_letters(text: str) -> str:
+def unknown_letters(kind: str, text: str) -> str:
     """The parts of a suffix of which no meaning is known, empty where there are none."""
     rest = _PAIR.sub(" ", text)
     parts = [part for part in re.split(r"[ /,.()+-]+", rest) if part]
-    return " ".join(part for part in parts if not _PASSED_OVER.fullmatch(part))
+    known = {"X"} if kind == TAPERED_ROLLERS else set()  # outside as in ISO 355
+    return " ".join(
+        part for part in parts if part not in known and not _PASSED_OVER.fullmatch(part)
+    )
 
 
 def in_small_letters(name: str) -> str:
@@ -140,6 +148,8 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         for what would be another bearing than is known: its `allowed` says what to write instead.
     """
     refused = partial(checks.refuse, "designation", name)
+    if second := _SECOND.search(text):
+        raise refused(ONE_NUMBER.format(second[0]))
     pair = _PAIR.search(text)
     try:
         arrangement = _arrangement(kind, text, count, pair)

@@ -29,6 +29,7 @@ def read_recording(
     shaft_speed: float | None = None,
     full_scale: float = 1.0,
     sensitivity: float | None = None,
+    part: int | None = None,
 ) -> Recording:
     """The acceleration in a file. What is given goes before what the file says or seems to say.
 
@@ -52,6 +53,8 @@ def read_recording(
         [rad/s]
     full_scale, sensitivity
         see `Table.recording`.
+    part
+        which of several recordings in the file, from 1; None is the longest.
 
     Returns
     -------
@@ -76,8 +79,9 @@ def read_recording(
             ) from None
     path = os.fspath(file)
     table = read_table(path if ".zip/" in path else Path(path).name, content)
+    table = _with_roles(table, columns or {}, time_unit, unit, speed_unit)
     return _recording(
-        _with_roles(table, columns or {}, time_unit, unit, speed_unit),
+        table if part is None else table.one_of_recordings(part),
         _listed((columns or {}).get("signal")),
         directions,
         unit,

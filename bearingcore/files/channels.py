@@ -36,9 +36,14 @@ _PHRASES = (
     ("driveend", "drive end"),
     ("fanend", "fan end"),
 )
-_NOT_SIGNALS = {
-    "rpm", "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
-    "pulses", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
+PULSES = {
+    "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
+    "pulses",
+}  # fmt: skip
+"""Words for a tachometer's signal."""
+
+_NOT_SIGNALS = PULSES | {
+    "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
     "load", "index", "sample", "samples", "row", "no",
 }  # fmt: skip

@@ -16,6 +16,7 @@ from bearingcore.common.numbers import number
 from bearingcore.files import facts
 from bearingcore.files.channels import (
     OTHER,
+    PULSES,
     SIGNAL,
     SPEED,
     TIME,
@@ -24,6 +25,7 @@ from bearingcore.files.channels import (
     choose,
     column_of,
     names_a_frequency,
+    words_of,
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named, is_steady
@@ -34,6 +36,9 @@ from bearingcore.units import STANDARD_GRAVITY
 
 USUAL_LEVEL = 5.0
 """[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
+
+FEWEST_PULSES = 8
+"""Of a tachometer that are a speed."""
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
@@ -187,13 +192,14 @@ def contents_of(table: FileColumns) -> FileContents:
         )
     picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
+    speed = _speed(table, columns, named) or known.shaft_speed
     said = {**{one.name: _text(one) for one in named}, **table.texts}
     return FileContents(
         columns,
         choice,
         _unit(table, columns, picked, known),
         rate,
-        _speed(table, columns, named) or known.shaft_speed,
+        speed or _speed_of_pulses(table, columns, rate, sampling),
         facts.load_in(named) or known.load,
         sampling,
         said,
@@ -429,6 +435,30 @@ def _speed(
                 )
                 return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
+
+
+def _speed_of_pulses(
+    table: FileColumns,
+    columns: Sequence[Column],
+    rate: Finding[float] | None,
+    sampling: Sampling | None,
+) -> Finding[float] | None:
+    """A guess at the shaft speed from a tachometer's even pulses, as if each were a turn."""
+    for index, column in enumerate(columns):
+        if rate is None or column.role != OTHER or not words_of(column.name) & PULSES:
+            continue
+        first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
+        values = table.columns[first:last, index]
+        if not np.isfinite(values).all():
+            continue
+        low, high = np.quantile(values, (0.001, 0.999))
+        begins = np.flatnonzero(np.diff((values > 0.5 * (low + high)).astype(int)) == 1)
+        if len(begins) < FEWEST_PULSES or np.ptp(turns := np.diff(begins)) > 0.1 * turns.mean() + 2:
+            continue
+        pulses = rate.value / float(turns.mean())
+        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
+        return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
+    return None
 
 
 def _constants(table: FileColumns) -> list[Named]:

@@ -7,7 +7,9 @@ proposed; rows after a jump are not joined to those before it.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +20,15 @@ from bearingcore.files.facts import GREATEST_STATED, LEAST_STATED
 from bearingcore.files.units import TIMES
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
+MOST_NAMED = 4
+"""Recordings of one file whose lengths are named."""
+
 UNEVEN = 0.5
 """Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
 wander."""
+
+SHORTEST_PART = 0.1
+"""Of the longest part without a jump, from which on a part is a recording of its own."""
 
 JUMP = 1.5
 """Steps longer than this many usual ones leave samples out."""
@@ -53,6 +61,8 @@ class Sampling:
         a sentence on what is wrong with the times; empty where nothing is.
     reason
         how the rate was found, in a few words.
+    parts
+        rows (last excluded) of each long part without a jump, where there are several.
     """
 
     sample_rate: float | None
@@ -61,6 +71,7 @@ class Sampling:
     last: int
     trouble: str = ""
     reason: str = "the time column"
+    parts: tuple[tuple[int, int], ...] = ()
 
 
 LIKELY_RATES = 500.0, 1e6
@@ -209,16 +220,22 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         first, last = int(edges[longest]), int(edges[longest + 1])
         part = time[first:last]
         if last - first >= FEWEST_SAMPLES:
-            said = _jumps(steps, jumps, usual, first, last, shared)
+            least = max(FEWEST_SAMPLES, SHORTEST_PART * (last - first))
+            parts = tuple((a, b) for a, b in pairwise(edges.tolist()) if b - a >= least)
+            parts = parts if len(parts) > 1 else ()
+            said = _recordings(time, parts, (first, last), unit)
+            said += _jumps(steps, jumps, usual, first, last, shared)
             even = _even(part)
             if even is not None:
                 rate = _customary(*even, unit, last - first)
-                return Sampling(rate, True, first, last, said)
+                return Sampling(rate, True, first, last, said, parts=parts)
             grain = _rounded(part, np.diff(part))
             if grain is not None:
                 rounded = _rounded_times(grain, part, unit)
                 trouble = f"{said} {rounded.trouble}"
-                return Sampling(rounded.sample_rate, False, first, last, trouble, rounded.reason)
+                return dataclasses.replace(
+                    rounded, first=first, last=last, trouble=trouble, parts=parts
+                )
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     trouble = (
@@ -227,6 +244,20 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         f"it would be {number(mean / unit, 6)} Hz."
     )
     return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
+
+
+def _recordings(
+    time: Array, parts: Sequence[tuple[int, int]], read: tuple[int, int], unit: float
+) -> str:
+    """Sentence on several recordings in one file, and which of them is read."""
+    if not parts:
+        return ""
+    long = [with_prefix(float(time[b - 1] - time[a]) * unit, "s", 3) for a, b in parts]
+    spans = f"{', '.join(long[:-1])} and {long[-1]}" if len(long) <= MOST_NAMED else "many lengths"
+    return (
+        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; number "
+        f"{parts.index(read) + 1} is read, unless another is chosen. "
+    )
 
 
 def _jumps(

@@ -40,6 +40,9 @@ MOST_BYTES = 64 * 2**20
 
 SHOWN_ROWS = 8
 
+MOST_NAMED = 4
+"""Columns that are not used which are named."""
+
 RATE_DOUBT = 0.005
 """By how much a typed rate may differ from the one that the times say, unsaid."""
 
@@ -57,6 +60,29 @@ class Table(FileColumns):
     def contents(self) -> FileContents:
         """Statements of the file about itself, and guesses at the rest."""
         return contents_of(self)
+
+    @property
+    def recordings(self) -> tuple[tuple[int, int], ...]:
+        """Rows (last excluded) of each recording, where times jump between several; else none."""
+        sampling = self.contents.sampling
+        return () if sampling is None else sampling.parts
+
+    def one_of_recordings(self, number: int) -> Table:
+        """The table of one of the `recordings` in the file alone, counted from 1.
+
+        Raises
+        ------
+        FieldError
+            for a number that there is not.
+        """
+        parts = self.recordings
+        checks.whole_number("part", number, at_least=1, at_most=max(len(parts), 1))
+        if not parts:
+            return self
+        first, last = parts[number - 1]
+        words = f"Recording {number} of {len(parts)} in the file is read, from row {first + 1}."
+        columns = self.columns[first:last]
+        return dataclasses.replace(self, columns=columns, notes=(*self.notes, words))
 
     @property
     def first_rows(self) -> list[list[float]]:
@@ -143,7 +169,7 @@ class Table(FileColumns):
         first, last, gaps = self._rows(picked)
         signal = self.columns[first:last, picked]
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
-        notes, signal = [*self.notes, *notes, gaps, *cut], signal * scale
+        notes, signal = [*self.notes, *notes, gaps, *cut, self._not_used(picked)], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
@@ -158,6 +184,26 @@ class Table(FileColumns):
             levels = made.acceleration.std(axis=0)
         doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
         return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
+
+    def _not_used(self, picked: Sequence[int]) -> str:
+        """Sentence on the columns that hold something that is not read, and why."""
+        speed, left = self.contents.shaft_speed, []
+        for index, column in enumerate(self.contents.columns):
+            steps = np.diff(self.columns[:, index])
+            steps = steps[np.isfinite(steps)]
+            counts = not steps.size or np.ptp(steps) == 0.0
+            if counts or index in (*picked, *self.given) or column.role in (TIME, SPEED):
+                continue
+            if speed is not None and f"“{column.name}”" in speed.reason:
+                why = f"a guess at the shaft speed: {speed.reason}"
+            elif column.role == OTHER:
+                why = "no vibration, by its name"
+            else:
+                along = {"z": "along the shaft"}.get(column.direction, "another signal")
+                why = column.place or along
+            left.append(f"“{column.name}” ({why})")
+        more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
+        return f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
 
     def _to_acceleration(
         self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None

@@ -220,4 +220,4 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     assert (ONE_RECORD in words) == (fault == "outer race" and change is None)
     if fault == "cannot tell":
         open_speed = dataclasses.replace(found, status=DiagnosisStatus.SPEED_OPEN)
-        assert next_steps(open_speed, question, zone).startswith("Enter the shaft speed")
+        assert next_steps(open_speed, question, zone).startswith("Read the shaft speed")

@@ -46,7 +46,7 @@ from bearingcore.files import (
 from bearingcore.signals import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
-SIGNAL_FIELDS = ("columns", "unit", "full_scale", "sensitivity", "sample_rate")
+SIGNAL_FIELDS = ("columns", "part", "unit", "full_scale", "sensitivity", "sample_rate")
 """Fields about the numbers of a file; those about the machine are `machine.FIELDS`."""
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
@@ -99,6 +99,7 @@ def guess(table: Table) -> dict[str, str]:
     rate, sensor = contents.sample_rate, contents.sensitivity
     return {
         "columns": APART.join(roles_of(table)),
+        "part": "",
         "unit": _unit(table),
         "full_scale": "1",
         "sensitivity": NOT_KNOWN
@@ -117,10 +118,15 @@ def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str
     Raises
     ------
     FormError
-        for roles that cannot be.
+        for roles or a recording that cannot be.
     """
     if "columns" in changed:
         table = with_roles(table, changed["columns"])
+    if part := changed.get("part"):
+        try:
+            table = table.one_of_recordings(int(part))
+        except ValueError:
+            raise FormError({"part": f"{table.name} has no such recording."}) from None
     return table, {**guess(table), **changed}
 
 
@@ -249,6 +255,13 @@ def bearings_of(
         *([name, name, LIKELY] for name in likely),
         *([name, name, "From the list"] for name in others),
     ]
+
+
+def recordings_of(table: Table) -> list[list[str]]:
+    """[value, words] of the recordings in a file; none where there is one alone."""
+    rows = [f"{k}: rows {a + 1} to {b}" for k, (a, b) in enumerate(table.recordings, 1)]
+    longest = [["", "the longest"]] if rows else []
+    return [*longest, *([str(k), words] for k, words in enumerate(rows, 1))]
 
 
 def speeds_of(table: Table | None) -> list[list[str]]:
@@ -481,6 +494,7 @@ def read_form(
     origin = Origin(
         table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given),
         place=" and ".join(sorted({table.contents.columns[i].place for i in columns} - {""})),
+        part=int(texts["part"] or 0),
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
     sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)

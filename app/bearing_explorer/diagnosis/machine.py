@@ -94,6 +94,8 @@ class Machine:
         names of "bearing" and "speed" which a person gave for the file before.
     by_frequencies
         whether the bearing is known by the frequencies of its parts alone: it has no size then.
+    unread
+        letters of the bearing's designation of which no meaning is known.
     """
 
     shaft_speed: float | None = None
@@ -104,6 +106,7 @@ class Machine:
     guessed: frozenset[str] = frozenset()
     kept: frozenset[str] = frozenset()
     by_frequencies: bool = False
+    unread: str = ""
 
     def __post_init__(self) -> None:
         if self.shaft_speed is None:
@@ -123,9 +126,10 @@ class Machine:
         """Where "bearing" or "speed" is from, in words; empty where it is not known."""
         if name in self.guessed:
             return "assumed, a guess from the file"
+        if name in self.kept:
+            return "assumed, kept from the file before"
         found = self.bearing_source if name == "bearing" else self.speed_source
-        words = (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(found, "")
-        return f"{words}, for the file before" if name in self.kept else words
+        return (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(found, "")
 
     @property
     def range(self) -> float | tuple[float, float] | None:
@@ -264,7 +268,7 @@ def read_machine(
             refused["speed"] = "There is no such answer on the shaft speed."
     except ValueError as error:
         refused["shaft_speed"] = str(error)
-    bearing, name, by = None, texts["bearing"], GIVEN
+    bearing, name, by, unread = None, texts["bearing"], GIVEN, ""
     try:
         if name == SCENE:
             bearing, by, name = scene.bearing, SCENE, ""
@@ -274,7 +278,8 @@ def read_machine(
             name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
         elif name == BY_DESIGNATION:
             name = texts["designation"]
-            bearing = find(name).bearing if name else None  # before it is typed
+            if name:  # else it is not typed yet
+                bearing, unread = (entry := find(name)).bearing, entry.unread
         elif name != NOT_KNOWN:
             bearing = find(name).bearing
     except ValueError as error:
@@ -291,7 +296,7 @@ def read_machine(
             guessed.add("bearing")
     return Machine(
         speed, bearing, source, by, name, frozenset(guessed),
-        by_frequencies=texts["bearing"] == BY_FREQUENCIES,
+        by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread,
     )  # fmt: skip
 
 
@@ -327,7 +332,7 @@ def read_speed(text: str) -> float:
     bare = text.lower()
     bare = re.sub(r"\s*(rpm|[ur1]?/min|min(-|\^-|⁻|−)[1¹])$", " rpm", bare)
     per_minute = bare.endswith(" rpm")
-    bare = bare.removesuffix(" rpm").removesuffix("hz").rstrip()
+    bare = re.sub(r"(?<=[\d\s])hz$", "", bare.removesuffix(" rpm")).rstrip()
     if per_minute and re.fullmatch(r"\d{1,3}[.,]\d{3}", bare):
         raise ValueError(
             f"{words} is {bare} rpm: is that {re.sub('[.,]', '', bare)} rpm? Type it without the "

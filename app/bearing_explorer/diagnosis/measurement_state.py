@@ -47,6 +47,8 @@ class MeasurementState:
     voltage: bool = False
     #: bearings to choose from, as [value, words, heading], and answers on the speed
     bearings: list[list[str]] = field(default_factory=list)
+    #: recordings in the file, as [value, words], where there are several
+    recordings: list[list[str]] = field(default_factory=list)
     speeds: list[list[str]] = field(default_factory=list)
     #: whether changed answers are still being read
     settling: bool = False

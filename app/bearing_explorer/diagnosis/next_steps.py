@@ -77,8 +77,8 @@ def _without_a_part(found: Diagnosis, zone: str, change: float) -> str:
         words = "Measure again at the usual interval."
     elif found.status == DiagnosisStatus.SPEED_OPEN:
         words = (
-            "Enter the shaft speed, read from a tachometer, a stroboscope or the drive: this "
-            "record may be enough then."
+            "Read the shaft speed from a tachometer, a stroboscope or the drive: with it this "
+            "record may be enough."
         )
     else:
         words = (

@@ -101,8 +101,11 @@ def recordings_of(
     family = families.get(shown.recording.name)
     own = {name: text for name, text in changed.items() if name != "unit"}
     for table in series.tables:
+        answers = dict(changed if families[table.name] == family else own)
+        if table.name != shown.recording.name:
+            answers.pop("part", None)
         try:
-            told, form = fill(table, changed if families[table.name] == family else own)
+            told, form = fill(table, answers)
             found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")

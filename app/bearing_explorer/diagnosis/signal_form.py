@@ -21,6 +21,7 @@ from bearing_explorer.diagnosis.form import (
     proposed_unit,
     questions,
     reasons,
+    recordings_of,
     said,
     says_the_same,
     size_questions,
@@ -103,7 +104,7 @@ class SignalForm(Findings):
         value = self.state.values.get(name, "")
         if not says_the_same(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
-            return f"Given for the file before, {kept}" if kept else "Given"
+            return f"Assumed, kept from the file before, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     @property
@@ -125,6 +126,11 @@ class SignalForm(Findings):
             name for name, fields in GROUPS.items()
             if name in kept and all(form[field] == kept[field] for field in fields)
         )  # fmt: skip
+
+    def keep_machine(self) -> None:
+        """Bearing and speed, given for the file before, are those of this one too."""
+        self._kept = {}
+        self.take_form(self.state.values)
 
     def forget_machine(self) -> None:
         """Ask for bearing and speed again, which were given for the file before.
@@ -171,6 +177,7 @@ class SignalForm(Findings):
             load=load_of(table),
             scaled=not table.full_scale_known,
             bearings=bearings_of(table, own=self._own_bearings),
+            recordings=recordings_of(table),
             speeds=speeds_of(table),
             settling=False,
             kept_from=(self.state.kept_from or before) if found.kept else "",
@@ -235,6 +242,7 @@ class SignalForm(Findings):
             "open": [*left, *sizes],
             "proposed": proposed_unit(table),
             "voltage": is_voltage(table, texts),
+            "recordings": self.state.recordings if texts["part"] else recordings_of(table),
             "speeds": speeds_of(table),
             "settling": False,
             "kept_from": self.state.kept_from if self._kept_of(texts) else "",

@@ -79,7 +79,11 @@ def in_short(
         "bearing": machine.bearing_name
         or ("bearing" if machine.bearing is None else "the scene's bearing"),
     }
-    asked = {name for name in ("unit", "sample_rate") if name not in sure} | machine.guessed
+    asked = (
+        {name for name in ("unit", "sample_rate") if name not in sure}
+        | machine.guessed
+        | machine.kept
+    )
     asked |= {"speed"} if machine.shaft_speed is None else set()
     asked |= {"bearing"} if machine.bearing is None else set()
     words = [text + "?" * (name in asked) for name, text in facts.items()]

@@ -11,7 +11,7 @@ import re
 from bearingcore.common import number, span
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, Field
-from bearingcore.units import UNITS
+from bearingcore.units import UNITS, read_number
 
 _READ_UNITS = {"m": "mm", "rad": "°", "rad/s": "Hz", "Pa": "GPa"}
 """Shown units of SI numbers that belong to no field."""
@@ -94,13 +94,14 @@ def _amount(value: float, si: str, field: Field | None) -> str:
 
 
 def number_of(text: str, words: str, unit: str, least: float, most: float) -> float:
-    """The number that a person typed; ValueError with a sentence."""
+    """The number that a person typed, in `unit` or another of its kind; ValueError otherwise."""
     bare = re.sub(r"(?<=\d)[\s'](?=\d{3}\b)", "", text.strip()).replace("−", "-")
-    bare = re.sub(rf"\s*{re.escape(unit)}$", "", bare, flags=re.IGNORECASE) if unit else bare
+    if unit:
+        bare = re.sub(rf"(?<=[\d.,\s]){re.escape(unit)}$", "", bare, flags=re.IGNORECASE).rstrip()
     if not bare:
         raise ValueError(f"{words} is missing: type it in{f' ({unit})' if unit else ''}.")
     try:
-        value = float(bare.replace(",", "."))
+        value = read_number(bare, unit)
     except ValueError:
         raise ValueError(f"{words} must be a number, not “{text[:20]}”.") from None
     if not math.isfinite(value) or not least <= value <= most:

@@ -111,7 +111,8 @@ def _diagnose(
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
     if high <= low * (1.0 + 1e-9):
-        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+        answer = _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+        return answer if answer.names_a_part else _if_in_another_unit(signal, answer, low, slip)
     if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
         source = f"{speed_source} as a range"
         return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
@@ -120,6 +121,26 @@ def _diagnose(
         return answer
     shaft = answer.shaft_speed / (2.0 * math.pi)
     return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
+
+
+def _if_in_another_unit(
+    signal: ListenedSignal, answer: Diagnosis, speed: float, slip: float
+) -> Diagnosis:
+    """The answer, with a question where the shaft shows at 60 times the speed [Hz], or a 60th.
+
+    Hz and rpm are confused then, most likely.
+    """
+    least, most = (turning / (2.0 * math.pi) for turning in SPEEDS)
+    for other in (60.0 * speed, speed / 60.0):
+        shown = least <= other <= most and _shows(signal, other, slip)
+        if shown and not _shows(signal, speed, slip):
+            return replace(answer, detail=f"{answer.detail} {say.other_unit(speed, other)}")
+    return answer
+
+
+def _shows(signal: ListenedSignal, speed: float, slip: float) -> bool:
+    """Whether the shaft's own lines are clear about a speed [Hz]."""
+    return signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip)).clear
 
 
 def _speeds(

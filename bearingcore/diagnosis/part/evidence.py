@@ -179,7 +179,8 @@ class Diagnosis:
     other
         the strongest lines that are none of this bearing's, if any are clear.
     detectable_depth
-        the least swing of the envelope, as a share of its mean, that would have been seen.
+        the least swing of the squared envelope, the power of the vibration, at each of the lines,
+        as a share of its mean, that would have been seen in nine of ten such records.
     spectrum
         that of the envelope in the band of the best evidence; None with no evidence.
     """

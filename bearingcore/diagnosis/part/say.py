@@ -32,7 +32,7 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
     """Too few knocks."""
     return (
         f"{number(duration)} s hold "
-        f"{count(round(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
+        f"{count(int(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
         "needed."
     )
 
@@ -55,6 +55,14 @@ def too_far(known: str, end: str, speed: float, why: str) -> str:
     return (
         f"The shaft speed {known}. At the {end} speed looked for, {number(60.0 * speed, 4)} rpm: "
         f"{why} Give the shaft speed; this record may be enough then."
+    )
+
+
+def other_unit(speed: float, other: float) -> str:
+    """The shaft's lines show at 60 times the speed [Hz] that is given, or at a 60th of it."""
+    return (
+        f"Lines of a shaft do not show at {number(60.0 * speed, 4)} rpm, but clearly at "
+        f"{number(60.0 * other, 4)} rpm: is the speed given in Hz for rpm, or the other way?"
     )
 
 
@@ -170,8 +178,9 @@ def blows(kurtosis: float, duration: float) -> str:
 def weak(detectable: float, duration: float) -> str:
     """Nothing seen, but nothing would have been."""
     return (
-        f"No damage shows, but {number(duration)} s are enough only for damage that modulates the "
-        f"envelope by {percent(detectable, 2)} or more. A longer recording shows more."
+        f"No damage shows, but {number(duration)} s are enough only for damage that makes the "
+        f"vibration's power swing by {percent(detectable, 2)} of its mean or more. A longer "
+        "recording shows more."
     )
 
 
@@ -186,8 +195,9 @@ def rounded() -> str:
 def healthy(detectable: float) -> str:
     """None seen."""
     return (
-        "No damage seen on outer race, inner race or balls: their lines do not show, and "
-        f"impacts that modulate the envelope by {percent(detectable, 2)} would have been seen."
+        "No damage seen on outer race, inner race or balls: their lines do not show. "
+        f"Impacts that make the vibration's power swing by {percent(detectable, 2)} of its mean, "
+        "at their frequency and its harmonics, would have been seen in nine of ten such records."
     )
 
 
@@ -212,6 +222,6 @@ def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
     """Knocks, but the speed decides whose they are."""
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
-        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm. Enter the shaft "
-        "speed."
+        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm: the shaft speed "
+        "decides."
     )

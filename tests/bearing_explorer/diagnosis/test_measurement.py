@@ -27,6 +27,7 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
+from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
 
@@ -450,12 +451,19 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         assert made.state.kept_from == ""
         await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert made.measured.machine.source_of("speed") == "given, for the file before"
-        assert made.source_of("designation") == "Given for the file before, first.csv"
+        assert made.measured.machine.source_of("speed") == "assumed, kept from the file before"
+        assert made.source_of("designation") == "Assumed, kept from the file before, first.csv"
+        assert "1500 rpm? · unit? · 6205?" in made.state.line
+        assert "as for the file before: the bearing (6205) and" in assumed(made.question())
         content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
         await bring(made, "third.csv", content)
         assert made.measured.machine.kept == {"bearing"}
         assert made.measured.machine.source_of("speed") == "from the file"
+        made.keep_machine()
+        await settled(made)
+        assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
+        assert made.measured.machine.source_of("bearing") == "given"
+        await bring(made, "fourth.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")

@@ -52,6 +52,18 @@ DIAMETER_SERIES = (("302", "322", "62"), ("303", "323", "63"))
 """Tapered series and the deep groove series with their bores and outside diameters."""
 
 
+AS_WRITTEN = (
+    "6310-2RS1/C3", "6204-C-2HRS-C3", "6309-2Z-J/C3", "6309-2ZC3", "6205-2RS1-C3GJN", "6206DDUCM",
+    "6205-2ZR-C3", "6319 M/C3VL0241", "6205-2Z/VA201", "6208-2Z/VA208", "6205-2Z/C3WT",
+    "6205 MC4", "6205/P5", "6205 TN9/C3", "6209-ZNR", "6306-2Z/C3HT", "6205-2RSLTN9/HC5C3WT",
+    "6210-2Z/C3S1", "6205/W64", "SKF6205-2RSH", "6205.2RSR.C3", "N215ECP/C3", "NU 319 ECM",
+    "NU 2215 ECML", "NU208-E-XL-TVP2-C3", "NJ 210 ECJ", "NU210EM1C3", "NUP 208 ECPH",
+    "7204 BECBP", "7210 BECBM", "7208-B-XL-TVP", "7306 BEGAP", "7208 BECBP/DB", "30206 J2/QDF",
+    "HR30206J", "30206-XL", "2206 EKTN9/C3", "1208 K/C3", "KOYO 6205 2RS C3",
+)  # fmt: skip
+"""Designations of catalogues, of dealers' lists and of inventories of spare parts."""
+
+
 def lines_of(path: Path) -> list[dict[str, str]]:
     lines = [one for one in path.read_text("utf-8").splitlines() if not one.startswith("#")]
     return list(csv.DictReader(lines, delimiter=";"))
@@ -203,6 +215,28 @@ def test_what_is_no_designation_is_refused_with_the_series(text: str) -> None:
     with pytest.raises(FieldError, match="60, 62, 63") as refused:
         read_designation(text)
     assert refused.value.field == "designation"
+
+
+@pytest.mark.parametrize("text", ["6205 6206", "6205-2RS1/6206", "6205, NU 206"])
+def test_a_second_number_is_refused(text: str) -> None:
+    with pytest.raises(FieldError, match="is the number of another"):
+        read_designation(text)
+
+
+@pytest.mark.parametrize("text", ["HK 1210", "NA 6904", "CSK 6205"])
+def test_letters_before_a_number_that_are_no_maker_are_of_another_kind(text: str) -> None:
+    with pytest.raises(FieldError, match="allowed: a bearing of the series"):
+        read_designation(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "unread"),
+    [("6205x", "X"), ("32006 X/Q", ""), ("6205 DE", "DE"), ("6205ZZCM NS7S", "NS7S")]
+    + [("NU 2208 ECV", "ECV"), ("6205 2", "2")]
+    + [(text, "") for text in AS_WRITTEN],
+)
+def test_letters_that_are_not_understood_are_said(text: str, unread: str) -> None:
+    assert read_designation(text).unread == unread
 
 
 def test_beginnings_of_designations() -> None:
@@ -403,7 +437,7 @@ def test_what_is_not_known_is_refused_with_the_nearest(text: str, near: str) -> 
     assert read_designation(near.split("is ")[-1].split(" (")[0])
 
 
-@pytest.mark.parametrize("text", ["51105", "HK1010", "hello", "6000000"])
+@pytest.mark.parametrize("text", ["51105", "HK1010", "HK 1210", "XYZ123", "hello", "6000000"])
 def test_nothing_is_near_what_is_no_bearing_of_a_kind_that_is_known(text: str) -> None:
     with pytest.raises(FieldError, match="allowed: a bearing of the series") as refused:
         read_designation(text)

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from bearingcore.common.numbers import with_prefix
+from bearingcore.errors import FieldError
 from bearingcore.files.sampling import clock_columns, sampling_of
+from bearingcore.files.table import Table
+from bearingcore.units import STANDARD_GRAVITY
 
 RATE = 12_800.0
 TIME = np.arange(3000) / RATE
@@ -44,6 +47,22 @@ def test_only_the_longest_part_between_jumps_is_used(time, rows, words) -> None:
     assert found.sample_rate == pytest.approx(RATE)
     assert (found.first, found.last) == rows
     assert words in found.trouble
+
+
+def test_recordings_in_one_file_are_counted_and_any_is_read() -> None:
+    values = np.random.default_rng(0).standard_normal(3800)
+    times = np.concatenate([TIME[:2000], TIME[:1500], TIME[:300]])
+    table = Table(("time [s]", "a [g]"), np.stack([times, values], axis=1))
+    assert table.recordings == ((0, 2000), (2000, 3500), (3500, 3800))
+    words = "holds 3 recordings, or parts of one, of 156 ms, 117 ms and 23.4 ms; number 1 is read"
+    assert words in " ".join(table.recording([1], "y").notes)
+    second = table.one_of_recordings(2).recording([1], "y")
+    assert second.sample_rate == pytest.approx(RATE)
+    assert second.acceleration[:, 0] == pytest.approx(STANDARD_GRAVITY * values[2000:3500])
+    assert "Recording 2 of 3" in second.notes[0]
+    with pytest.raises(FieldError, match="part is 4"):
+        table.one_of_recordings(4)
+    assert Table(("t [s]", "a [g]"), table.columns[:2000]).recordings == ()
 
 
 def test_a_jump_shows_in_rounded_times_too() -> None:

@@ -118,6 +118,7 @@ class PartDiagnosis(LookView, MeasuredView):
     def build(self, packed: PackedSource) -> Any:
         self.machine = MachineForm(
             lambda values: self.measurement.take_form({**self.measurement.state.values, **values}),
+            lambda: self.measurement.keep_machine(),
             lambda: self.measurement.forget_machine(),
         )
         self.part = PartPanel(self._report_on, self._search)

@@ -122,7 +122,7 @@ def no_zone(measured: Measured, machine: str) -> str:
     if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
         why = "the standard is for 120 to 30 000 rpm"
     if not why and not machine:
-        why = "choose power and support of the machine"
+        why = "power and support of the machine are not known"
     return why
 
 

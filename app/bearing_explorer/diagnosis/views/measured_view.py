@@ -259,6 +259,7 @@ def recording_lines(measured: Measured) -> list[str]:
     return [
         *_table_lines(origin),
         *([f"table = table.with_columns({dict(origin.given)!r})"] if origin.given else []),
+        *([f"table = table.one_of_recordings({origin.part})"] if origin.part else []),
         *([] if measured.in_si else ["# the unit of the file is not known"]),
         "recording = table.recording(",
         f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",

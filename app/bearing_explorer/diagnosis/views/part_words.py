@@ -63,7 +63,8 @@ def plain(found: Diagnosis, question: Question) -> str:
     if found.fault == NONE_SEEN:
         return (
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
-            f"that modulate the vibration by {swing(found.detectable_depth)} would have shown."
+            f"that make its power swing by {swing(found.detectable_depth)} of the mean, at each "
+            "harmonic, would have shown in nine of ten such records."
             f"{counted(question)}"
         )
     return found.detail
@@ -116,16 +117,22 @@ def speed_alone(machine: Machine) -> str:
 
 
 def assumed(question: Question) -> str:
-    """Assumptions of the answer that a file only suggests, in a sentence after the finding."""
+    """Assumptions of the answer that no person made for this file, in sentences after it."""
     machine = question.measured.machine
     names = {
         "bearing": f"the bearing ({machine.bearing_name})",
         "speed": f"the shaft speed ({_rpm(machine.shaft_speed or 0.0)})",
     }
-    guessed = [words for name, words in names.items() if name in machine.guessed]
-    if not guessed:
-        return ""
-    return f" Assumed from the look of the file: {style.list_words(guessed)}."
+    words = ""
+    for why, assumed in (
+        ("Assumed from the look of the file", machine.guessed),
+        ("Assumed to be as for the file before", machine.kept),
+    ):
+        if listed := [one for name, one in names.items() if name in assumed]:
+            words += f" {why}: {style.list_words(listed)}."
+    if machine.unread:
+        words += f" “{machine.unread}” in the designation is not known here, and is passed over."
+    return words
 
 
 def _rpm(speed: float) -> str:

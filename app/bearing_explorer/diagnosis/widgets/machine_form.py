@@ -37,7 +37,10 @@ NO_BEARINGS = [["", "choose", WAYS]]
 HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm"}
 
 
-KEPT = "<p>As you gave it for the file before, {}.</p>"
+KEPT = (
+    "<p>Bearing or speed are kept from the file before, {}, and assumed for this one: is it the "
+    "same machine?</p>"
+)
 
 
 class MachineForm(pn.Column):
@@ -47,12 +50,15 @@ class MachineForm(pn.Column):
     ----------
     answer
         called with all values of the form.
-    forget
-        called to ask again for what was given for the file before.
+    keep, forget
+        called to take what was given for the file before as given for this one, or to ask again.
     """
 
     def __init__(
-        self, answer: Callable[[Mapping[str, str]], None], forget: Callable[[], None]
+        self,
+        answer: Callable[[Mapping[str, str]], None],
+        keep: Callable[[], None],
+        forget: Callable[[], None],
     ) -> None:
         self._fields = fields = Fields(lambda _: answer(dict(fields.values)))
         for name in FIELDS:
@@ -62,11 +68,13 @@ class MachineForm(pn.Column):
                 fields.add(name, select(LABELS[name], [["", ""]]))
             else:
                 fields.add(name, entry(LABELS[name], placeholder=HINTS.get(name, "")))
-        self._forget = button("Another machine", forget, visible=False)
+        self._kept = row(
+            button("The same machine", keep), button("Another machine", forget), visible=False
+        )
         self._notes = pn.pane.HTML("", stylesheets=[asset_text("measurement.css")], margin=0)
         self._shown: tuple[Any, Any] = (None, None)
         super().__init__(
-            row(*(fields.widgets[name] for name in LABELS), self._forget), self._notes,
+            row(*(fields.widgets[name] for name in LABELS), self._kept), self._notes,
             css_classes=["machine"], sizing_mode="stretch_width", margin=(2, 0, 8, 0),
         )  # fmt: skip
 
@@ -99,7 +107,7 @@ class MachineForm(pn.Column):
         named += [name for name in state.refused if shown.get(name) and name not in named]
         words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
         kept = KEPT.format(html.escape(state.kept_from)) if state.kept_from else ""
-        self._forget.visible = bool(kept)
+        self._kept.visible = bool(kept)
         self._notes.object = kept + notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
         self._notes.visible = bool(self._notes.object)
 

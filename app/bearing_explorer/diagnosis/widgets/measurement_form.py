@@ -29,12 +29,13 @@ from bearing_explorer.kit.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.file_upload import FileUpload
-from bearing_explorer.kit.widgets.form import Fields, button, entry, row, select
+from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.common import number
 from bearingcore.files import PLACES, UNITS
 
 LABELS = {
     "columns": "Columns",
+    "part": "Recording in the file",
     "unit": "Unit of the signal",
     "full_scale": "1 in the file is",
     "sensitivity": "Sensor (mV/g)",
@@ -199,12 +200,18 @@ class MeasurementForm(pn.Column):
             places=[["", "place not said"], *([place, place] for place in PLACES)],
         )
         for name in LABELS:
-            if name not in ("columns", "unit"):
+            if name == "part":
+                fields.add(name, select(LABELS[name], [["", "the longest"]]))
+            elif name not in ("columns", "unit"):
                 hint = f"{USUAL_SENSITIVITY} is usual" if name == "sensitivity" else ""
                 fields.add(name, entry(LABELS[name], placeholder=hint))
         self._agree = button("Use these answers", lambda: self._answer(fields.values, sure=True))
         self._notes = _text("")
-        self._machine = MachineForm(self._answer, lambda: self._measurement.forget_machine())
+        self._machine = MachineForm(
+            self._answer,
+            lambda: self._measurement.keep_machine(),
+            lambda: self._measurement.forget_machine(),
+        )
         self._about_file[:] = [
             self._table, row(*fields.widgets.values(), self._agree), self._notes
         ]  # fmt: skip
@@ -221,10 +228,15 @@ class MeasurementForm(pn.Column):
         }
         self._table.units = units(state)
         self._table.show(asdict(state.columns), *columns_as_said(state), marks)
+        if state.recordings != self._shown.recordings or not self._shown.columns:
+            fields.widgets["part"].param.update(
+                **choices(state.recordings or [["", "the longest"]]), value=values["part"]
+            )
         fields.put({name: values[name] for name in fields.widgets})
         for name, widget in fields.widgets.items():
             on = {"refused": name in state.refused, "open": name in state.open}
             widget.css_classes = ["field", f"field-{name}", *(mark for mark in on if on[mark])]
+        fields.widgets["part"].visible = bool(state.recordings)
         fields.widgets["full_scale"].visible = state.scaled or values["full_scale"] != "1"
         fields.widgets["sensitivity"].visible = state.voltage
         self._agree.visible = "sample_rate" in state.open

@@ -295,7 +295,8 @@ def why_words(results: Results, *, briefly: bool = False) -> str:
     most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
     rates = [rate for _, _, rate in passed(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
-    words.append(reasons.passes(most, min(rates), briefly=briefly))
+    lowest = min((low for low, _ in results.bands.values() if low == low), default=0.0)
+    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 

@@ -27,6 +27,7 @@ from tests.bearingcore.diagnosis.signals_made import (
 )
 from tests.benchmarks.measured_records import records
 from tests.benchmarks.scoreboard import FILE, WRONG, verdict
+from tests.outside.motor_signals import Motor
 from tests.outside.witness import witness
 
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
@@ -141,7 +142,33 @@ def test_a_healthy_machine_is_told_so_in_words(healthy):
     assert found.conclusive
     assert not found.names_a_part
     assert "No damage seen" in found.sentence
-    assert found.detectable_depth < 0.06
+    assert found.detectable_depth < 0.12
+
+
+def test_a_speed_in_the_wrong_unit_is_asked_about_where_the_shaft_shows_at_60_times_it():
+    machine = Motor(1500.0, shaft_lines=(0.5, 0.3, 0.2))
+    recording = Recording(machine.signal(1), machine.rate, ("y",))
+    for rpm in (25.0, 90_000.0):
+        sentence = diagnose(recording, "6205", rpm * TURN / 60.0).sentence
+        assert f"do not show at {rpm:.0f} rpm, but clearly at 1500 rpm" in sentence
+    quiet = Motor(1500.0, shaft_lines=())
+    recording = Recording(quiet.signal(1), quiet.rate, ("y",))
+    assert "clearly at" not in diagnose(recording, "6205", 25.0 * TURN / 60.0).sentence
+
+
+@pytest.mark.proof
+@pytest.mark.parametrize(("share", "least", "most"), [(1.0, 7, 8), (0.5, 0, 3)])
+def test_the_swing_that_is_named_is_that_from_which_damage_shows(share, least, most, healthy):
+    """Noise whose power swings by so much at the outer race's frequency and its harmonics."""
+    depth = share * answer(healthy).detectable_depth
+    time = np.arange(len(healthy)) / MOTOR.rate
+    passes = 1.004 * TURN * MOTOR.bearing.bpfo(MOTOR.shaft_speed)
+    power = 1.0 + depth * sum(np.cos(passes * k * time) for k in range(1, 7))
+    shown = [
+        answer(np.sqrt(power) * np.random.default_rng(seed).standard_normal(len(time)))
+        for seed in range(8)
+    ]
+    assert least <= sum(one.fault != NONE_SEEN for one in shown) <= most
 
 
 @pytest.mark.parametrize("kind", [*PARTS, HEALTHY])
@@ -238,7 +265,7 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     signal = signal / signal.std() + 0.5 * rng.standard_normal(len(signal))
     found = answer(signal, speed=(0.5 * MOTOR.shaft_speed, 2.0 * MOTOR.shaft_speed))
     assert found.fault == CANNOT_TELL
-    assert "Enter the shaft speed" in found.sentence
+    assert "the shaft speed decides" in found.sentence
     # what holds at one of the speeds only is no verdict
     assert 0.0 < found.probability < 0.5
     assert max(one.probability for one in found.evidence) < 0.5

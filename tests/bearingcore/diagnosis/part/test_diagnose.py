@@ -269,6 +269,18 @@ def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT
 
 
+def test_open_speeds_count_as_so_many_chances_for_another_source_to_fit(damaged):
+    speed = MOTOR.shaft_speed
+    sure = answer(damaged["outer race"])
+    rough = answer(damaged["outer race"], speed=(0.9 * speed, 1.1 * speed))
+    assert (sure.fault, rough.fault) == ("outer race", "outer race")
+    odds = [one.probability / (1.0 - one.probability) for one in (sure, rough)]
+    assert odds[0] / odds[1] == pytest.approx(1.0 + math.log(1.1 / 0.9) / 0.04, rel=0.05)
+    just_outside = answer(damaged["outer race"], speed=(1.02 * speed, 1.275 * speed))
+    assert (just_outside.fault, just_outside.shaft_speed) == (CANNOT_TELL, None)
+    assert "may be the outer race at 180" in just_outside.sentence
+
+
 def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     rng = np.random.default_rng(16)
     signal = knocks(MOTOR, "outer race", rng)

@@ -74,7 +74,7 @@ function enlarging(model, root) {
   const show_named = () => {
     const projected = page.hasAttribute("data-projector"), small = innerWidth <= NARROW
     const wanted = (projected || small) && model.cells.length ? page.dataset.cell ?? "" : ""
-    if (wanted === named || is_large()) return  // where the figure is is asked for no sooner: each drawing comes here
+    if (wanted === named || is_large()) return  // where the figure is is asked for no sooner: each layout comes here
     const [view] = figures_on_screen(model.figures)
     if (!view) return
     named = wanted
@@ -87,8 +87,7 @@ function enlarging(model, root) {
     }
     show_cell(model.cells.findIndex(([words]) => words === named))
   }
-  for (const event of ["lesson", "projector", "drawn", "tab"]) on_event(event, enlarge, show_named)
-  new ResizeObserver(show_named).observe(enlarge)  // a tab that opens with its picture is drawn before it is seen
+  for (const event of ["lesson", "projector", "laid-out"]) on_event(event, enlarge, show_named)
   on_event("cell", enlarge, ({ figure, x, y }) => {  // a cell is clicked at
     if (!model.figures.includes(figure) || cell >= 0) return
     const at = model.cells.findIndex(([, left, right, bottom, top]) => x > left && x < right && y > bottom && y < top)

@@ -152,7 +152,7 @@
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
       return drawn.size > 0
     }
-    if (!has_figure(document.body) && large) coming = setTimeout(enlarge_words, 500)  // figures come after their message
+    has_figure(document.body)
     setTimeout(fit, 120)
   }
   const in_two_lines = (words) => {
@@ -161,11 +161,10 @@
     return spaces.length ? `${words.slice(0, spaces[0])}\n${words.slice(spaces[0] + 1)}` : words
   }
   const own_size = new Map()  // of figures that are fitted
-  const changes_of_size = new ResizeObserver(() => enlarge_soon())
   const fit = () => {
     if (!root.hasAttribute("data-projector") || !root.hasAttribute("data-lesson")) return
     const views = [...inside(main)].filter((one) => one.matches(".view") && one.getClientRects().length)
-    const drawn_in = (view) => figures_in(view).map(({ model, el }) => [model, el, el.getBoundingClientRect()]).filter(([, , { height }]) => height)
+    const drawn_in = (view) => figures_in(view).map(({ model, el }) => [model, el.getBoundingClientRect()]).filter(([, { height }]) => height)
     const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
     for (const view of views) {  // what waits to be opened stands beside the figure
       view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
@@ -177,13 +176,12 @@
       if (!fits) continue
       const box = view.getBoundingClientRect()
       const plots = drawn_in(view)
-      const rows = new Set(plots.map(([, , { top }]) => Math.round(top))).size
-      const end = Math.max(...plots.map(([, , { bottom }]) => bottom))
+      const rows = new Set(plots.map(([, { top }]) => Math.round(top))).size
+      const end = Math.max(...plots.map(([, { bottom }]) => bottom))
       const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
-      for (const [model, el, { height }] of more ? plots : []) {
+      for (const [model, { height }] of more ? plots : []) {
         const { sizing_mode, height: own, min_height } = model
         if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
-        changes_of_size.observe(el)
         const high = Math.max(60, Math.round(height) + more)
         model.setv({ sizing_mode: "stretch_width", height: high, min_height: null }, { sync: false })
         for (const axis of model.left)  // in two lines, where large type is longer than the figure is high
@@ -196,7 +194,6 @@
     for (const one of inside(where.shadowRoot ?? where)) if (one.matches(".look")) one.style.display = wanted ? "" : "none"
   }
   const end_fit = () => {
-    changes_of_size.disconnect()
     show_choices(main, true)
     for (const [model, size] of own_size) {
       model.setv(size, { sync: false })
@@ -214,7 +211,7 @@
     clearTimeout(coming)
     if (root.hasAttribute("data-projector")) coming = setTimeout(enlarge_words, 120)
   }
-  for (const event of ["tab", "drawn", "lesson", "predicted"]) on_event(event, root, enlarge_soon)
+  for (const event of ["tab", "laid-out", "lesson", "predicted"]) on_event(event, root, enlarge_soon)
   on_event("projector", root, enlarge_words)
 
   // A file that was brought to the place of another kind, or dropped anywhere: a scene goes to the bar
@@ -280,10 +277,22 @@
       this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
     }
   }
+  // Figures have their places some time after their numbers: the event "laid-out".
+  const announce_layouts = () => {
+    const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
+    if (!follow) return
+    let coming = false
+    plot.after_layout = function () {
+      follow.call(this)
+      if (!coming) setTimeout(() => { coming = false; announce("laid-out") })
+      coming = true
+    }
+  }
 
   const begin = () => {
     if (!window.Bokeh?.documents?.length) return setTimeout(begin, 30)
     pinch_with_fingers()
+    announce_layouts()
     announce("figures")
     if (location.hash.includes("projector")) announce("projector", true)
     show_welcome()

@@ -90,9 +90,6 @@ class Inside(NamedTuple):
         balls or rollers of a row.
     ball_diameter, pitch_diameter
         [m].
-    misfit
-        distance of its ratings from the catalogue's, in standard deviations (balls), or of the
-        length from a whole number of mm and of the fill from the usual one (rollers).
     roller_length
         [m] that touches; None for balls.
     """
@@ -100,7 +97,6 @@ class Inside(NamedTuple):
     n_balls: int
     ball_diameter: float
     pitch_diameter: float
-    misfit: float
     roller_length: float | None = None
 
 
@@ -245,7 +241,7 @@ def balls_from_ratings(
         off = np.hypot(off, (f_0 - factor) / spread.factor)
     off = np.where(pitch * np.sin(math.pi / Z) < TIGHTEST * D, np.inf, off)
     best = np.unravel_index(int(np.argmin(off)), off.shape)
-    return Inside(int(Z[best]), float(D[best]), pitch, float(off[best]))
+    return Inside(int(Z[best]), float(D[best]), pitch)
 
 
 @lru_cache(maxsize=512)
@@ -267,7 +263,7 @@ def rollers_from_raceways(
     parts = np.minimum(parts, 2.0)  # a length that is no whole number says no more than that
     off = np.sqrt(np.mean(parts**2, axis=0) + ((Z / whole - usual) / spread) ** 2)
     k = int(np.argmin(off))
-    return Inside(int(Z[k]), D, pitch, float(off[k]), 1e-3 * float(lengths[0, k]))
+    return Inside(int(Z[k]), D, pitch, 1e-3 * float(lengths[0, k]))
 
 
 @lru_cache(maxsize=512)
@@ -309,4 +305,4 @@ def _tapered(
         length = static / float(ratings.roller_static_rating_per_length(count, D, pitch, cosine))
         C = ratings.roller_dynamic_rating(count, D, length, pitch, cosine)
         low, high = (D, high) if dynamic > C else (low, D)
-    return Inside(count, D, pitch, 0.0, length)
+    return Inside(count, D, pitch, length)

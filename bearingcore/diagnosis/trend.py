@@ -23,7 +23,7 @@ from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.signals.indicators import indicators
 from bearingcore.signals.kurtogram import kurtogram
 from bearingcore.signals.recording import Recording
-from bearingcore.signals.spectrum import envelope_spectrum
+from bearingcore.signals.spectrum import Spectrum, envelope_spectrum
 from bearingcore.signals.whitening import local_median
 
 LINES = ("bpfo", "bpfi", "bsf_2", "ftf")
@@ -40,6 +40,10 @@ SURROUNDINGS, FEWEST_AROUND = 2.0, 9
 
 CHANCE = 1e-3
 """That noise alone reaches the level from which a line counts."""
+
+OF_THE_SHAFT = 0.6
+"""Lines of the finest spectrum from a multiple of the shaft speed within which a peak is a tone of
+it: a steady one shows half a line away at most."""
 
 HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
@@ -73,8 +77,8 @@ class TrendPoint:
         see `indicators`.
     lines, noise : (4,) [m/s²]
         amplitude of each of `LINES` in the envelope, and what noise reaches there once in a
-        thousand recordings; NaN where the recording is too short, or does not hold the band, and
-        where bearing or speed are not known.
+        thousand recordings; NaN where the recording is too short, or does not hold the band, where
+        bearing or speed are not known, and where the highest line is one of the shaft's own.
     fault, probability
         see `Diagnosis`; "cannot tell" and NaN of an unknown bearing.
     extent
@@ -160,7 +164,7 @@ class Trend:
             ("crest_factor", "1", self.column("crest_factor")),
             ("kurtosis", "1", self.column("kurtosis")),
             *(
-                (f"{name}_line", "m/s²", clear[:, k], "in the envelope; NaN: no more than noise")
+                (f"{name}_line", "m/s²", clear[:, k], "in the envelope; NaN: none that is seen")
                 for k, name in enumerate(LINES)
             ),
             ("fault", "", [point.fault for point in points]),
@@ -253,7 +257,8 @@ def trend_point(
         extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
         speed = answer.shaft_speed if speed is None else speed
         if speed is not None:
-            lines, noise = _line_amplitudes(recording, bearing, speed, column, band)
+            turning = answer.shaft_speed or speed  # as the shaft's own lines have it
+            lines, noise = _line_amplitudes(recording, bearing, speed, turning, column, band)
     seen = indicators(recording, speed)
     return TrendPoint(
         recording.name,
@@ -314,10 +319,14 @@ def _line_amplitudes(
     recording: Recording,
     bearing: Bearing,
     shaft_speed: float,
+    turning: float,
     column: int,
     band: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²]."""
+    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²].
+
+    `turning` is the shaft speed [rad/s] at whose multiples there are tones of the shaft.
+    """
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 
     turn = shaft_speed / (2.0 * math.pi)
@@ -334,11 +343,14 @@ def _line_amplitudes(
     if len(frequency) < around:
         return unknown, unknown
     background = local_median(density, around) / float(gammaincinv(averages, 0.5))
+    finest = envelope_spectrum(signal, recording.sample_rate, band)
     lines, noise = unknown.copy(), unknown.copy()
     for k, order in enumerate(orders):
         middle, reach = order * turn / step, order * turn * SLIP / step + 1.0
         first, last = math.floor(middle - reach), math.ceil(middle + reach) + 1
         if middle < LOWEST_LINE or last > len(density):
+            continue
+        if _of_the_shaft(finest, order * turn, turning / (2.0 * math.pi)):
             continue
         limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
         peak = first + int(density[first:last].argmax())
@@ -348,3 +360,14 @@ def _line_amplitudes(
         power = max(density[peak], whole), limit * background[first:last].max()
         lines[k], noise[k] = np.sqrt(2.0 * HANN_WIDTH * step * np.array(power))
     return lines, noise
+
+
+def _of_the_shaft(finest: Spectrum, line: float, turn: float) -> bool:
+    """Whether the highest line next to one of the bearing [Hz] is a multiple of the shaft's turn.
+
+    Of gears, vanes and loose parts: what repeats with the shaft is no damage of the bearing.
+    """
+    first, last = np.searchsorted(finest.frequency, line * np.array([1.0 - SLIP, 1.0 + SLIP]))
+    peak = finest.frequency[first + int(finest.density[first : last + 1].argmax())]
+    multiple = round(peak / turn) * turn
+    return bool(multiple and abs(peak - multiple) <= OF_THE_SHAFT * finest.frequency[1])

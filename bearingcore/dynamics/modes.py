@@ -171,13 +171,13 @@ def frequency_bands(
     state = equilibrium_over_all(packed, n, most_contacts)
     if not state.converged.any():
         return modes_at(state).bands()
-    search = BandSearch(state)
+    search = BandSearch(scene, stiffness_terms(state), state.shares)
     undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""
         if undamped:
-            return search.frequencies(known)
+            return search.frequencies(stiffness_terms(known))
         # dampers that come in with a ball make frequencies jump, which undamped ones do not show
         return modes_at(known, search.template, nearly=True).frequency.T
 
@@ -192,32 +192,45 @@ def frequency_bands(
 
 
 class BandSearch:
-    """Undamped frequencies of modes, followed by those of the mean of a state at all positions."""
+    """Undamped frequencies of modes, followed by those of the mean stiffness at some positions.
 
-    def __init__(self, state: Equilibrium) -> None:
-        scene, weights = state.scene, state.shares
+    Parameters
+    ----------
+    scene
+        its active directions, support and inertia; its defect does not count.
+    terms : (15, n)
+        stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
+        static state has no answer.
+    weights : (n,)
+        of the positions in the mean.
+    """
+
+    def __init__(self, scene: Scene, terms: Array, weights: Array) -> None:
         dofs = scene.active_dofs
-        self._terms = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
+        names = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
+        self._rows = [STIFFNESS_TERMS.index(name) for name in names]
         self._support, mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
-        terms = self._of(state)
-        known = np.isfinite(terms).all(axis=0) * weights
+        chosen = terms[self._rows]
+        known = np.isfinite(chosen).all(axis=0) * weights
         mean = np.zeros((len(dofs), len(dofs)))
         row, column = np.triu_indices(len(dofs))
         share = max(float(known.sum()), 1e-300)
-        mean[row, column] = mean[column, row] = np.nan_to_num(terms) @ known / share
+        mean[row, column] = mean[column, row] = np.nan_to_num(chosen) @ known / share
         self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
         self.labels = _labels(self.template, mass, dofs)[0]
 
-    def _of(self, state: Equilibrium) -> Array:
-        return np.stack([state.term(name) for name in self._terms])
-
-    def frequencies(self, state: Equilibrium) -> Array:
-        """(m, n) [Hz] at the angles of `state`; NaN where it has no answer."""
-        terms = self._of(state)
-        known = np.asarray(np.isfinite(terms).all(axis=0))
+    def frequencies(self, terms: Array) -> Array:
+        """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
+        chosen = terms[self._rows]
+        known = np.asarray(np.isfinite(chosen).all(axis=0))
         found = np.full((len(self.template), known.size), math.nan)
-        found[:, known] = _frequencies_like(self.template, terms[:, known], self._support)
+        found[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
         return found
+
+
+def stiffness_terms(state: Equilibrium) -> Array:
+    """(15, n) the terms of a state's stiffness, in the order of `STIFFNESS_TERMS`."""
+    return np.stack([state.term(name) for name in STIFFNESS_TERMS])
 
 
 def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
@@ -293,28 +306,10 @@ def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple
     ValueError
         where the support lacks a number, by its name.
     """
-    dofs = scene.active_dofs
-    nd = len(dofs)
-    mass = scene.support.inertias(dofs)
-    support = scene.support.stiffness(dofs)
-    chosen = terms[
-        [STIFFNESS_TERMS.index(f"k_{a}{b}") for i, a in enumerate(dofs) for b in dofs[i:]]
-    ]
-    known = np.asarray(np.isfinite(chosen).all(axis=0), dtype=np.bool_)
-    count = known.sum(axis=1)
-    means = np.where(known, chosen, 0.0).sum(axis=2) / np.maximum(count, 1)
-    mean = np.zeros((len(count), nd, nd))
-    row, column = np.triu_indices(nd)
-    mean[:, row, column] = mean[:, column, row] = means.T
-    _, templates = _undamped(two_body_matrix(mean, support), mass)
-    least, greatest = (np.full((len(count), 2 * nd), math.nan) for _ in range(2))
-    labels = []
-    for i, template in enumerate(templates):
-        labels.append(_labels(template, mass, dofs)[0])
-        if count[i]:
-            frequency = _frequencies_like(template, chosen[:, i, known[i]], support)
-            least[i], greatest[i] = frequency.min(axis=1), frequency.max(axis=1)
-    return least, greatest, labels
+    searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
+    found = [one.frequencies(terms[:, i]) for i, one in enumerate(searches)]
+    least, greatest = least_and_greatest(np.stack(found), 2)
+    return least, greatest, [one.labels for one in searches]
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:

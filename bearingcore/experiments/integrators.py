@@ -10,6 +10,7 @@ import importlib.util
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -44,10 +45,6 @@ class March:
     failure: str = ""
 
 
-Marcher = Callable[[MotionProblem, float, float, float], March]
-"""(problem, setting, duration [s], sample rate [Hz]) -> March"""
-
-
 @dataclass(frozen=True)
 class Method:
     """A way to march.
@@ -56,12 +53,10 @@ class Method:
     ----------
     name
         as charts show it.
-    fixed_step
-        True where the setting is a step rate [Hz], False where it is a tolerance.
     march
-        does it.
-    note
-        what it is, in a sentence.
+        (problem, setting, duration [s], sample rate [Hz]) -> March.
+    tolerances
+        settings at which it is measured; none where the setting is a step rate [Hz].
     order
         of convergence where all forces are smooth; 0 for steps that choose themselves.
     slow
@@ -69,186 +64,169 @@ class Method:
     """
 
     name: str
-    fixed_step: bool
-    march: Marcher
-    note: str
+    march: Callable[[MotionProblem, float, float, float], March]
+    tolerances: tuple[float, ...] = ()
     order: int = 0
     slow: bool = False
 
-
-def intervals(rate: float, duration: float) -> int:
-    """Number of intervals at `rate` [Hz] that cover `duration` [s], at least one."""
-    return max(math.ceil(duration * rate - 1e-9), 1)
-
-
-def _runge_kutta(*, velocities: bool) -> Marcher:
-    """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
-
-    def march(
-        problem: MotionProblem, step_rate: float, duration: float, sample_rate: float
-    ) -> March:
-        system = (
-            problem.system
-            if velocities
-            else moving_system(packed_motion(problem.scene, problem.dofs))
-        )
-        n_steps = intervals(step_rate, duration)
-        history = np.empty((n_steps + 1, 6, len(problem.dofs)))
-        y = problem.start.copy()
-        kernels.turn_smooth(y, 1.0, 0.0, system)
-        done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
-        if done >= n_steps:
-            return March(history, step_rate, 4 * n_steps)
-        why = f"diverged after {done / step_rate:.2g} s"
-        return March(history, step_rate, 4 * n_steps, why)
-
-    return march
+    @property
+    def fixed_step(self) -> bool:
+        """True where the setting is a step rate [Hz], False where it is a tolerance."""
+        return not self.tolerances
 
 
-def _of_scipy(name: str) -> Marcher:
-    """`scipy.integrate.solve_ivp` with the compiled right-hand side."""
-
-    def march(
-        problem: MotionProblem, tolerance: float, duration: float, sample_rate: float
-    ) -> March:
-        from scipy.integrate import solve_ivp  # imported late: slow to import
-
-        n = intervals(sample_rate, duration)
-        time = np.arange(n + 1) / sample_rate
-        limited = _Limited(problem)
-        try:
-            answer = solve_ivp(  # type: ignore[call-overload]
-                limited.rate,
-                (0.0, time[-1]),
-                problem.start,
-                method=name,
-                t_eval=time,
-                rtol=max(tolerance, 2.3e-14),
-                atol=tolerance * problem.scale,
-            )
-        except (_TooManyCallsError, ValueError, np.linalg.LinAlgError) as error:
-            history = np.full((n + 1, 6, len(problem.dofs)), math.nan)
-            why = str(error) or type(error).__name__
-            return March(history, sample_rate, limited.calls, why)
-        history = history_of(problem, time[: answer.y.shape[1]], answer.y.T)
-        if answer.success and len(history) == n + 1:
-            return March(history, sample_rate, limited.calls)
-        return March(history, sample_rate, limited.calls, str(answer.message))
-
-    return march
+def instants(rate: float, duration: float) -> Array:
+    """Times [s] from 0, at `rate` [Hz], that cover `duration` [s] in at least one interval."""
+    return np.arange(max(math.ceil(duration * rate - 1e-9), 1) + 1) / rate
 
 
-def _of_cvode(name: str) -> Marcher:
-    """CVODE of SUNDIALS with the compiled right-hand side, through scikit-sundae."""
-
-    def march(
-        problem: MotionProblem, tolerance: float, duration: float, sample_rate: float
-    ) -> March:
-        n = intervals(sample_rate, duration)
-        time = np.arange(n + 1) / sample_rate
-        limited, scale = _Limited(problem), problem.scale
-        why = ""
-        try:
-            states = by_cvode(
-                lambda t, y: limited.rate(t, y * scale) / scale,
-                problem.start / scale,
-                time,
-                name,
-                tolerance,
-            )
-        except _TooManyCallsError as error:
-            states = np.full((1, problem.start.size), math.nan)
-            why = str(error)
-        history = history_of(problem, time[: len(states)], states * scale)
-        if not why and len(history) < n + 1:
-            why = f"{MotionStatus.STEP_VANISHED} after {time[len(history) - 1]:.2g} s"
-        return March(history, sample_rate, limited.calls, why)
-
-    return march
+class TooManyRatesError(RuntimeError):
+    """A method was given up for the number of its right-hand sides."""
 
 
-HAS_CVODE = importlib.util.find_spec("sksundae") is not None
-"""Whether scikit-sundae is installed: the extra "cvode"."""
+class Rates:
+    """The compiled right-hand side of a problem in variables scaled to 1; it counts its calls.
 
-
-def by_cvode(
-    rate: Callable[[float, Array], Array], start: Array, time: Array, method: str, tolerance: float
-) -> Array:
-    """States at times [s], as far as CVODE came, of y' = rate(t, y) in variables of the size 1.
-
-    `method`: "Adams" or "BDF".
+    `report` is called with each time [s]. After `most` calls it raises TooManyRatesError.
     """
-    from sksundae.cvode import CVODE  # imported late: optional
 
-    def fill(t: float, y: Array, rates: Array) -> None:
-        rates[:] = rate(t, y)
+    def __init__(
+        self,
+        problem: MotionProblem,
+        report: Callable[[float], object] = lambda t: None,
+        most: float = math.inf,
+    ) -> None:
+        self.problem, self.calls = problem, 0
+        self._report, self._most = report, most
 
-    solver = CVODE(fill, method=method, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
-    return np.array(solver.solve(time, start).y)
+    @property
+    def start(self) -> Array:
+        """The scaled state at rest."""
+        return self.problem.start / self.problem.scale
+
+    def __call__(self, t: float, y: Array) -> Array:
+        self.calls += 1
+        if self.calls > self._most:
+            raise TooManyRatesError(f"more than {thousands(int(self._most))} right-hand sides")
+        self._report(t)
+        return self.problem.rate(t, y * self.problem.scale) / self.problem.scale
+
+    def history(self, time: Array, states: Array) -> Array:
+        """History (n, 6, directions) of scaled states (≤ n, 4 directions) at times (n,) [s].
+
+        NaN from where there are no states.
+        """
+        problem, n = self.problem, len(self.problem.dofs)
+        whole = np.full((len(time), 4 * n), math.nan)
+        whole[: len(states)] = states * problem.scale
+        rates = kernels.motion_rates(time, whole, 0.0, problem.system)
+        history = np.empty((len(time), 6, n))
+        for body in range(2):
+            columns = slice(2 * body * n, (2 * body + 1) * n)
+            following = slice((2 * body + 1) * n, (2 * body + 2) * n)
+            history[:, 3 * body] = whole[:, columns]
+            history[:, 3 * body + 1] = whole[:, following]
+            history[:, 3 * body + 2] = rates[:, following]
+        return history
+
+
+def _runge_kutta(
+    problem: MotionProblem,
+    step_rate: float,
+    duration: float,
+    sample_rate: float,
+    *,
+    velocities: bool = False,
+) -> March:
+    """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
+    system = problem.system
+    if not velocities:
+        system = moving_system(packed_motion(problem.scene, problem.dofs))
+    n_steps = len(instants(step_rate, duration)) - 1
+    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+    y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
+    why = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
+    return March(history, step_rate, 4 * n_steps, why)
 
 
 MOST_RATES = 500_000
 """Right-hand sides after which a general-purpose method is given up."""
 
 
-class _TooManyCallsError(RuntimeError):
-    pass
+States = Callable[[Rates, Array, float], Array]
+"""(rates, times (n,) [s], tolerance) -> scaled states (≤ n, 4 directions), as far as it came."""
 
 
-class _Limited:
-    """A right-hand side that counts, and gives up after MOST_RATES."""
+def _own_steps(
+    problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, states: States
+) -> March:
+    """Steps that a general-purpose method chooses itself."""
+    time = instants(sample_rate, duration)
+    rates = Rates(problem, most=MOST_RATES)
+    found, why = np.empty((0, rates.start.size)), ""
+    try:
+        found = states(rates, time, tolerance)
+        if len(found) < len(time):
+            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(found) - 1, 0)]:.2g} s"
+    except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
+        why = str(error) or type(error).__name__
+    return March(rates.history(time, found), sample_rate, rates.calls, why)
 
-    def __init__(self, problem: MotionProblem) -> None:
-        self._problem, self.calls = problem, 0
 
-    def rate(self, t: float, y: Array) -> Array:
-        self.calls += 1
-        if self.calls > MOST_RATES:
-            raise _TooManyCallsError(f"more than {thousands(MOST_RATES)} right-hand sides")
-        return self._problem.rate(t, y)
+def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
+    """`scipy.integrate.solve_ivp` by the name of its method."""
+
+    def states(rates: Rates, time: Array, tolerance: float) -> Array:
+        from scipy.integrate import solve_ivp  # imported late: slow to import
+
+        relative = max(tolerance, 2.3e-14)
+        answer = solve_ivp(  # type: ignore[call-overload]
+            rates, (0.0, time[-1]), rates.start, name, time, rtol=relative, atol=tolerance
+        )
+        return np.asarray(answer.y).T
+
+    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances, slow=slow)
 
 
-def history_of(problem: MotionProblem, time: Array, states: Array) -> Array:
-    """History (n, 6, directions) of states (n, 4 directions) at times (n,) [s]."""
-    n = len(problem.dofs)
-    rates = kernels.motion_rates(time, np.ascontiguousarray(states), 0.0, problem.system)
-    history = np.empty((len(time), 6, n))
-    for body in range(2):
-        columns = slice(2 * body * n, (2 * body + 1) * n)
-        following = slice((2 * body + 1) * n, (2 * body + 2) * n)
-        history[:, 3 * body] = states[:, columns]
-        history[:, 3 * body + 1] = states[:, following]
-        history[:, 3 * body + 2] = rates[:, following]
-    return history
+HAS_CVODE = importlib.util.find_spec("sksundae") is not None
+"""Whether scikit-sundae is installed: the extra "cvode"."""
 
+
+def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams") -> Array:
+    """Scaled states at times [s], as far as CVODE of SUNDIALS came; also `name` "BDF"."""
+    from sksundae.cvode import CVODE  # imported late: optional
+
+    def fill(t: float, y: Array, out: Array) -> None:
+        out[:] = rates(t, y)
+
+    solver = CVODE(fill, method=name, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
+    return np.array(solver.solve(time, rates.start).y)
+
+
+def _cvode(name: str, *tolerances: float) -> Method:
+    march = partial(_own_steps, states=partial(cvode_states, name=name))
+    return Method(f"CVODE {name}", march, tolerances)
+
+
+FINE, COARSE = (1e-2, 1e-4, 1e-6, 1e-9, 1e-11), (1e-3, 1e-6)
+"""Tolerances at which methods are measured; the second of those that take long below."""
 
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
-        Method(
-            "RK4",
-            True,
-            _runge_kutta(velocities=False),
-            "Runge-Kutta of order 4 as the program uses it: in variables that do not jump where "
-            "the scene allows them",
-            order=4,
-        ),
-        Method(
-            "RK4 in velocities",
-            True,
-            _runge_kutta(velocities=True),
-            "the same steps with velocities as variables, which jump in rate as a ball touches",
-            order=4,
-        ),
-        Method("scipy RK45", False, _of_scipy("RK45"), "embedded pair of Dormand and Prince"),
-        Method("scipy DOP853", False, _of_scipy("DOP853"), "Runge-Kutta of order 8", slow=True),
-        Method("scipy LSODA", False, _of_scipy("LSODA"), "Adams or BDF by stiffness"),
-        Method(
-            "scipy Radau", False, _of_scipy("Radau"), "implicit Runge-Kutta of order 5", slow=True
-        ),
-        Method("scipy BDF", False, _of_scipy("BDF"), "implicit, of variable order", slow=True),
-        Method("CVODE Adams", False, _of_cvode("Adams"), "Adams methods of SUNDIALS"),
-        Method("CVODE BDF", False, _of_cvode("BDF"), "backward differences of SUNDIALS"),
+        # as the program uses it: in variables that do not jump where the scene allows them
+        Method("RK4", _runge_kutta, order=4),
+        # with velocities as variables, whose rates jump as a ball touches
+        Method("RK4 in velocities", partial(_runge_kutta, velocities=True), order=4),
+        _scipy("RK45", *FINE[:-1]),
+        _scipy("DOP853", *FINE, slow=True),
+        _scipy("LSODA", *FINE),
+        _scipy("Radau", *COARSE, slow=True),
+        _scipy("BDF", *COARSE, slow=True),
+        _cvode("Adams", *FINE),
+        _cvode("BDF", *COARSE, 1e-9),
     )
 }
 """Ways to march by name."""

@@ -161,7 +161,6 @@ class Measurements:
 _AS_USUAL: tuple[tuple[str, Any], ...] = (
     ("status", RIGHT),
     ("against", ""),
-    ("settings", {}),
     ("in_use", False),
 )
 """Entries of points that files leave out."""

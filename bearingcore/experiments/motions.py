@@ -28,16 +28,6 @@ from bearingcore.experiments.references import MOTION_ERRORS, MotionReference, m
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum_difference import BAND
 
-TOLERANCES = {
-    "scipy RK45": (1e-2, 1e-4, 1e-6, 1e-9),
-    "scipy DOP853": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
-    "scipy LSODA": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
-    "scipy Radau": (1e-3, 1e-6),
-    "scipy BDF": (1e-3, 1e-6),
-    "CVODE Adams": (1e-2, 1e-4, 1e-6, 1e-9, 1e-11),
-    "CVODE BDF": (1e-3, 1e-6, 1e-9),
-}
-
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""
 
@@ -52,7 +42,7 @@ def settings_of(method: Method, step_rate: float) -> tuple[float, ...]:
     """The settings at which a method is measured, around `step_rate` [Hz] for fixed steps."""
     if method.fixed_step:
         return tuple(step_rate * 2.0**k for k in range(-2, 4))
-    return TOLERANCES[method.name]
+    return method.tolerances
 
 
 def measured(
@@ -60,17 +50,14 @@ def measured(
 ) -> Point:
     """One method at one setting against a reference; `usual`: the program's own steps [Hz]."""
     problem, duration, rate = reference.problem, reference.duration, reference.sample_rate
-    march, seconds, runs = least_time(lambda: method.march(problem, setting, duration, rate))
+    march, seconds = least_time(lambda: method.march(problem, setting, duration, rate))
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
         return failed(method.name, words, setting, march.failure, seconds, march.calls)
     history = at_rate(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
-    settings = {"step_rate": setting} if method.name == "RK4" else {}
-    return Point(
-        method.name, words, setting, errors, seconds, runs, march.calls, settings=settings,
-        in_use=method.name == "RK4" and setting == usual,
-    )  # fmt: skip
+    used = method.name == "RK4" and setting == usual
+    return Point(method.name, words, setting, errors, seconds, march.calls, in_use=used)
 
 
 def at_rate(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -> np.ndarray:
@@ -136,7 +123,6 @@ def motion_experiment(
     tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]
     experiment = Experiment(
         "motion",
-        f"Motion over {duration:g} s in {', '.join(problem.dofs)} at {sample_rate:.0f} samples/s",
         MOTION_ERRORS,
         "right-hand sides",
         {"": reference.reference},

@@ -6,7 +6,7 @@ import math
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -36,9 +36,8 @@ class Point:
     errors
         against the reference, by the names in `Experiment.errors`; NaN where there is none.
     seconds
-        [s] the least of `runs` runs, after one that is not counted; of statics for one equilibrium.
-    runs
-        how often it was timed.
+        [s] the least of several runs, after one that is not counted; of statics for one
+        equilibrium.
     evaluations
         right-hand sides, or evaluations of all contacts at one displacement: the cost that does
         not depend on the machine. A mean where the time is one.
@@ -46,8 +45,6 @@ class Point:
         "right", or "failed: " and why.
     against
         which reference the errors are taken from, where an experiment has several.
-    settings
-        arguments that make `simulate` or `equilibrium` do the same, where they can.
     in_use
         True for what the program does with the scene unless it is set otherwise.
     """
@@ -57,11 +54,9 @@ class Point:
     value: float
     errors: Mapping[str, float]
     seconds: float
-    runs: int
     evaluations: float
     status: str = RIGHT
     against: str = ""
-    settings: Mapping[str, float] = field(default_factory=dict)
     in_use: bool = False
 
     @property
@@ -92,8 +87,6 @@ class Reference:
     trusted
         True where they agree well enough to judge the points. Errors below the agreement say
         nothing.
-    seconds
-        [s] it took.
     note
         what else is to be known.
     """
@@ -101,7 +94,6 @@ class Reference:
     families: tuple[str, ...]
     agreement: Mapping[str, float]
     trusted: bool
-    seconds: float
     note: str = ""
 
     @property
@@ -122,8 +114,8 @@ class Experiment:
 
     Attributes
     ----------
-    name, title
-        short name, and what is compared, with the scene in words.
+    name
+        what is compared: "motion" or "statics".
     errors
         what each error is, with its unit, by name; the first is the one to draw.
     evaluations
@@ -139,7 +131,6 @@ class Experiment:
     """
 
     name: str
-    title: str
     errors: Mapping[str, str]
     evaluations: str
     references: Mapping[str, Reference]
@@ -283,7 +274,7 @@ def failed(
     method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
 ) -> Point:
     """A point that says that a method did not get there."""
-    return Point(method, setting, value, {}, seconds, 1, evaluations, f"failed: {why}")
+    return Point(method, setting, value, {}, seconds, evaluations, f"failed: {why}")
 
 
 def measured_in_turn(
@@ -307,10 +298,8 @@ def measured_in_turn(
     return replace(experiment, completed=len(experiment.points) == len(tasks))
 
 
-def least_time(
-    work: Callable[[], T], *, runs: int = 5, budget: float = 0.5
-) -> tuple[T, float, int]:
-    """Result of `work`, the least time [s] of several runs after a warm-up, number of runs.
+def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> tuple[T, float]:
+    """Result of `work`, and the least time [s] of several runs after a warm-up.
 
     The warm-up counts as the one run where it alone takes longer than `budget` [s] and the work is
     compiled already; runs end when the budget is spent.
@@ -319,11 +308,11 @@ def least_time(
     answer = work()
     first = time.perf_counter() - start
     if first > budget:
-        return answer, first, 1
+        return answer, first
     least, spent, done = math.inf, 0.0, 0
     while done < runs and spent < budget:
         start = time.perf_counter()
         answer = work()
         taken = time.perf_counter() - start
         least, spent, done = min(least, taken), spent + taken, done + 1
-    return answer, least, done
+    return answer, least

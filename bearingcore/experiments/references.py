@@ -10,7 +10,6 @@ third code (CVODE, Adams) integrates motions too.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -19,7 +18,7 @@ import numpy as np
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import scientific
 from bearingcore.dynamics.problem import MotionProblem
-from bearingcore.experiments.integrators import HAS_CVODE, by_cvode, history_of, intervals
+from bearingcore.experiments.integrators import HAS_CVODE, Rates, cvode_states, instants
 from bearingcore.experiments.points import Reference
 from bearingcore.signals.spectrum_difference import spectrum_difference
 
@@ -102,13 +101,14 @@ def motion_reference(
 
     `report` is called with the part done, 0 to 1.
     """
-    began = time.perf_counter()
-    time_ = np.arange(intervals(sample_rate, duration) + 1) / sample_rate
+    time = instants(sample_rate, duration)
     families = FAMILIES if HAS_CVODE else FAMILIES[:2]
-    histories = [
-        march(_Clocked(problem, report, k / len(families), duration * len(families)), time_)
-        for k, (_, march) in enumerate(families)
-    ]
+
+    def history(k: int, states: Callable[[Rates, Array], Array]) -> Array:
+        rates = Rates(problem, lambda t: report((k + t / duration) / len(families)))
+        return rates.history(time, states(rates, time))
+
+    histories = [history(k, states) for k, (_, states) in enumerate(families)]
     first = histories[0]
     apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
     agreement = apart[0]
@@ -130,91 +130,53 @@ def motion_reference(
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
-    reference = Reference(
-        tuple(
-            name
-            for (name, _), whole in zip(families, finished, strict=True)
-            if whole or not trusted
-        ),
-        agreement,
-        trusted,
-        time.perf_counter() - began,
-        note,
+    names = tuple(
+        name for (name, _), whole in zip(families, finished, strict=True) if whole or not trusted
     )
+    reference = Reference(names, agreement, trusted, note)
     return MotionReference(problem, duration, sample_rate, band, first, reference)
 
 
-@dataclass
-class _Clocked:
-    """A problem whose right-hand side, in variables scaled to 1, reports how far it is.
-
-    That is `begin` and the time [s] of the motion over `whole`.
-    """
-
-    problem: MotionProblem
-    report: Callable[[float], object]
-    begin: float
-    whole: float
-
-    def rate(self, t: float, y: Array) -> Array:
-        """Scaled rates at time t [s]."""
-        self.report(self.begin + t / self.whole)
-        scale = self.problem.scale
-        return self.problem.rate(t, y * scale) / scale
-
-
-def _multistep(clocked: _Clocked, time_: Array) -> Array:
-    """History by LSODA at times [s]. It finds jumps by itself: its order falls."""
+def _multistep(rates: Rates, time: Array) -> Array:
+    """Scaled states by LSODA at times [s]. It finds jumps by itself: its order falls."""
     from scipy.integrate import odeint  # imported late: slow to import
 
-    problem = clocked.problem
-    states = odeint(
-        clocked.rate, problem.start / problem.scale, time_, tfirst=True, rtol=TOLERANCE,
-        atol=TOLERANCE, mxstep=1_000_000,
-    )  # fmt: skip
-    return history_of(problem, time_, states * problem.scale)
+    states: Array = odeint(
+        rates, rates.start, time, tfirst=True, rtol=TOLERANCE, atol=TOLERANCE, mxstep=1_000_000
+    )
+    return states
 
 
-def _adams(clocked: _Clocked, time_: Array) -> Array:
-    """History by CVODE's Adams methods at times [s], NaN from where it fails."""
-    problem = clocked.problem
-    states = np.full((len(time_), problem.start.size), math.nan)
-    found = by_cvode(clocked.rate, problem.start / problem.scale, time_, "Adams", TOLERANCE)
-    states[: len(found)] = found
-    return history_of(problem, time_, states * problem.scale)
-
-
-def _embedded_pair(clocked: _Clocked, time_: Array) -> Array:
-    """History by DOP853 at times [s], NaN from where it fails; each step is smooth.
+def _embedded_pair(rates: Rates, time: Array) -> Array:
+    """Scaled states by DOP853 at times [s], as far as it came; each step is smooth.
 
     A sliver of a step leads across each kink, so that those before and after it end and begin on
     the right side.
     """
     from scipy.integrate import DOP853  # imported late: slow to import
 
-    problem = clocked.problem
-    kinks = problem.kinks(float(time_[-1]))
-    ends = np.append(kinks[:, None] + np.array([-KINK_SLIVER, KINK_SLIVER]), time_[-1])
-    y, now, filled = problem.start / problem.scale, 0.0, 1
-    states = np.full((len(time_), y.size), math.nan)
+    kinks = rates.problem.kinks(float(time[-1]))
+    ends = np.append(kinks[:, None] + np.array([-KINK_SLIVER, KINK_SLIVER]), time[-1])
+    y, now, filled = rates.start, 0.0, 1
+    states = np.empty((len(time), y.size))
     states[0] = y
     for end in ends[ends > 0.0]:
-        solver = DOP853(clocked.rate, now, y, end, rtol=LEAST_RTOL, atol=TOLERANCE)
+        solver = DOP853(rates, now, y, end, rtol=LEAST_RTOL, atol=TOLERANCE)
         while solver.status == "running":
             solver.step()
-            last = int(np.searchsorted(time_, solver.t, side="right"))
+            last = int(np.searchsorted(time, solver.t, side="right"))
             if solver.status != "failed" and last > filled:
-                states[filled:last] = solver.dense_output()(time_[filled:last]).T
+                states[filled:last] = solver.dense_output()(time[filled:last]).T
                 filled = last
         if solver.status == "failed":
             break
         y, now = solver.y, end
-    return history_of(problem, time_, states * problem.scale)
+    return states[:filled]
 
 
 FAMILIES = (
     ("LSODA (multistep)", _multistep),
     ("DOP853 (embedded pair)", _embedded_pair),
-    ("CVODE (Adams)", _adams),
+    ("CVODE (Adams)", lambda rates, time: cvode_states(rates, time, TOLERANCE)),
 )
 """Integrators of the references; the last one only where it is installed."""

@@ -23,23 +23,16 @@ from bearingcore.dynamics.modes import (
 )
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.step_rate import default_step_rate
-from bearingcore.experiments.integrators import METHODS
-from bearingcore.experiments.motions import at_rate
-from bearingcore.experiments.points import NOT_WATCHED, RIGHT, Reference, Watch
-from bearingcore.experiments.references import MotionReference, motion_reference
+from bearingcore.experiments.integrators import METHODS, March
+from bearingcore.experiments.points import NOT_WATCHED, Watch
 from bearingcore.scene.scene import DOF_NAMES, Scene
-from bearingcore.signals.spectrum_difference import BAND
 from bearingcore.statics.positions import over_all_positions
 
-LOST, WRONG, DIVERGED = "amplitude lost", "wrong", "diverged"
-VERDICTS = (RIGHT, LOST, WRONG, DIVERGED)
-"""`right`: the spectrum is within RIGHT_DB. `amplitude lost`: the motion is smaller than it should
-be by more than a tenth. `wrong`: neither, out of tune or too large. `diverged`: it has grown beyond
-any bound."""
+STABLE, DIVERGED = "stable", "diverged"
 
-_SHARE_OF_REFERENCE = 0.7
-
-RIGHT_DB, LOST_PART, GROWN = 1.0, 0.9, 100.0
+GROWN = 100.0
+"""Root mean square of the housing's acceleration over that with the program's own steps from which
+a motion has diverged."""
 
 FIXED_STEP = tuple(name for name, method in METHODS.items() if method.fixed_step)
 
@@ -53,18 +46,12 @@ class Trial:
     method, step_rate [Hz]
         name of the method, and steps a second.
     verdict
-        one of VERDICTS.
-    spectrum_error
-        [dB], as in `references`; infinite for a motion that diverged.
-    amplitude
-        root mean square of the housing's acceleration over that of the reference.
+        "diverged" where the motion has grown beyond any bound, else "stable".
     """
 
     method: str
     step_rate: float
     verdict: str
-    spectrum_error: float
-    amplitude: float
 
 
 @shown_as_table
@@ -80,8 +67,6 @@ class StabilityChart:
         [Hz] of the stiffest static state.
     trials
         what was found.
-    reference
-        what amplitudes and spectra were compared with.
     completed
         False where it was cancelled.
     """
@@ -89,7 +74,6 @@ class StabilityChart:
     linear_limit: dict[str, float]
     highest_frequency: float
     trials: tuple[Trial, ...]
-    reference: Reference
     completed: bool = True
 
     def stability_limit(self, method: str) -> float:
@@ -103,14 +87,12 @@ class StabilityChart:
         return limit
 
     def table(self) -> ResultTable:
-        """A row a trial: method, steps a second, verdict and errors, with the linear limit."""
+        """A row a trial: method, steps a second and verdict, with the linear limit."""
         trials = self.trials
         return table_of(
             ("method", "", "method"),
             ("step_rate", "Hz", "step_rate"),
             ("verdict", "", "verdict"),
-            ("spectrum_error", "dB", "spectrum_error"),
-            ("amplitude_ratio", "1", "amplitude"),
             ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
             of=trials,
         )
@@ -188,51 +170,21 @@ def stability_chart(
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
     usual = default_step_rate(scene, 65536.0, highest)
-    sample_rate = max(65536.0, usual)
-    report = watch.within(0.0, _SHARE_OF_REFERENCE)
-    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
+    good = _size(METHODS["RK4"].march(problem, usual, duration, usual))
     limits = linear_limits(scene)
     # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
-    # nearest step rates that fit the samples, so that errors can be taken
-    fitting = sorted(
-        {
-            sample_rate / round(sample_rate / rate)
-            if rate <= sample_rate
-            else sample_rate * round(rate / sample_rate)
-            for rate in rates.tolist()
-        }
-    )
-    tasks = [(name, rate) for name in FIXED_STEP for rate in fitting]
-    trials = [
-        _trial(reference, name, rate)
-        for name, rate in in_turn(
-            tasks,
-            lambda task: f"{task[0]}, {task[1]:.0f} steps/s",
-            watch.progress,
-            watch.cancelled,
-            begin=_SHARE_OF_REFERENCE,
-        )
-    ]
-    return StabilityChart(
-        limits, highest, tuple(trials), reference.reference, len(trials) == len(tasks)
-    )
+    tasks = [(name, rate) for name in FIXED_STEP for rate in rates.tolist()]
+    trials = []
+    for name, rate in in_turn(
+        tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s", watch.progress, watch.cancelled
+    ):
+        with np.errstate(all="ignore"):
+            size = _size(METHODS[name].march(problem, rate, duration, rate))
+        trials.append(Trial(name, rate, STABLE if size < GROWN * good else DIVERGED))
+    return StabilityChart(limits, highest, tuple(trials), len(trials) == len(tasks))
 
 
-def _trial(reference: MotionReference, name: str, step_rate: float) -> Trial:
-    sample_rate = reference.sample_rate
-    with np.errstate(all="ignore"):
-        march = METHODS[name].march(reference.problem, step_rate, reference.duration, sample_rate)
-        signal = march.history[:, 5]
-        good = reference.history[:, 5]
-        amplitude = math.sqrt(float(np.mean(signal**2)) / float(np.mean(good**2)))
-        if march.failure or not amplitude < GROWN:
-            return Trial(name, step_rate, DIVERGED, math.inf, math.inf)
-        history = at_rate(march.history, step_rate, sample_rate, len(reference.history))
-        errors = reference.errors(history)
-        amplitude = math.sqrt(float(np.mean(history[:, 5] ** 2)) / float(np.mean(good**2)))
-    decibel = errors["spectrum"]
-    verdict = LOST if amplitude < LOST_PART else WRONG
-    if decibel <= RIGHT_DB:
-        verdict = RIGHT
-    return Trial(name, step_rate, verdict, decibel, amplitude)
+def _size(march: March) -> float:
+    """Root mean square of the housing's acceleration; infinite of a motion that broke off."""
+    return math.inf if march.failure else math.sqrt(float(np.mean(march.history[:, 5] ** 2)))

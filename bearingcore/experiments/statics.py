@@ -172,54 +172,6 @@ def residuals(problem: StaticProblem, q: Any) -> Array:
     return sizes / (problem.load or 1.0)
 
 
-class _OneByOne:
-    """Displacements found angle by angle, in units of the guess's length; counts evaluations."""
-
-    def __init__(self, problem: StaticProblem) -> None:
-        self.problem = problem
-        self.active, self.load = problem.active, problem.load or 1.0
-        self.length = float(np.linalg.norm(problem.guess)) or 1e-6
-        self.guess = problem.guess[self.active] / self.length
-        self.q = np.zeros((len(problem.angles), 5))
-        self.solved = np.zeros(len(self.q), dtype=bool)
-        self.evaluations = 0
-
-    def unbalanced(self, u: Array, k: int) -> Array:
-        """Forces that are not balanced, over the load."""
-        return self._unbalanced(self._at(u, k))
-
-    def jacobian(self, u: Array, k: int) -> Array:
-        """Slopes of `unbalanced`."""
-        stiffness = self._at(u, k).stiffness[0][np.ix_(self.active, self.active)]
-        slopes: Array = stiffness * (self.length / self.load)
-        return slopes
-
-    def energy(self, u: Array, k: int) -> tuple[float, Array]:
-        """Energy with the load's, over load times length, and its slopes."""
-        found = self._at(u, k)
-        work = float(u @ self.problem.force[self.active]) * self.length
-        energy = (float(found.energy[0]) - work) / (self.load * self.length)
-        return energy, self._unbalanced(found)
-
-    def take(self, k: int, u: Array, solved: bool) -> None:
-        """The answer at an angle."""
-        self.q[k, self.active], self.solved[k] = u * self.length, solved
-
-    def solutions(self) -> Solved:
-        """All answers."""
-        return Solved(self.q, self.solved, self.evaluations)
-
-    def _at(self, u: Array, k: int) -> Contacts:
-        self.evaluations += 1
-        full = np.zeros((1, 5))
-        full[0, self.active] = u * self.length
-        return contacts(self.problem, full, slice(k, k + 1))
-
-    def _unbalanced(self, found: Contacts) -> Array:
-        forces: Array = (found.force[0] - self.problem.force)[self.active] / self.load
-        return forces
-
-
 def _by_scipy(
     problem: StaticProblem,
     tolerance: float,
@@ -230,34 +182,60 @@ def _by_scipy(
     """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
 
     "trust-exact" is `minimize` on the energy. They start from the guess, `warm` from the angle
-    before, or from `starts` (m, 5) [m].
+    before, or from `starts` (m, 5) [m]. Displacements are in units of the guess's length.
     """
     from scipy.optimize import least_squares, minimize, root  # imported late: slow to import
 
-    one = _OneByOne(problem)
-    for k in range(len(problem.angles)):
-        before = warm and k > 0 and one.solved[k - 1]
-        start = one.q[k - 1, one.active] / one.length if before else one.guess
-        start = start if starts is None else starts[k, one.active] / one.length
+    active, load = problem.active, problem.load or 1.0
+    length = float(np.linalg.norm(problem.guess)) or 1e-6
+    q, solved = np.zeros((len(problem.angles), 5)), np.zeros(len(problem.angles), dtype=bool)
+    evaluations = 0
+
+    def at(u: Array, k: int) -> Contacts:
+        nonlocal evaluations
+        evaluations += 1
+        full = np.zeros((1, 5))
+        full[0, active] = u * length
+        return contacts(problem, full, slice(k, k + 1))
+
+    def unbalanced(u: Array, k: int) -> Array:
+        forces: Array = (at(u, k).force[0] - problem.force)[active] / load
+        return forces
+
+    def jacobian(u: Array, k: int) -> Array:
+        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
+        return slopes
+
+    def energy(u: Array, k: int) -> tuple[float, Array]:
+        """With the load's, over load times length, and its slopes."""
+        found = at(u, k)
+        work = float(u @ problem.force[active]) * length
+        slopes = (found.force[0] - problem.force)[active] / load
+        return (float(found.energy[0]) - work) / (load * length), slopes
+
+    for k in range(len(q)):
+        begin = problem.guess if starts is None else starts[k]
+        begin = q[k - 1] if warm and k > 0 and solved[k - 1] else begin
+        start = begin[active] / length
         if method == "least_squares":
             tight = max(tolerance, 2.3e-16)
-            fit = least_squares(
-                one.unbalanced, start, jac=one.jacobian, args=(k,), ftol=tight, xtol=tight,
-                gtol=tight,
-            )  # fmt: skip
-            one.take(k, fit.x, fit.success and np.abs(fit.fun).max() <= max(tolerance, 1e-8))
+            found: Any = least_squares(
+                unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
+            )
+            good = found.success and np.abs(found.fun).max() <= max(tolerance, 1e-8)
         elif method == "trust-exact":
             found = minimize(
-                one.energy, start, args=(k,), jac=True, hess=one.jacobian,
-                method="trust-exact", options={"gtol": tolerance},
+                energy, start, args=(k,), jac=True, hess=jacobian, method="trust-exact",
+                options={"gtol": tolerance},
             )  # fmt: skip
-            one.take(k, found.x, found.success)
+            good = found.success
         else:
-            answer = root(  # type: ignore[call-overload]
-                one.unbalanced, start, args=(k,), jac=one.jacobian, method=method, tol=tolerance
+            found = root(  # type: ignore[call-overload]
+                unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
             )
-            one.take(k, answer.x, answer.success)
-    return one.solutions()
+            good = found.success
+        q[k, active], solved[k] = found.x * length, good
+    return Solved(q, solved, evaluations)
 
 
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Solved:
@@ -318,9 +296,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     rounding gives it, its stiffness is that of rounding: no precision settles it, least of all for
     rollers, whose stiffness grows as the ninth root of their compression.
     """
-    exact, seconds, _ = least_time(
-        lambda: refined(problem, _compiled(problem, 0.0).q), runs=1, budget=0.0
-    )
+    exact = refined(problem, _compiled(problem, 0.0).q)
     other = _by_scipy(problem, 1e-12, "hybr")
     # it calls answers solved that are none
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
@@ -353,7 +329,6 @@ def static_reference(problem: StaticProblem) -> StaticReference:
         ("energy Newton, refined in 80-bit numbers", "MINPACK hybr on the forces"),
         agreement,
         bool(known.any()) and agreement["stiffness"] < 1e-6,
-        seconds,
         note,
     )
     return StaticReference(stiffness, load, known, reference)
@@ -421,7 +396,6 @@ def statics_experiment(
     ]
     experiment = Experiment(
         "statics",
-        f"Static equilibrium in {', '.join(scene.active_dofs)}, {n_angles} cage angles",
         STATIC_ERRORS,
         "evaluations of all contacts per equilibrium",
         {case: truth.reference for case, truth in truths.items()},
@@ -460,7 +434,7 @@ def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
 def _measured(problem: StaticProblem, truth: StaticReference, name: str, tolerance: float) -> Point:
     """One solver at one tolerance; times and evaluations are for one equilibrium."""
     with np.errstate(all="ignore"):
-        found, seconds, runs = least_time(lambda: SOLVERS[name][0](problem, tolerance))
+        found, seconds = least_time(lambda: SOLVERS[name][0](problem, tolerance))
     known = truth.known
     missing = int((known & ~found.solved).sum())
     errors: dict[str, float] = {}
@@ -475,6 +449,6 @@ def _measured(problem: StaticProblem, truth: StaticReference, name: str, toleran
             status = "failed: a wrong answer that it calls solved"
     n = len(problem.angles)
     return Point(
-        name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n, runs,
+        name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n,
         found.evaluations / n, status, in_use=name == OWN,
     )  # fmt: skip

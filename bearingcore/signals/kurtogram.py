@@ -107,7 +107,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
-    samples = np.asarray(signal, dtype=float)[:MOST_JUDGED]
+    samples = np.atleast_1d(np.asarray(signal, dtype=float))[:MOST_JUDGED]
     if samples.ndim != 1 or len(samples) < 32 * PIECES or not np.isfinite(samples).all():
         raise checks.refuse(
             "signal", f"of shape {samples.shape}", f"a row of {32 * PIECES} finite numbers at least"

@@ -18,7 +18,7 @@ from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.dynamics.ball_comparison import mass_share
 from bearingcore.dynamics.low_pass import PASSED
-from bearingcore.dynamics.modes import BandSearch, undamped_bands
+from bearingcore.dynamics.modes import BandSearch, stiffness_terms, undamped_bands
 from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.record import simulated_record
@@ -354,7 +354,7 @@ def of_scene(
 def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
     """`_statics` of one scene, with the ends that were looked for between the positions."""
     state = found.state
-    terms = np.stack([state.term(name) for name in STIFFNESS_TERMS])
+    terms = stiffness_terms(state)
     greatest_load = state.ball_load.max(axis=1)
     code, numbers = _statics(state.status, terms, state.loaded_balls, greatest_load, state.shares)
     for which, ends in (("least", found.least), ("greatest", found.greatest)):
@@ -369,18 +369,18 @@ def _bands_over_all_positions(
     found: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
 ) -> SweepStatus:
     """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
-    scene = found.state.scene
+    scene, terms = found.state.scene, stiffness_terms(found.state)
     if not scene.defect_turns:
-        terms = np.stack([found.state.term(name) for name in STIFFNESS_TERMS])
         of_one = _bands(scene, terms[:, None], labels)
         numbers |= {name: values[0] for name, values in of_one.items()}
         return SweepStatus.COMPLETE
-    search = BandSearch(found.state)
+    search = BandSearch(scene, terms, found.state.shares)
 
     def at(cage_angles: Array, shaft_angles: Array) -> Array:
-        return search.frequencies(equilibrium(scene, cage_angles, shaft_angles=shaft_angles))
+        state = equilibrium(scene, cage_angles, shaft_angles=shaft_angles)
+        return search.frequencies(stiffness_terms(state))
 
-    ends = extremes(positions(scene, n), search.frequencies(found.state), at)
+    ends = extremes(positions(scene, n), search.frequencies(terms), at)
     edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
     for which, own in zip(("least", "greatest"), edges, strict=True):
         numbers[f"band_{which}"] = np.array([own.get(label, math.nan) for label in labels])

@@ -107,6 +107,7 @@ for broken in sys.argv[1:]:
 """
 
 
+@pytest.mark.proof
 def test_a_half_that_is_broken_is_not_left_out_unsaid() -> None:
     """A module that is missing inside it is an error of the program."""
     missing = [

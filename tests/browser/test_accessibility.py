@@ -239,6 +239,7 @@ def test_everything_is_reached_by_keys(page: Page, explorer: Server) -> None:
     assert [name for name, _, there in seen if not there] == []
 
 
+@pytest.mark.proof
 def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     page = desk.page
     page.evaluate(DEEP)
@@ -274,6 +275,7 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     assert view.locator("canvas").evaluate_all(heights) == before
 
 
+@pytest.mark.proof
 def test_help_and_menus_are_gone_through_by_keys(desk: Visitor) -> None:
     page = desk.page
     page.evaluate(DEEP)

@@ -1,11 +1,13 @@
 """A slider in motion: what is sent, what is drawn last, and what is one step to take back."""
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, settle, slider, value
 from tests.browser.helpers import Server, Watch, drag, unfold
 
 
+@pytest.mark.proof
 def test_a_browser_does_not_send_back_what_it_is_sent(
     watch: tuple[Page, Watch], explorer: Server
 ) -> None:
@@ -102,6 +104,7 @@ _NOTHING_IS_DRAWN = """() => {
 }"""
 
 
+@pytest.mark.proof
 def test_nothing_overtakes_a_position_that_waits(page: Page, explorer: Server) -> None:
     """A hand's last position may wait for the screen: a choice or an undo comes after it."""
     opened(page, explorer, "")
@@ -121,6 +124,7 @@ def test_nothing_overtakes_a_position_that_waits(page: Page, explorer: Server) -
     assert value(page, "depth_um") == 50, "a drag is one step"
 
 
+@pytest.mark.proof
 def test_a_shorter_sentence_does_not_resize_the_drawing_above_it(
     page: Page, explorer: Server
 ) -> None:

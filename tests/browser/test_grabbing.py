@@ -61,7 +61,7 @@ def by_finger(page: Page, kind: int, right: float, down: float) -> None:
     settle(page)
 
 
-@pytest.mark.parametrize("drag", [by_mouse, by_finger])
+@pytest.mark.parametrize("drag", [by_mouse, pytest.param(by_finger, marks=pytest.mark.proof)])
 def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> None:
     scrolled = page.evaluate("scrollY")
     extent, center = value(page, "extent_deg"), value(page, "center_deg")
@@ -88,6 +88,7 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> 
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0), "a drag is one step"
 
 
+@pytest.mark.proof
 def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     def handle(name: str) -> Locator:
         return page.get_by_role("main").get_by_role("slider", name=name, exact=True)

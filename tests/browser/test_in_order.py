@@ -19,6 +19,7 @@ def in_messages_page() -> Iterator[Server]:
         yield server
 
 
+@pytest.mark.proof
 def test_children_and_numbers_that_come_in_messages_of_their_own_all_arrive(
     page: Page, in_messages_page: Server
 ) -> None:

@@ -306,6 +306,7 @@ def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     assert len(table.decode().strip().splitlines()) >= 63
 
 
+@pytest.mark.proof
 def test_the_vibration_is_seen_over_all_frequencies_and_with_harmonics(desk: Visitor) -> None:
     desk.begin("Vibration")
     for act in (
@@ -629,6 +630,7 @@ def test_a_lesson_is_begun_predicted_answered_and_followed_by_the_next(visitor: 
     expect(lesson).to_be_hidden()
 
 
+@pytest.mark.proof
 def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor) -> None:
     visitor.open("?lesson=what-a-ball-carries#hide-answers")
     lesson = visitor.page.get_by_role("region", name="Lesson")
@@ -701,6 +703,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     menu = visitor.menu("Compare")
     menu.get_by_role("textbox", name="Name of this scene").fill(_NAME)
     menu.get_by_role("button", name="Compare", exact=True).click()
+    expect(menu).to_be_hidden()  # what was done is said in its place
     visitor.menu("Compare")
     expect(curves).to_have_count(2)
     curves.nth(1).fill("long")
@@ -725,6 +728,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     other.close()
 
 
+@pytest.mark.proof
 def test_a_figure_of_the_paper_is_drawn_and_opened_live(desk: Visitor) -> None:
     desk.begin("More: Paper")
     desk.press("Figure 10")
@@ -756,6 +760,7 @@ def _keys(visitor: Visitor) -> list[str]:
     return found
 
 
+@pytest.mark.proof
 def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "life")
     visitor.go_to("More: Explore")
@@ -798,6 +803,7 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
 # --- links and files ------------------------------------------------------------------------------
 
 
+@pytest.mark.proof
 def test_an_old_link_opens_the_part_that_has_its_views_now(
     visitor: Visitor, explorer: Server
 ) -> None:
@@ -834,6 +840,7 @@ def test_a_scene_is_saved_changed_and_opened(desk: Visitor) -> None:
     expect(desk.box("Length of the defect")).to_have_value("38.6")
 
 
+@pytest.mark.proof
 def test_a_floor_is_brought_in_a_file(desk: Visitor) -> None:
     desk.begin("Load")
     desk.choose("Floor", "From a file")

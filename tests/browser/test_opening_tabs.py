@@ -29,6 +29,8 @@ _SIZES = f"""() => ({_FIGURES})().map((view) => {{
   const box = view.el.getBoundingClientRect()
   return [box.width, view.layout.bbox.width, box.height, view.layout.bbox.height]
 }})"""
+_HIDDEN = """() => [...Bokeh.index.query(
+  ({model, is_displayed}) => model.type === "Figure" && !is_displayed)].length"""
 # Colours that a figure has: the corner of its paper, and of how many it is made.
 _COLORS = f"""() => ({_FIGURES})().map((view) => {{
   const canvas = view.canvas_view.primary.canvas
@@ -73,9 +75,9 @@ def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Serv
 
 
 def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explorer: Server) -> None:
-    open_page(page, explorer, "load")
-    show(page, "vibration")
+    open_page(page, explorer, "vibration")
     rest(page)
+    assert page.evaluate(_HIDDEN) == 0, "what is folded or not chosen is not built"
     page.evaluate(_WATCH)
     show(page, "accuracy")
     rest(page)
@@ -120,6 +122,7 @@ def test_a_tab_that_opens_again_is_neither_sent_nor_painted(page: Page, explorer
     assert page.evaluate("window.__painted") == {}
 
 
+@pytest.mark.proof
 def test_tabs_are_right_after_the_window_changed_while_they_were_closed(
     page: Page, explorer: Server
 ) -> None:
@@ -137,6 +140,7 @@ def test_tabs_are_right_after_the_window_changed_while_they_were_closed(
             assert wide > 200
 
 
+@pytest.mark.proof
 def test_a_closed_tab_follows_the_theme(page: Page, explorer: Server) -> None:
     open_page(page, explorer, "load")
     rest(page)

@@ -167,11 +167,15 @@ class Visitor:
 
     def look_over(self) -> None:
         """Scroll past all figures and back: those out of sight are painted last."""
-        for canvas in self.main.locator("canvas:not(.bk-glyph)").locator("visible=true").all():
-            canvas.evaluate("one => one.scrollIntoView({block: 'nearest'})")
-            self.page.wait_for_function(
-                "new Promise((done) => requestAnimationFrame(() => done(1)))"
-            )
+        # in one call: a part that a busy server closes late takes its figures away meanwhile
+        self.main.locator("canvas:not(.bk-glyph)").locator("visible=true").evaluate_all(
+            """async (figures) => {
+              for (const one of figures) {
+                one.scrollIntoView({block: "nearest"})
+                await new Promise(requestAnimationFrame)
+              }
+            }"""
+        )
         self.main.evaluate("part => part.scrollTo(0, 0)")
 
     def point(self, figure: int, across: float, down: float) -> None:

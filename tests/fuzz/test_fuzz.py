@@ -1,4 +1,4 @@
-"""Broken inputs of every parser: ``FUZZ_INPUTS=100000 pytest -n 0 tests/fuzz/test_fuzz.py``."""
+"""Broken inputs: ``FUZZ_INPUTS=100000 pytest -n 0 -m proof tests/fuzz/test_fuzz.py``."""
 
 import os
 import warnings
@@ -12,6 +12,7 @@ INPUTS = int(os.environ.get("FUZZ_INPUTS", "150"))
 
 
 @pytest.mark.parametrize("name", [target.name for target in targets()])
+@pytest.mark.proof
 def test_broken_inputs_are_taken_or_refused_in_a_sentence(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

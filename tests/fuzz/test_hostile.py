@@ -1,20 +1,28 @@
-"""Small shares of the benchmark `hostile`: other messages and files."""
+"""Hostile messages and damaged files of every format.
+
+``HOSTILE_MESSAGES=20000 HOSTILE_FILES=1000 pytest -m proof tests/fuzz/test_hostile.py`` sends more.
+"""
 
 import asyncio
 import gc
 import logging
+import os
 from typing import Any
 
 import pytest
 from bearing_explorer.kit.serve.serving import Limits
 
-from tests.benchmarks.hostile import run
 from tests.fuzz.attacker import Tally, attack
+from tests.fuzz.broken_uploads import run
 from tests.fuzz.hostile_messages import SHAPES
 from tests.helpers.page_client import PageClient
 from tests.helpers.served import served
 
+MESSAGES = int(os.environ.get("HOSTILE_MESSAGES", "60"))
+FILES = int(os.environ.get("HOSTILE_FILES", "12"))
 
+
+@pytest.mark.proof
 def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
     caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -44,9 +52,9 @@ def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
 
 @pytest.mark.proof
 def test_each_damaged_file_has_an_answer_and_leaves_nothing_behind() -> None:
-    outcome = run(messages=60, files=12, first=1_000_001)
+    outcome = run(MESSAGES, FILES, first=1_000_001)
     assert outcome.turns, "the loop was watched"
     assert outcome.faults == []
-    assert outcome.answered.total() == 12
-    assert 0 < outcome.refused.total() < 12, "some can still be read"
-    assert outcome.tally.sent.total() >= 60
+    assert outcome.answered.total() == FILES
+    assert 0 < outcome.refused.total() < FILES, "some can still be read"
+    assert outcome.tally.sent.total() >= MESSAGES

@@ -265,12 +265,9 @@ def test_orders_of_convergence_of_the_motion_charts(preset: str) -> None:
     compared="levels of the housing's vibration with each edge model, a preset of each kind [dB]",
     within="0.05 dB",
 )  # fmt: skip
+@pytest.mark.proof
 @pytest.mark.parametrize(
-    "preset",
-    [
-        pytest.param(name, marks=[pytest.mark.proof] * (name != "fan-rig"))
-        for name in ("fan-rig", "1208", "nu208", "30206-back-to-back", "7208-back-to-back")
-    ],
+    "preset", ["fan-rig", "1208", "nu208", "30206-back-to-back", "7208-back-to-back"]
 )
 def test_levels_of_edge_models(preset: str) -> None:
     for edge in ("exact", "chord", "published"):
@@ -286,7 +283,8 @@ def test_levels_of_edge_models(preset: str) -> None:
     compared="largest multiplier at the highest stable speeds of 17 presets' charts",
     within=1e-3,
 )  # fmt: skip
-@every_preset
+@pytest.mark.proof
+@pytest.mark.parametrize("preset", presets)
 def test_points_of_the_orbits_charts(preset: str) -> None:
     known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
     last = 3 if len(presets[preset].active_dofs) == 2 else 1  # a pass is short at high speed

@@ -78,6 +78,18 @@ def test_parts_by_their_printed_multiples(part: str) -> None:
     assert not diagnose(strange, BEARING, TURN * SHAFT).names_a_part
 
 
+def test_blows_that_no_speed_of_the_range_explains_name_no_part() -> None:
+    """Blows 15.4 times a second that wander: of the outer race they would need 258 rpm."""
+    rng = np.random.default_rng(1)
+    often = 4.3 * PRINTED["outer race"]
+    times = np.cumsum(1.0 + 0.05 * rng.standard_normal(int(0.99 * SECONDS * often))) / often
+    knocks = blows(times, np.ones_like(times), RATE, round(RATE * SECONDS), (3300.0, 900.0))
+    found = diagnose(recording(damaged("", 0.0) + 0.9 * knocks / knocks.std()), BEARING)
+    assert (found.fault, found.shaft_speed) == (CANNOT_TELL, None)
+    assert found.probability < 0.5
+    assert "outer race at 2" in found.sentence
+
+
 @witness(
     "function: trend", "function: trend_point",
     by="closed form: blows that grow in noise of deviation 1, as often as CWRU prints",

@@ -117,6 +117,7 @@ def test_chord_edges() -> None:
     by="least energy by SciPy over slots that a circle is rolled over",
     compared="loads of a 6205 over two defects at 20 cage angles", within=2e-3,
 )  # fmt: skip
+@pytest.mark.proof
 def test_loads_over_two_defects() -> None:
     parts = [(DOWN - 0.1, 0.08, 6e-6), (DOWN + 0.05, 0.12, 10e-6)]
     K = BASE.bearing.load_deflection_factor  # held by test_hertz

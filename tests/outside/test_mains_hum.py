@@ -136,6 +136,15 @@ def test_magnetic_noise_at_twice_the_mains_is_no_damaged_part(frequency, order, 
     assert f"twice the mains frequency ({frequency:g} Hz) looks alike" in found.sentence
 
 
+@pytest.mark.parametrize(("harmonic", "rpm"), [(1, 1273.0), (2, 646.0)])
+def test_one_line_in_all_bands_is_no_ball(harmonic, rpm):
+    """All noise swells by two fifths 100 times a second: a harmonic of a ball's line, all alone."""
+    assert harmonic * BALL_ORDER * rpm / 60.0 == pytest.approx(100.0, rel=0.02)
+    found = answer(Motor(rpm, swell=(100.0, 0.4), sharpness=1.0, duration=3.0), 0)
+    assert not found.names_a_part
+    assert found.of("ball").probability < 0.5
+
+
 @pytest.mark.parametrize(
     ("frequency", "least", "most"), [(100.5, 0.5, 0.8), (100.9, 0.8, 0.95), (103.0, 0.97, 1.0)]
 )

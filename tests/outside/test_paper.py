@@ -58,6 +58,7 @@ EXTENTS = (0.0, 5.0, 40.0, 70.0)
     compared="loads, means and ranges of stiffness of the Liew-Lim bearing, to the digits shown",
     within=0.01,
 )  # fmt: skip
+@pytest.mark.proof
 def test_loads_and_stiffness_of_figures_3_and_4() -> None:
     runs = [liew_lim(extent, 15.0, 45.0, 121) for extent in EXTENTS]
     loads = np.concatenate([one[0] for one in runs])

@@ -12,6 +12,7 @@ from scipy.io import savemat, wavfile
 from scipy.signal import freqs
 
 from bearingcore import (
+    Bearing,
     Recording,
     indicators,
     kurtogram,
@@ -172,6 +173,13 @@ def test_trends() -> None:
     assert found.column("rms") == pytest.approx(rms, rel=1e-3)
     one = trend_point(recordings[1], bearing, speed, "y", (2500.0, 3500.0))
     assert one.lines[LINES.index("bpfo")] == pytest.approx(1.0, rel=0.02)
+    # five vanes beside the 4.98 turns of an outer race
+    ball = 8e-3
+    near = Bearing.from_drawing(12, ball, ball / 0.17, 0.52 * ball, 0.52 * ball, contact_angle=0.0)
+    vanes = 2.0 * (1.0 + 0.3 * np.cos(TURN * 5.0 * 25.0 * TIME))
+    sound = Recording((vanes * wave(3000.0))[:, None], RATE, ("y",))
+    seen = trend_point(sound, near, speed, "y", (2500.0, 3500.0))
+    assert np.isnan(seen.lines[LINES.index("bpfo")])
 
 
 @witness(

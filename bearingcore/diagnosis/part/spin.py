@@ -42,6 +42,8 @@ class Spin:
         twice the spin frequency at which a ball's lines stand out most [Hz].
     outer, inner, ball
         deviations of the combs at other frequencies by which each part's comb is above them.
+    but_one
+        the same of a ball's comb, all without their loudest line.
     parent
         the same of combs that a ball's lines do not explain, and of those next to them or at their
         sidebands: where one is stronger, a ball's may be a part, the foot or a sideband of it.
@@ -53,6 +55,7 @@ class Spin:
     outer: float
     inner: float
     ball: float
+    but_one: float
     parent: float
     shaft_sidebands: float
     cage_sidebands: float
@@ -66,7 +69,8 @@ class Spin:
         """
         foreign = self.shaft_sidebands - self.cage_sidebands
         parent = self.parent if self.parent > self.ball else 0.0
-        return self.ball - max(0.0, self.outer, self.inner, parent, foreign)
+        above = self.ball - max(0.0, self.outer, self.inner, parent, foreign)
+        return min(above, self.but_one)
 
     def of(self, part: str) -> float:
         """Deviations by the name of the part."""
@@ -111,16 +115,20 @@ def spin(
         outer=race(OUTER),
         inner=race(INNER),
         ball=float(own[column]) if window.any() else -math.inf,
+        but_one=float(_deviations(combs, (0.0,), but_one=True)[column]),
         parent=float(np.max(own[others], initial=-np.inf)),
         shaft_sidebands=sides(shaft),
         cage_sidebands=sides(cage * shaft),
     )
 
 
-def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]:
+def _deviations(
+    combs: Combs, sidebands: Sequence[float], but_one: bool = False
+) -> NDArray[np.float64]:
     """The mean level at some distances [Hz] from harmonics of each frequency, in all bands (n,).
 
     In deviations of all frequencies from their median; NaN where the shaft hides all lines but one.
+    `but_one` leaves out the loudest line of each comb.
     """
     total = np.zeros((SPIN_HARMONICS * len(sidebands), len(combs.frequency)))
     for one in combs.envelopes:
@@ -131,7 +139,10 @@ def _deviations(combs: Combs, sidebands: Sequence[float]) -> NDArray[np.float64]
         ])  # fmt: skip
     seen = np.isfinite(total)
     count = seen.sum(axis=0)
-    mean = np.where(seen, total, 0.0).sum(axis=0) / np.where(count > 1, count, np.nan)
+    kept = np.where(seen, total, 0.0).sum(axis=0)
+    if but_one:
+        kept -= np.where(count > 1, np.where(seen, total, -np.inf).max(axis=0), 0.0)
+    mean = kept / np.where(count > 1, count - but_one, np.nan)
     if not np.isfinite(mean).any():
         return np.asarray(mean)
     away = mean - np.nanmedian(mean)

@@ -70,10 +70,10 @@ def in_range(
             answer = decide(signal, judged, None, f"{source}, not found")
             if not answer.names_a_part:
                 return answer
-            # lines of a part at an end of the range, or just outside
-            named = judged.own
-            there = replace(judged, shaft=named.frequency / named.nominal_order)
-            return _undecided_speed(signal, [_Hypothesis(own, there)], named.frequency, source)
+            # of a part only at a speed outside the range, or too faint to find one
+            best = judged.own
+            beyond = replace(judged, shaft=best.frequency / best.nominal_order)
+            return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
         return _undecided_speed(signal, hypotheses, strongest, source)
     first = holding[0]
     rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)

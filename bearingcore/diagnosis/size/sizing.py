@@ -57,7 +57,7 @@ TEMPERATURE = 3.0
 
 WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
-stated standard deviation that of the errors (`python -m tests.benchmarks.sizing given`)."""
+stated standard deviation that of the errors on rigs drawn by seed."""
 
 SLACK = 0.25
 """Of the variance that the extent has where what is left is all that models err by: it counts with

@@ -35,7 +35,7 @@ from bearingcore.bearings.suffix import (
 )
 from bearingcore.errors import FieldError
 from bearingcore.units import INCH
-from tests.benchmarks.insides import judged
+from tests.helpers.insides import judged
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 

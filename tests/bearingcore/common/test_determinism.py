@@ -15,6 +15,7 @@ def first() -> dict[str, str]:
     return {name: print_of(name) for name in ANSWERS}
 
 
+@pytest.mark.proof
 def test_the_same_again_in_two_threads(first: dict[str, str]) -> None:
     names = [*ANSWERS, *reversed(ANSWERS)]  # others beside each the second time
     with ThreadPoolExecutor(2) as threads:
@@ -22,6 +23,7 @@ def test_the_same_again_in_two_threads(first: dict[str, str]) -> None:
     assert [(name, first[name]) for name in names] == again
 
 
+@pytest.mark.proof
 def test_the_same_in_another_process(first: dict[str, str]) -> None:
     """Another order of hashes and of everything in memory."""
     ask = (

@@ -4,12 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from scipy.optimize import linear_sum_assignment
 
 from bearingcore import Scene, equilibrium, frequency_bands, modes, presets
-from bearingcore.dynamics.modes import _frequencies_like, modes_at, two_body_matrix, undamped_bands
+from bearingcore.dynamics.modes import modes_at, undamped_bands
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, default_cage_angles
 
 RIG, ANGULAR = presets["fan-rig"], presets["liew-lim"]
@@ -51,64 +48,6 @@ def test_damping_nearly_is_damping_where_modes_meet_and_balls_come_in(extent: fl
     np.testing.assert_allclose(nearly.damping_ratio, exact.damping_ratio, atol=2e-3)
 
 
-def symmetric(rng: np.random.Generator, nd: int, n: int, spread: float) -> np.ndarray:
-    """Upper triangles (nd (nd + 1)/2, n) of matrices about one that is positive definite."""
-    root = rng.standard_normal((nd, nd))
-    middle = root @ root.T + 0.3 * np.eye(nd)
-    off = rng.standard_normal((n, nd, nd))
-    K = 1e8 * (middle + spread * (off + np.swapaxes(off, 1, 2)))
-    row, column = np.triu_indices(nd)
-    return K[:, row, column].T.copy()
-
-
-def full(terms: np.ndarray, support: np.ndarray) -> np.ndarray:
-    """(n, m, m) of both bodies."""
-    nd = len(support)
-    K = np.zeros((terms.shape[1], nd, nd))
-    row, column = np.triu_indices(nd)
-    K[:, row, column] = K[:, column, row] = terms.T
-    return two_body_matrix(K, support)
-
-
-def template_of(terms: np.ndarray, support: np.ndarray, mass: np.ndarray) -> np.ndarray:
-    """Modes of the mean, of unit modal mass."""
-    root = np.sqrt(mass)
-    mean = full(terms, support).mean(axis=0) / (root[:, None] * root)
-    return np.linalg.eigh(mean)[1].T / root
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    seed=st.integers(0, 2**32 - 1),
-    nd=st.integers(1, 5),
-    n=st.integers(1, 40),
-    spread=st.sampled_from([0.0, 1e-6, 0.05, 0.4, 2.0]),
-    free=st.booleans(),
-)
-def test_any_matrices_have_the_frequencies_of_lapack_and_the_best_assignment(
-    seed: int, nd: int, n: int, spread: float, free: bool
-) -> None:
-    """Also indefinite ones, and free bodies, whose frequency is none."""
-    rng = np.random.default_rng(seed)
-    terms = symmetric(rng, nd, n, spread)
-    support = np.zeros(nd) if free else 10.0 ** rng.uniform(5.0, 10.0, nd)
-    mass = 10.0 ** rng.uniform(-3.0, 1.0, 2 * nd)
-    template = template_of(terms, support, mass)
-    found = _frequencies_like(template, terms, support)
-    root = np.sqrt(mass)
-    values, vectors = np.linalg.eigh(full(terms, support) / (root[:, None] * root))
-    expected = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
-    # the square root of what rounding leaves of nothing
-    noise = 1e-7 * float(np.sqrt(np.abs(values).max())) / (2.0 * math.pi)
-    np.testing.assert_allclose(np.sort(found.T, axis=1), expected, rtol=1e-9, atol=noise)
-    likeness = np.einsum("im,njm->nij", template * root, np.swapaxes(vectors, 1, 2)) ** 2
-    for k in range(n):
-        _, best = linear_sum_assignment(likeness[k], maximize=True)
-        second = 1.0 - likeness[k].max(axis=1)
-        if second.max() < 0.4:  # no template is like two modes
-            np.testing.assert_allclose(found[:, k], expected[k, best], rtol=1e-9, atol=noise)
-
-
 def test_what_is_not_known_is_left_out_and_nothing_known_is_not_a_number() -> None:
     terms = terms_of(RIG)
     gone = terms.copy()
@@ -121,27 +60,6 @@ def test_what_is_not_known_is_left_out_and_nothing_known_is_not_a_number() -> No
     assert np.isnan(least[2]).all()
     assert np.isnan(greatest[2]).all()
     assert np.isfinite(least[0]).all()
-
-
-@pytest.mark.parametrize(
-    ("name", "angles", "far"),
-    [
-        *((name, 3001, 2e-4) for name in ("two directions", "a large defect", "healthy")),
-        *((name, 3001, 2e-4) for name in ("five directions", "sideways")),
-    ],
-)
-@pytest.mark.proof
-def test_bands_hold_all_that_very_many_cage_angles_give_and_hardly_more(
-    name: str, angles: int, far: float
-) -> None:
-    scene = SCENES[name]
-    found = frequency_bands(scene)
-    many = modes(scene, default_cage_angles(scene, angles)).bands()
-    assert list(found) == list(many)
-    for label, (low, high) in many.items():
-        room = far * high  # between these angles there is something too
-        assert low - room <= found[label][0] <= low + room, label
-        assert high - room <= found[label][1] <= high + room, label
 
 
 def test_bands_do_not_depend_on_the_samples() -> None:

@@ -5,10 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore import Scene, equilibrium, orbit, presets, simulate, spectrum
-from bearingcore.dynamics.damping import packed_motion
-from bearingcore.dynamics.motion import static_start
-from bearingcore.dynamics.orbit import _Shooting as Shooting
+from bearingcore import Scene, orbit, presets, simulate, spectrum
 from bearingcore.dynamics.orbit import common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
 
@@ -97,42 +94,6 @@ def test_an_orbit_jumps_where_the_march_does() -> None:
         apart = orbit(scene, step_rate=rate).outer_acceleration(fine.time[late]) - marched
         assert np.abs(apart).max() < 2e-2 * np.abs(marched).max()
         assert np.sqrt(np.mean(apart**2)) < 2e-3 * np.sqrt(np.mean(marched**2))
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [
-        RIG,
-        presets["liew-lim"],
-        RIG.replace(contact_law="no tension"),
-        presets["liew-lim"].replace(dofs=("x", "y", "z")),
-        presets["nu208"].replace(contact_damping=130.0),
-        presets["7208-face-to-face"].replace(contact_damping=130.0),
-    ],
-    ids=["smooth", "tilt", "no tension", "three directions", "rollers", "two rows"],
-)
-def test_the_tangent_is_the_derivative_of_the_march(scene: Scene) -> None:
-    """Against central differences over an eighth of a ball pass.
-
-    In smooth variables it is the derivative of the steps themselves; without tension touches lie
-    between steps.
-    """
-    smooth = scene.contact_law == "published"
-    period = scene.bearing.ball_spacing / scene.cage_speed / 8.0
-    shooting = Shooting(packed_motion(scene), period, 3000)
-    start = static_start(packed_motion(scene), equilibrium(scene, [0.0]))
-    assert start is not None
-    y = shooting.marched(shooting.own(start), 3)
-    _, tangent = shooting.with_tangent(y)
-    differences = np.empty_like(tangent)
-    for i in range(y.size):
-        small = np.zeros(y.size)
-        small[i] = (1e-11 if smooth else 3e-10) / shooting.scale[i]
-        up, down = shooting.marched(y + small), shooting.marched(y - small)
-        differences[:, i] = (up - down) / (2.0 * small[i])
-    scaled = shooting.scale[:, None] / shooting.scale
-    error = np.abs(scaled * (tangent - differences)).max()
-    assert error < (1e-5 if smooth else 2e-3) * np.abs(scaled * differences).max()
 
 
 def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:

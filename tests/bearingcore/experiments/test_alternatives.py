@@ -30,6 +30,7 @@ def rows_of(name: str) -> dict[tuple[str, str], Alternative]:
 @pytest.mark.parametrize(
     "name", {scene.bearing.kind.name: name for name, scene in presets.items()}.values()
 )
+@pytest.mark.proof
 def test_what_it_costs_is_bounded(name: str) -> None:
     """About a second: counted in evaluations of all contacts, as clocks depend on the machine."""
     found = alternatives(presets[name])

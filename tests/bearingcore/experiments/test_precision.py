@@ -33,6 +33,7 @@ def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     measure_once(monkeypatch)
 
 
+@pytest.mark.proof
 def test_the_reference_meets_the_one_that_was_stored() -> None:
     """Computed by other code, stopping at every event, with other integrators."""
     scene = FAN_RIG.replace(contact_damping=122.0)
@@ -46,10 +47,10 @@ def test_the_reference_meets_the_one_that_was_stored() -> None:
     assert np.abs(found - expected).max() / swing < 1e-8
 
 
+@pytest.mark.proof
 def test_methods_break_where_linear_theory_says() -> None:
     chart = stability_chart(FAN_RIG, duration=0.05)
     assert chart.completed
-    assert chart.reference.trusted
     assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
     for name in ("RK4", "RK4 in velocities"):
         limit = chart.linear_limit[name]
@@ -57,7 +58,7 @@ def test_methods_break_where_linear_theory_says() -> None:
         coarsest = min((t for t in chart.trials if t.method == name), key=lambda t: t.step_rate)
         assert coarsest.verdict == DIVERGED
     finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
-    assert all(trial.verdict == "right" for trial in finest)
+    assert all(trial.verdict == "stable" for trial in finest)
     table = chart.table()
     assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
     assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
@@ -114,6 +115,7 @@ def test_rollers_that_touch_by_rounding_alone_are_left_out() -> None:
     assert touching.known.all()
 
 
+@pytest.mark.proof
 def test_motion() -> None:
     cvode = ("CVODE Adams", "CVODE BDF") if HAS_CVODE else ()
     names = ("RK4", "RK4 in velocities", "scipy RK45", "scipy LSODA", *cvode)

@@ -75,6 +75,7 @@ def attributes_under_many_names() -> bytes:
     ],
 )
 @pytest.mark.skipif(sys.platform != "linux", reason="the system sets no limit of memory")
+@pytest.mark.proof
 def test_hostile_files_end_in_a_sentence(name, content, allowed, monkeypatch, tmp_path) -> None:
     """Computing is bounded more tightly here, so that this takes less time."""
     monkeypatch.setattr(child, "PROCESSOR_SECONDS", 2)

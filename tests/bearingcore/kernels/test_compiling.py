@@ -155,6 +155,7 @@ def test_broken_files_are_dropped_and_made_anew(package: Path, tmp_path: Path) -
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is full")
+@pytest.mark.proof
 def test_a_full_disk_keeps_nothing_and_says_so(package: Path, tmp_path: Path) -> None:
     """Writing fails as on a full disk: computing goes on, and one line says so."""
     full = (
@@ -187,6 +188,7 @@ def test_four_processes_that_start_at_once_are_all_right(package: Path, tmp_path
     assert told(start(package, tmp_path)) == (10.0, 1, True, True)
 
 
+@pytest.mark.proof
 def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: Path) -> None:
     """Machine code is then kept in the user's own folder."""
     told(start(package, None))  # machine code beside the sources, soon out of date

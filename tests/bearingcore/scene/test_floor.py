@@ -7,7 +7,7 @@ import pytest
 
 from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
 from bearingcore.files.floor import read_floor
-from bearingcore.scene.defect import drop_into, edge_drop, path_tables
+from bearingcore.scene.defect import drop_into
 from tests.helpers.reading import read_in_this_process
 
 BEARING = presets["fan-rig"].bearing
@@ -44,52 +44,6 @@ def test_two_slots_that_touch_are_one(race, edge, overlap) -> None:
     np.testing.assert_allclose(
         drop_into(two, BEARING, ANGLES), one.path(ANGLES, BEARING), rtol=0.0, atol=TABLE_ERROR
     )
-
-
-@pytest.mark.parametrize("race", RACES)
-@pytest.mark.parametrize("edge", EDGES)
-@pytest.mark.parametrize("extent", [0.01, 0.15, 2.0 * math.pi])
-def test_the_ball_rests_on_the_point_that_lets_it_sink_least(race, edge, extent) -> None:
-    """Against all points tried one by one, at some nodes of the table."""
-    rough = Defect(extent, 50e-6, 1.0, race, edge, RoughFloor(20e-6, 0.1e-3, 5))
-    _, table = path_tables((rough,), BEARING)
-    angle = np.linspace(-0.5 * extent, 0.5 * extent, table.size)
-    surface = rough.surface(1.0 + angle, BEARING)
-    whole = extent == 2.0 * math.pi
-    surface[[0, -1]] = min(surface[0], surface[-1]) if whole else 0.0
-    for i in [0, 1, table.size // 3, table.size // 2, table.size - 2, table.size - 1]:
-        away = np.abs(angle - angle[i])
-        away = np.minimum(away, 2.0 * math.pi - away) if whole else away
-        sunk = surface + edge_drop(away, rough, BEARING, BEARING.ball_radius)
-        assert table[i] == pytest.approx(sunk.min(), abs=1e-16)
-        assert sunk.argmin() != i or table[i] == surface[i]
-    assert table[0] == pytest.approx(table[-1], abs=1e-16)
-    assert np.any(table < surface - 1e-6)
-
-
-def test_a_step_inside_a_defect_holds_the_ball_as_an_edge_does() -> None:
-    """Just inside the deeper half the ball hangs on the step: the step and an edge's drop."""
-    shallow, deep = Defect(0.3, 30e-6, 0.0, edge="exact"), Defect(0.3, 80e-6, 0.3, edge="exact")
-    s = 0.005
-    alone = Defect(math.pi, BEARING.ball_radius, math.pi / 2, edge="exact")
-    expected = 30e-6 + float(alone.path(s, BEARING))
-    assert expected < 80e-6
-    drop = float(drop_into((shallow, deep), BEARING, 0.15 + s))
-    assert drop == pytest.approx(expected, abs=TABLE_ERROR)
-
-
-def test_roughness_has_the_height_and_correlation_asked_for() -> None:
-    height, length, R = 4e-6, 0.4e-3, BEARING.outer_raceway_radius
-    lag = length / R
-    angle = np.arange(-3.0, 3.0, lag / 10)
-    products, squares = [], []
-    for seed in range(40):
-        floor = RoughFloor(height, length, seed)
-        z = floor.surface(angle, 6.1, 1e-3, R) - 1e-3
-        squares.append(np.mean(z**2))
-        products.append(np.mean(z[10:] * z[:-10]))
-    assert math.sqrt(np.mean(squares)) == pytest.approx(height, rel=0.02)
-    assert np.mean(products) / np.mean(squares) == pytest.approx(math.exp(-1.0), abs=0.02)
 
 
 def test_a_longer_defect_continues_the_same_surface() -> None:

@@ -11,38 +11,6 @@ from bearingcore.signals.line_levels import line_levels
 RATE = 16_000.0
 
 
-def ringing(every: float, ring: float, seconds: float = 4.0) -> np.ndarray:
-    time = np.arange(int(seconds * RATE)) / RATE
-    since = time % (1.0 / every)
-    return np.asarray(np.exp(-700.0 * since) * np.sin(2.0 * np.pi * ring * since))
-
-
-def test_the_envelope_of_a_swelling_tone_is_its_swell():
-    time = np.arange(int(2.0 * RATE)) / RATE
-    swell = 1.0 + 0.2 * np.cos(2.0 * np.pi * 30.0 * time)
-    signal = swell * np.cos(2.0 * np.pi * 3000.0 * time)
-    (envelope,) = squared_envelopes(signal, RATE, [Band(2000.0, 4000.0)], 200.0)
-    at = np.arange(len(envelope.values)) / envelope.rate
-    expected = (1.0 + 0.2 * np.cos(2.0 * np.pi * 30.0 * at)) ** 2
-    inner = slice(50, -50)
-    np.testing.assert_allclose(
-        envelope.values[inner], (expected / expected.mean())[inner], atol=0.01
-    )
-    assert envelope.rate < RATE / 4.0
-
-
-def test_knocks_are_impulsive_where_they_ring_and_noise_is_not():
-    rng = np.random.default_rng(5)
-    signal = ringing(60.0, 3000.0) + 0.1 * rng.standard_normal(int(4.0 * RATE))
-    loud, quiet = squared_envelopes(
-        signal, RATE, [Band(2500.0, 3500.0), Band(6500.0, 7900.0)], 400.0
-    )
-    assert loud.kurtosis > 5.0
-    assert quiet.kurtosis < 3.0
-    noise = squared_envelopes(rng.standard_normal(64_000), RATE, [Band(1000.0, 5000.0)], 400.0)
-    assert noise[0].kurtosis == pytest.approx(2.0, abs=0.1)
-
-
 def test_dropouts_neither_knock_nor_lower_the_mean():
     rng = np.random.default_rng(6)
     signal = rng.standard_normal(64_000) + 5.0

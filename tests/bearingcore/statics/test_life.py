@@ -9,13 +9,8 @@ import pytest
 from bearingcore import DOF_NAMES, Defect, Load, Scene, equilibrium, presets, scene_of
 from bearingcore.scene.scene import FREE_TILT_WORDS, HELD_TILT_WORDS
 from bearingcore.statics.life import (
-    LINE_CONTACT,
-    POINT_CONTACT,
-    ContactLife,
     dynamic_load_rating,
     life,
-    million_revolutions,
-    ratings_of_races,
 )
 from bearingcore.statics.race_loads import race_loads
 from tests.outside.witness import witness
@@ -59,38 +54,6 @@ def test_commercial_code(
     found = life(seven_balls(clearance, **load), RATING)
     assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
     assert found.known
-
-
-@pytest.mark.parametrize(
-    ("contact", "exponent", "rows", "tolerance"),
-    [
-        (POINT_CONTACT, 1.5, 1, 2e-3),
-        (LINE_CONTACT, 10.0 / 9.0, 1, 0.02),
-        (POINT_CONTACT, 1.5, 2, 2e-3),
-        (LINE_CONTACT, 10.0 / 9.0, 2, 0.02),
-    ],
-)
-@pytest.mark.parametrize("gamma", [0.05, 0.15, 0.3])
-def test_a_load_of_the_rating_lasts_a_million_turns(
-    contact: ContactLife, exponent: float, rows: int, tolerance: float, gamma: float
-) -> None:
-    """Half a load zone, Q = Q_max cos^n φ, by sums of its own: Harris' J_r, then ISO 281's life.
-
-    Two rows carry half each, and fail as one chain. Rollers that carry evenly along their length
-    last (λν)^(−4) as long: C_r allows for uneven loads by λν = 0.83, ISO 16281 counts these.
-    """
-    phi = (np.arange(4000) + 0.5) / 4000 * 2.0 * math.pi
-    shape = np.maximum(np.cos(phi), 0.0) ** exponent
-    J_r = float(np.mean(shape * np.cos(phi)))
-    assert pytest.approx({1.5: 0.2288}.get(exponent, 0.2453), rel=3e-3) == J_r
-    Q = shape / J_r / rows  # under a radial load of Z cos α
-    p, pe = contact.load_exponent, contact.load_exponent * contact.scatter
-    loads = float(np.mean(Q**p) ** (1.0 / p)), float(np.mean(Q**pe) ** (1.0 / pe))
-    ratings = ratings_of_races(contact, 1.0, gamma, rows=rows)
-    chain = rows ** (-1.0 / contact.scatter)
-    expected = 1.0 if contact is POINT_CONTACT else 0.83**-4
-    found = chain * million_revolutions(contact, ratings, loads)
-    assert found == pytest.approx(expected, rel=tolerance)
 
 
 def damaged(race: str, **changes: float) -> Scene:
@@ -140,30 +103,6 @@ def test_defects_of_both_races_by_counting() -> None:
     inner, outer = by_counting(scene, places=48, every=4)
     assert found.inner[0] == pytest.approx(inner, rel=2e-3)
     assert found.outer[0] == pytest.approx(outer, rel=2e-3)
-
-
-@pytest.mark.parametrize("name", ["6205", "6206", "7208-25deg"])
-def test_a_defect_of_the_outer_race_by_equal_steps(name: str) -> None:
-    scene = presets[name]
-    found = race_loads(scene, P, E)
-    angles = (np.arange(20_000) + 0.5) * scene.bearing.ball_spacing / 20_000
-    Q = equilibrium(scene, angles).ball_load
-    assert found.inner[0] == pytest.approx(float(np.mean(Q**P) ** (1 / P)), rel=2e-5)
-    assert found.outer[0] == pytest.approx(float(np.mean(Q ** (P * E)) ** (1 / (P * E))), rel=2e-5)
-
-
-@pytest.mark.parametrize("race", ["inner", "outer"])
-def test_turning_the_whole_scene_changes_nothing(race: str) -> None:
-    scene = damaged(race)
-    assert isinstance(scene.defect, Defect)
-    turn = 0.37
-    turned = scene.replace(
-        fx=-scene.load.fy * math.sin(turn),
-        fy=scene.load.fy * math.cos(turn),
-        center=scene.defect.center + turn,
-    )
-    before, after = life(scene, 19_500.0), life(turned, 19_500.0)
-    assert after.million_revolutions == pytest.approx(before.million_revolutions, rel=2e-4)
 
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
@@ -238,37 +177,6 @@ def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
     rating = dynamic_load_rating(usual)
     assert dynamic_load_rating(usual.replace(inner_groove_radius=0.54 * D)) < 0.9 * rating
     assert dynamic_load_rating(usual.replace(inner_groove_radius=0.51 * D)) == rating
-
-
-def test_two_rows_live_as_the_rating_of_two_rows_says() -> None:
-    """Two rows under twice the load, rated i^0.7 of one: each row lives alike, together shorter.
-
-    With the rating of both rows each race is rated as alone, and lives combine as L^(−10/9).
-    """
-    one = presets["7208-25deg"].healthy()
-    two = one.replace(
-        bearing=one.bearing.paired(0.0, "tandem"), fy=2.0 * one.load.fy, fz=2.0 * one.load.fz
-    )
-    rating = dynamic_load_rating(one.bearing)
-    assert dynamic_load_rating(two.bearing) == pytest.approx(2.0**0.7 * rating)
-    single = life(one, rating, positions="all")
-    both = life(two, 2.0**0.7 * rating, positions="all")
-    assert both.inner_rating == pytest.approx(single.inner_rating)
-    assert both.million_revolutions == pytest.approx(
-        2.0**-0.9 * single.million_revolutions, rel=1e-9
-    )
-    assert both.equivalent_load == pytest.approx(2.0 * single.equivalent_load, rel=1e-9)
-
-
-def test_rollers_live_by_a_power_below_the_fourth_and_balls_by_the_third() -> None:
-    """A heavier load spreads along profiled rollers: ISO 281 has 10/3, a straight roller 4."""
-    scene = presets["nu208"].healthy().replace(radial_clearance=0.0)
-    lives = [life(scene.replace(fy=-load), 60e3).million_revolutions for load in (5e3, 10e3)]
-    assert 3.2 < math.log2(lives[0] / lives[1]) < 3.6
-    for name, rating, power in (("nu208", 60e3, 10.0 / 3.0), ("6206", 19_500.0, 3.0)):
-        found = life(presets[name], rating)
-        by_iso_281 = (rating / found.equivalent_load) ** power
-        assert by_iso_281 == pytest.approx(found.million_revolutions, rel=1e-12)
 
 
 def test_a_self_aligning_bearing_has_no_rating_but_a_life() -> None:

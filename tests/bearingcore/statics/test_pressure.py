@@ -1,4 +1,4 @@
-"""Ellipse and pressure of the heaviest ball: by mpmath, and by what must hold for any ellipse."""
+"""Pressure of the heaviest ball: where it is, and what is not known; `tests/outside` holds it."""
 
 import numpy as np
 import pytest

@@ -24,26 +24,6 @@ def found(scene: Scene, name: str, **choices: float) -> Limit:
 INNER, OUTER = "contact pressure, inner race", "contact pressure, outer race"
 
 
-STATIC_RATING_6205 = 7.8e3
-"""As makers print it [N]: the load at which ISO 76 lets 4.2 GPa stand, if a ball carries 5 F/Z."""
-
-
-def test_static_rating_of_the_catalogue_is_where_the_pressure_reaches_4200_mpa() -> None:
-    ball = 5.0 * STATIC_RATING_6205 / 9.0
-    p = HEALTHY_6205.bearing.race_contact("inner").greatest_pressure(ball)
-    assert float(p) == pytest.approx(4.2e9, rel=0.01)
-
-
-def test_overload_begins_near_the_static_rating() -> None:
-    """Without clearance the most loaded ball carries 4.37 F/Z (Stribeck), so a little later."""
-    tight = HEALTHY_6205.replace(radial_clearance=0.0)
-    begins = STATIC_RATING_6205 * 5.0 / 4.37
-    assert not found(tight.replace(fy=-0.95 * begins), INNER).crossed
-    limit = found(tight.replace(fy=-1.05 * begins), INNER)
-    assert limit.crossed
-    assert "above the 4.2 GPa" in limit.sentence
-
-
 @pytest.mark.parametrize("name", ["liew-lim", "fan-rig"])
 def test_without_groove_radii_pressure_is_not_known_and_not_invented(name: str) -> None:
     for race in (INNER, OUTER):

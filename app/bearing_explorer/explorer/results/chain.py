@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -172,6 +173,16 @@ def direction(scene: Scene) -> float:
     """Direction of the radial load [rad]; NaN without one."""
     load = scene.load
     return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
+
+
+def in_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool:
+    """Whether the mode of a label is in each scene above, or below, that of the other direction.
+
+    Modes that move along x and y alike may have each other's names in another scene.
+    """
+    other = {"x": "y", "y": "x"}.get(label[:-1], "") + label[-1]
+    orders = {own[label][0] > own[other][0] for own in bands if label in own and other in own}
+    return len(orders) <= 1
 
 
 def picture_top(results: Results) -> float:

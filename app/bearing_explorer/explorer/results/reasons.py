@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.chain import Peak, direction
+from bearing_explorer.explorer.results.chain import LOWEST_PEAK, Peak, direction
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
@@ -29,12 +29,18 @@ LEAST = 0.01
 """Of a stiffness: less is no change."""
 ALIKE = 0.01
 """Of the greatest load: balls that carry as much within this carry the most together."""
+NEAR = 0.65
+"""Mean cos²φ of loaded balls from which they lie near an axis; all of one side have 0.5 to 0.6."""
 SEPARATE = 4.0
 """Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
 STANDS_OUT = 3.0
 """[dB] over its surroundings, halfway to its neighbours, from which a peak is one."""
 LOADED = 0.01
 """Of the greatest load at rest from which a ball counts as loaded."""
+AT_AN_EDGE = 0.07
+"""Of an excerpt, a tenth of a ball pass: farther from an entry or exit a jolt is not its effect."""
+KEPT = 0.25
+"""Of its greatest load: a ball that carries more throughout does not lose it."""
 LARGE_SWING = 1.25
 """Greatest load in motion over that at rest from which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}
@@ -66,29 +72,50 @@ def most_loaded(
     names = _named(bearing, most)
     text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
     text += "" if briefly else f", {what}"
-    if math.isnan(line):
-        return f"{text}: there the rings are pressed together most."
-    apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
-    nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
-    inside = nearer[drop[nearer] > 0.0]
-    if not nearer.size:
-        off = style.in_degrees(apart[most].min(), 0)
-        near = "on the line of the load" if off == "0°" else f"nearest the line of the load ({off})"
-        if briefly:
-            return f"{text}: nearest the load."
-        return f"{text}: {near}, where the rings are pressed together most."
-    if not inside.size:
-        return f"{text}: there the rings are pressed together most."
-    said = _named(bearing, inside)
+    nearer = np.zeros(0, dtype=np.int64)
+    where = brief = "the rings are pressed together most there"
+    if not math.isnan(line):
+        apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
+        nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
+        if not nearer.size:
+            off = style.in_degrees(apart[most].min(), 0)
+            near = (
+                "on the line of the load"
+                if off == "0°"
+                else f"nearest the line of the load ({off})"
+            )
+            where, brief = f"{near}, where the rings are pressed together most", "nearest the load"
+    # in a defect, farther than those that carry most, and with less load
+    lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
+    inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
+    gone = inside if inside.size else adjacent[lost[adjacent]]
+    said, single = _named(bearing, gone), gone.size == 1
     if briefly:
-        return f"{text}: {said} {'is' if inside.size == 1 else 'are'} in the defect."
-    left = load[inside].max()
-    share = style.with_prefix(left, "N")
-    one = f"only {share}" if inside.size == 1 else f"at most {share} each"
-    carry = one if left > 0.0 else "nothing"
-    verb = "lies" if inside.size == 1 else "lie"
-    hold = "carries" if inside.size == 1 else "carry"
-    return f"{text}: {said}, nearer the line of the load, {verb} in the defect and {hold} {carry}."
+        if gone.size and brief == where:
+            return f"{text}: {said} {'is' if single else 'are'} in the defect."
+        return f"{text}: {brief}."
+    if not gone.size:
+        return f"{text}: {where}."
+    carry = f"{'only' if single else 'at most'} {style.with_prefix(load[gone].max(), 'N')}"
+    carry = f"{carry}{'' if single else ' each'}" if load[gone].max() > 0.0 else "nothing"
+    place = (
+        "nearer the line of the load" if inside.size else f"beside {'them' if several else 'it'}"
+    )
+    verbs = ("lies", "carries") if single else ("lie", "carry")
+    why = f"{said}, {place}, {verbs[0]} in the defect and {verbs[1]} {carry}"
+    return f"{text}: {why}." if inside.size or math.isnan(line) else f"{text}: {where}; {why}."
+
+
+def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Elements beside these in their rows."""
+    adjacent = [
+        its.start + (int(k) - its.start + side) % (its.stop - its.start)
+        for its in bearing.balls_of_rows
+        for k in which
+        if its.start <= k < its.stop
+        for side in (-1, 1)
+    ]
+    return np.unique(np.array(adjacent, dtype=np.int64))
 
 
 def greatest_load(results: Results) -> str:
@@ -158,7 +185,7 @@ def why_softer(
         lie = "" if briefly else f"loaded balls lie {how} {_ACROSS[dof]} and "
         said.append(
             f"{lie or 'balls '}push back {push} {_OTHER[dof]} "
-            f"({_SQUARE[dof]} {share_before:.2f} → {share:.2f})"
+            f"({_SQUARE[dof]} {from_to(share_before, share)})"
         )
     if (grown > 0.0) == rises and abs(grown) >= 0.5 * abs(turned):
         if (more > 0.0) == rises and abs(more) >= 0.5 * abs(grown):
@@ -169,6 +196,12 @@ def why_softer(
         else:
             said.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
     return said[0] if said and briefly else style.list_words(said)
+
+
+def from_to(before: float, now: float) -> str:
+    """Two numbers with as many places as distinguish them, two at least."""
+    places = next((n for n in range(2, 9) if f"{before:.{n}f}" != f"{now:.{n}f}"), 9)
+    return f"{before:.{places}f} → {now:.{places}f}"
 
 
 def stiffness(results: Results, *, briefly: bool = False) -> str:
@@ -203,10 +236,12 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
         return f"k_xx and k_yy are alike: balls carry all around (mean sin²φ {share:.2f})."
     dof, other = ("y", "x") if share > 0.5 else ("x", "y")
     large, small = max(share, 1.0 - share), min(share, 1.0 - share)
+    push = f"lie near {_ACROSS[dof]} and push back along it"
+    if large < NEAR:
+        push = f"push back more along {_ACROSS[dof]} than along {_ACROSS[other]}"
     return (
         f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: loaded balls "
-        f"lie near {_ACROSS[dof]} and push back along it ({_SQUARE[dof]} {large:.2f} on average, "
-        f"{_SQUARE[other]} {small:.2f})."
+        f"{push} ({_SQUARE[dof]} {large:.2f} on average, {_SQUARE[other]} {small:.2f})."
     )
 
 
@@ -284,8 +319,11 @@ def frequencies(results: Results) -> str:
 # --- vibration ------------------------------------------------------------------------------------
 
 
-def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
-    """Whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it."""
+def passes(spectrum: Spectrum, rate: float, lowest_mode: float, *, briefly: bool = False) -> str:
+    """Whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it.
+
+    `lowest_mode` [Hz]: the least natural frequency.
+    """
     frequency, density = spectrum
     spacing = float(frequency[1] - frequency[0])
     hertz = style.with_prefix(rate, "Hz")
@@ -303,13 +341,16 @@ def passes(spectrum: Spectrum, rate: float, *, briefly: bool = False) -> str:
     at = round(rate / spacing)
     own = level[at - 1 : at + 2].max()
     valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
-    below = float(level.max() - own)
+    below = f"{style.number(float(level.max() - own), 2)} dB below the largest peak"
     if own - max(valleys) < STANDS_OUT:
-        return (
-            f"No peak stands out at {hertz}, as often as balls pass: so slow a force moves the "
-            f"housing little, {style.number(below, 2)} dB below the largest peak."
-        )
-    return f"Peaks stand {hertz} apart, as often as balls pass."
+        text = f"No peak stands out at {hertz}, as often as balls pass: "
+        if not rate < lowest_mode:
+            return f"{text}there the level is {below}."
+        return f"{text}so slow a force moves the housing little, {below}."
+    most = float(frequency[int(np.argmax(level))])
+    if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
+        return f"Peaks stand {hertz} apart, as often as balls pass."
+    return f"A peak stands at {hertz}, as often as balls pass, {below}."
 
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
@@ -319,22 +360,29 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         return ""
     dof = max(peaks, key=lambda one: peaks[one].level)
     most = peaks[dof]
-    text = f"The largest peak, {most.frequency:.0f} Hz along {dof},"
+    frequency, density = results.late_spectra[dof]
+    is_low = frequency < LOWEST_PEAK
+    lower = density[is_low].max(initial=0.0) > density[~is_low].max(initial=0.0)
+    above = f" above {LOWEST_PEAK:.0f} Hz" if lower else ""
+    text = f"The largest peak{above}, {most.frequency:.0f} Hz along {dof},"
     bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
     inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
     if own := [label for label in inside if label[:-1] == dof]:
         if briefly:
-            return f"Peak in {mode_symbol(own[0])}: balls excite it."
+            return f"Peak{above} in {mode_symbol(own[0])}: balls excite it."
         return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
         resolved = rate >= SEPARATE * most.resolution and halves > 0
-        if resolved and abs(most.frequency - 0.5 * halves * rate) <= most.resolution:
-            hertz = style.with_prefix(rate, "Hz")
-            times = hertz if halves == 2 else f"{style.number(0.5 * halves)} times {hertz}"
-            within = f"as often as balls pass (lines are {most.resolution:.0f} Hz apart)"
-            why = "" if halves % 2 == 0 else ": the motion repeats only every second pass"
-            return f"{text} lies in no band of {dof}. It is {times}, {within}{why}."
+        if resolved and abs(most.frequency - 0.5 * halves * rate) <= 0.51 * most.resolution:
+            hertz = f"{style.number(rate, 4)} Hz"
+            times = hertz if halves == 2 else f"{style.number(0.5 * halves)} × {hertz}"
+            why = "as often as balls pass" if halves == 2 else "a multiple of the ball passes"
+            why = "so the motion does not repeat with each ball pass" if halves % 2 else why
+            return (
+                f"{text} lies in no band of {dof}. It is the line nearest {times}, {why} (lines "
+                f"are {most.resolution:.0f} Hz apart)."
+            )
     if inside:
         words = _lies(most, inside[0], bands)
         return f"{text} {words}: along {dof} the housing takes part in that swing."
@@ -366,14 +414,21 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
             "No loaded ball passes the defect: only the changing number of loaded balls shakes it."
         )
     nearest = min(loaded, key=lambda event: abs(event.time - at))
-    load = loads[nearest.ball]
-    apart = at - nearest.time
+    apart, load = at - nearest.time, shown.ball_load[:, list(shown.balls).index(nearest.ball)]
+    near = AT_AN_EDGE * float(np.ptp(shown.time))
+    around = load[np.abs(shown.time - at) <= near]
+    swing = loads[nearest.ball] / shown.greatest_static_load
+    if abs(apart) > near:
+        text = "The largest jolt comes while no ball enters or leaves the defect"
+        if swing <= LARGE_SWING:
+            return f"{text}."
+        return f"{text}: a ball carries up to {style.number(swing, 2)} times as much as at rest."
     verb, what = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
-    return (
-        f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect "
-        f"and {what} its load ({style.with_prefix(load, 'N', 2)} at most)."
-    )
+    text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
+    if around.min() > KEPT * load.max():
+        return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} all along."
+    return f"{text} and {what} its load ({style.with_prefix(load.max(), 'N', 2)} at most)."
 
 
 def _off(peak: Peak, band: tuple[float, float]) -> float:

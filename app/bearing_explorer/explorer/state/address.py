@@ -57,7 +57,7 @@ from bearing_explorer.explorer.state import field_values
 from bearing_explorer.explorer.state.bearing_kinds import MOST_SHOWN_ROWS
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, Choice, floor_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SHOWN_FIELDS, defects_of
-from bearing_explorer.explorer.state.references import Reference, usual_name
+from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, MOST_DEFECTS, SceneEditor
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
@@ -225,7 +225,8 @@ def _written(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
     for number, one in enumerate(place.compared, 1):
         preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
-        own = [("label", one.name), *_scene_pairs(Place(one.scene, preset), without_floors)]
+        label = [("label", one.name)] if one.name else []
+        own = [*label, *_scene_pairs(Place(one.scene, preset), without_floors)]
         pairs += [(f"compare{number}.{name}", value) for name, value in own]
     if place.cage_angle:
         pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
@@ -344,7 +345,7 @@ def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
         scene = _read({"v": VERSION, **part}).scene
-        found.append(Reference(scene, label or usual_name(scene)))
+        found.append(Reference(scene, label))
     return tuple(found)
 
 

@@ -25,9 +25,10 @@ from bearing_explorer.explorer.state.address import (
     read,
     write,
 )
+from bearing_explorer.explorer.state.difference import distinct_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import History
-from bearing_explorer.explorer.state.references import Reference, scene_line, usual_name
+from bearing_explorer.explorer.state.references import Reference, scene_line
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
 from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 from bearing_explorer.kit.sentences import one_line, sentence_of
@@ -92,8 +93,8 @@ class Bookmarks:
         self.tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
         self._said = (0, place.note)
         self._history: History[Snapshot] = History(editor.snapshot())
-        #: scenes that are drawn too
-        self.compared: tuple[Reference, ...] = place.compared
+        # scenes that are drawn too; one without a name is named by what differs
+        self._compared: tuple[Reference, ...] = place.compared
         self._left: tuple[Snapshot, tuple[Reference, ...], str] | None = None
 
     def begin_anew(self, tab: str) -> None:
@@ -105,6 +106,19 @@ class Bookmarks:
     def moving(self) -> bool:
         """Whether a hand moves something: a step has begun and not ended."""
         return bool(self._history.moving)
+
+    @property
+    def compared(self) -> tuple[Reference, ...]:
+        """Scenes that are drawn too."""
+        return tuple(
+            one if one.name else replace(one, name=self._usual_name(one.scene))
+            for one in self._compared
+        )
+
+    def _usual_name(self, scene: Scene) -> str:
+        """A name by what differs from the scene of now and those that are compared."""
+        others = [self._editor.scene, *(one.scene for one in self._compared)]
+        return distinct_name(scene, others, self._editor.selected)
 
     def say(self, sentence: str) -> None:
         """Set the notice shown in the toolbar; the same one again counts as new."""
@@ -148,7 +162,7 @@ class Bookmarks:
 
     def leave(self) -> None:
         """Keep scene, compared ones and tab of now for `back`."""
-        self._left = self._editor.snapshot(), self.compared, self.tab
+        self._left = self._editor.snapshot(), self._compared, self.tab
 
     @property
     def can_go_back(self) -> bool:
@@ -159,7 +173,7 @@ class Bookmarks:
         """Set what `leave` has kept, as a step, and name its tab; "" where nothing is kept."""
         if self._left is None:
             return ""
-        kept, self.compared, tab = self._left
+        kept, self._compared, tab = self._left
         self._left = None
         self._editor.restore(kept)
         self.say("")
@@ -181,7 +195,7 @@ class Bookmarks:
         except ValueError as error:
             self.say(f"{request.name}: {sentence_of(error)}")
             return False
-        self.compared = found.compared or self.compared
+        self._compared = found.compared or self._compared
         self.say(found.note or f"{request.name} is open.")
         self.step()
         return True
@@ -189,9 +203,8 @@ class Bookmarks:
     def change_compared(self, message: Mapping[Any, Any]) -> None:
         """Add the scene of now, rename or remove compared scenes, where a message says so."""
         if isinstance(name := message.get("compare_here"), str):
-            usual = usual_name(self._editor.scene, self._editor.selected)
-            self._compare(self._editor.scene, one_line(name, LONGEST_NAME) or usual)
-        compared = list(self.compared)
+            self._compare(self._editor.scene, one_line(name, LONGEST_NAME))
+        compared = list(self._compared)
         number = message.get("number")
         if not isinstance(number, int) or number >= len(compared):
             return
@@ -199,14 +212,15 @@ class Bookmarks:
             del compared[number]
         if isinstance(name := message.get("rename"), str) and number < len(compared):
             compared[number] = replace(compared[number], name=name_of(name))
-        self.compared = tuple(compared)
+        self._compared = tuple(compared)
 
     def _compare(self, scene: Scene, name: str) -> None:
-        if len(self.compared) == MOST_COMPARED:
+        if len(self._compared) == MOST_COMPARED:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
-        self.compared += (Reference(scene, name),)
-        self.say(f"Dashed {_COLORS[len(self.compared) - 1]}: “{name}”, for comparison.")
+        self._compared += (Reference(scene, name),)
+        name = self.compared[-1].name
+        self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: “{name}”, for comparison.")
 
     def kept(self, name: str) -> dict[str, str]:
         """The scene of now for the browser to keep."""
@@ -219,7 +233,7 @@ class Bookmarks:
 
     def state(self) -> dict[str, Any]:
         """State for the browser."""
-        place = replace(place_of(self._editor, self.tab or FIRST_TAB), compared=self.compared)
+        place = replace(place_of(self._editor, self.tab or FIRST_TAB), compared=self._compared)
         address = write(place, LONGEST_LINK)
         if self.lesson:
             address += "&" + urlencode({"lesson": self.lesson})
@@ -230,7 +244,7 @@ class Bookmarks:
             "redo": self._history.can_redo,
             "compared": [one.name for one in self.compared],
             "scene": scene_line(self._editor.name, self._editor.scene),
-            "usual_name": usual_name(self._editor.scene, self._editor.selected),
+            "usual_name": self._usual_name(self._editor.scene),
             "said": {"number": self._said[0], "words": self._said[1]},
             "left": self.can_go_back,
         }

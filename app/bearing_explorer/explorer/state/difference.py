@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.explorer.state.field_values import (
@@ -14,9 +15,10 @@ from bearing_explorer.explorer.state.field_values import (
     scene_with_fields,
     values_of,
 )
+from bearing_explorer.explorer.state.references import usual_name
 from bearing_explorer.kit.sentences import label_inside
 from bearingcore import Scene
-from bearingcore.common import number
+from bearingcore.common import number, with_prefix
 from bearingcore.fields import FIELD_OF, SCENE_PARTS, Field
 
 MOST_NUMBERS = 3
@@ -77,6 +79,58 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         return {name: scene_with_fields(before, own, focus) for name, own in causes.items()}
     except ValueError:
         return {}
+
+
+def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0) -> str:
+    """A name by what differs from other scenes: "100 N", "12.9°, 50 µm, 7 Hz".
+
+    By at most MOST_NUMBERS of these, by the size of the defect `focus` where nothing does.
+    """
+    defects = defects_of(scene)
+    focus = min(focus, len(defects) - 1)
+    own, changed, words, turned = values_of(scene, focus), set[Field](), dict[str, None](), False
+    for other in others:
+        theirs = defects_of(other)
+        at = min(focus, len(theirs) - 1)
+        changed |= {
+            field
+            for field, _ in _numbers(own, values_of(other, at))
+            if field.name != "center" or (scene.defects and other.defects)
+        }
+        turned |= not math.isclose(_direction(scene), _direction(other), abs_tol=1e-6)
+        choices = ((OF_SCENE, scene, other), (OF_DEFECT, defects[focus], theirs[at]))
+        for choices_of, now, then in choices:
+            words |= {
+                choice.name_of(now): None
+                for choice in choices_of
+                if choice.name_of(now) != choice.name_of(then)
+            }
+    numbers: dict[str, None] = {}
+    of_bearing = [field for field in changed if field.part in ("bearing", "pair", "second")]
+    for field in SHOWN_FIELDS:
+        if field not in changed:
+            continue
+        value = own[field.key]
+        if field.name in ("extent", "depth"):
+            name = usual_name(scene, focus)
+        elif field.name in ("fx", "fy"):
+            at_angle = f" at {math.degrees(_direction(scene)) % 360.0:.4g}°" if turned else ""
+            name = f"{with_prefix(math.hypot(scene.load.fx, scene.load.fy), 'N')}{at_angle}"
+        elif field in of_bearing and len(of_bearing) > MOST_NUMBERS:
+            bearing = scene.bearing
+            size = number(1e3 * bearing.ball_diameter)
+            name = f"{bearing.total_balls} {bearing.kind.element}s of {size} mm"
+        else:
+            unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
+            name = f"{_number(field.read_sign * value, 4)}{unit}"
+            name = name if field.name == "shaft_speed" else f"{label_inside(field)} {name}"
+        numbers[name] = None
+    return ", ".join([*numbers, *words][:MOST_NUMBERS]) or usual_name(scene, focus)
+
+
+def _direction(scene: Scene) -> float:
+    """Of the radial load [rad]; 0 without one."""
+    return math.atan2(scene.load.fy, scene.load.fx)
 
 
 def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, float]]]:

@@ -10,8 +10,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
-from bokeh.models import CustomJSTickFormatter, HoverTool, Range1d, Span
-from bokeh.plotting import figure
 
 from bearing_explorer.explorer.results.accuracy import (
     EVERYTHING,
@@ -27,24 +25,19 @@ from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.explorer.views.work_precision import (
     REST,
     WorkPrecision,
-    column_source,
-    columns_of,
     paragraph,
     prose,
 )
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
 from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
-    FIXED_STEP,
     HARD_CASES,
     MOTION_ERRORS,
     STATIC_ERRORS,
-    VERDICTS,
     Experiment,
     Measurements,
     OrbitAtSpeed,
@@ -80,21 +73,6 @@ ERRORS = {
 """Errors that can be drawn, by experiment."""
 
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
-VERDICT_LOOKS = dict(
-    zip(
-        VERDICTS,
-        (("#0072B2", "square"), ("#56B4E9", "inverted_triangle"), ("#E69F00", "diamond"),
-         ("#D55E00", "x")),
-        strict=True,
-    )
-)  # fmt: skip
-LOSS_COLORS = {"": "#0072B2", "period doubling": "#D55E00", "Neimark-Sacker": "#AA3377",
-               "fold": "#E69F00"}  # fmt: skip
-"""Colour of an orbit by its loss of stability; none is stable."""
-
-_SIGNS = {"square": "■", "inverted_triangle": "▼", "diamond": "◆", "x": "✕"}
-_VERDICT_LEGEND = style.legend([(c, _SIGNS[m], name) for name, (c, m) in VERDICT_LOOKS.items()])
-_LOSS_LEGEND = style.legend([(c, "●", loss or "stable") for loss, c in LOSS_COLORS.items()])
 
 
 def _grid(least: int) -> str:
@@ -138,12 +116,12 @@ class Accuracy(SceneJobView[Found]):
             ]
             for heading, charts in CHARTS.items()
         }
-        self._stability = Stability()
+        self._stability = prose()
         self._sections = {
             heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
             for heading, made in self._charts.items()
         }
-        self._sections[STEPS_AND_ORBITS] = self._stability.panel
+        self._sections[STEPS_AND_ORBITS] = stack(self._stability)
         self._place = stack(*self._sections.values(), margin=(14, 0, 0, 0))
         return [
             self.job,
@@ -249,17 +227,18 @@ class Accuracy(SceneJobView[Found]):
             **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
-        cost, steps = self._chosen.values["cost"], results.settings.step_rate
+        cost, step_rate = self._chosen.values["cost"], results.settings.step_rate
         for one, chart in chain.from_iterable(self._charts.values()):
             part, pale = _part(own, one), _part(base, one)
             if part is not None and not self._same:
                 pale = None  # of another scene
-            chart.draw(part, pale, cost, steps, reasons.get(one.experiment, ""))
-        speed, of = results.scene.shaft_speed, presets[preset]
-        if own is not None and own.orbits and self.found is not None:
-            of = self.found.scene
-        is_own = of.replace(shaft_speed=speed) == results.scene
-        self._stability.draw(own, base, speed if is_own else math.nan)
+            chart.draw(part, pale, cost, step_rate, reasons.get(one.experiment, ""))
+        known = [found for found in (own, base) if found is not None]
+        steps = next((found.stability for found in known if found.stability is not None), None)
+        orbits = next((found.orbits for found in known if found.orbits), ())
+        self._stability.object = paragraph(steps_sentence(steps)) + paragraph(
+            orbits_sentence(orbits)
+        )
         self._foot.object = foot(own, base, self._shown(results))
 
 
@@ -284,121 +263,6 @@ def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Exper
     return words
 
 
-class Stability:
-    """Steps that are too long, and Floquet multipliers over the shaft speed."""
-
-    def __init__(self) -> None:
-        self._drawn: object = None
-        self._steps, self._step_words = self._step_figure(), prose()
-        self._speeds, self._circle = self._speed_figure(), self._circle_figure()
-        self._orbit_words = prose()
-        self.panel = stack(
-            stack(self._steps, self._step_words),
-            stack(self._speeds, self._orbit_words),
-            self._circle,
-            stylesheets=[_grid(280)],
-        )
-
-    def _step_figure(self) -> figure:
-        """Methods down, steps across."""
-        plot = _figure("Steps a period", "", x_axis_type="log")
-        plot.x_range.update(start=0.8, end=80.0)
-        plot.y_range.update(start=-0.6, end=len(FIXED_STEP) - 0.4)
-        style.fixed_ticks(plot.xaxis[0], [1, 2, 5, 10, 20, 50])
-        style.fixed_ticks(plot.yaxis[0], range(len(FIXED_STEP)))
-        names = list(FIXED_STEP)
-        plot.yaxis.formatter = CustomJSTickFormatter(code=f"return {names}[tick] ?? ''")
-        colors = by_number("which", [color for color, _ in VERDICT_LOOKS.values()])
-        self._trials = column_source("x", "y", "which", "marker")
-        plot.scatter(
-            "x", "y", source=self._trials, marker="marker", size=13, color=colors, line_width=2.0
-        )
-        limits = plot.segment([], [], [], [], line_color=style.INK, line_width=2.5)
-        self._limits = limits.data_source
-        return plot
-
-    def _speed_figure(self) -> figure:
-        plot = _figure("Shaft speed (Hz)", "Largest multiplier |μ|")
-        plot.add_layout(Span(location=1.0, dimension="width", line_color=style.INK))
-        self._now = Span(dimension="height", line_color=style.INK, line_dash=[4, 4])
-        plot.add_layout(self._now)
-        self._path = plot.line([], [], line_color=style.STEEL_EDGE).data_source
-        self._orbits = column_source("x", "y", "which", "loss")
-        colors = by_number("which", list(LOSS_COLORS.values()))
-        dots = plot.scatter("x", "y", source=self._orbits, size=8, color=colors)
-        tips = [("speed", "@x{0.0} Hz"), ("|μ|", "@y{0.000}"), ("loss", "@loss")]
-        plot.add_tools(HoverTool(renderers=[dots], visible=False, tooltips=tips))
-        return plot
-
-    def _circle_figure(self) -> figure:
-        plot = _figure("Multipliers at all speeds, real part", "Imaginary part", height=300)
-        plot.sizing_mode, plot.width = "fixed", 310
-        plot.circle([0.0], [0.0], radius=1.0, fill_color="#E6F3EE", line_color="#00704F")
-        self._multipliers = column_source("x", "y", "which")
-        colors = by_number("which", list(LOSS_COLORS.values()))
-        plot.scatter("x", "y", source=self._multipliers, size=7, color=colors)
-        return plot
-
-    def draw(self, own: Measurements | None, base: Measurements | None, speed: float) -> None:
-        """Show what was measured on this machine, or else what is shipped.
-
-        `speed` [rad/s] of the shaft; NaN where what is drawn is of another scene.
-        """
-        known = [found for found in (own, base) if found is not None]
-        chart = next((found.stability for found in known if found.stability is not None), None)
-        orbits = next((found.orbits for found in known if found.orbits), ())
-        if self._drawn == (chart, orbits, speed):
-            return
-        self._drawn = chart, orbits, speed
-        self._steps.visible = chart is not None
-        self._speeds.visible = self._circle.visible = any(one.multipliers for one in orbits)
-        if chart is not None:
-            self._draw_steps(chart)
-        self._step_words.object = _VERDICT_LEGEND + paragraph(steps_sentence(chart))
-        self._draw_orbits(orbits, speed)
-        self._orbit_words.object = _LOSS_LEGEND + paragraph(orbits_sentence(orbits))
-
-    def _draw_steps(self, chart: StabilityChart) -> None:
-        verdicts = list(VERDICT_LOOKS)
-        self._trials.data = {
-            "x": [t.step_rate / chart.highest_frequency for t in chart.trials],
-            "y": [FIXED_STEP.index(t.method) for t in chart.trials],
-            "which": [verdicts.index(t.verdict) for t in chart.trials],
-            "marker": [VERDICT_LOOKS[t.verdict][1] for t in chart.trials],
-        }
-        limits = {k: chart.linear_limit[name] for k, name in enumerate(FIXED_STEP)}
-        rows = [k for k, limit in limits.items() if 0.0 < limit < math.inf]
-        steps = [limits[k] / chart.highest_frequency for k in rows]
-        below, above = [k - 0.4 for k in rows], [k + 0.4 for k in rows]
-        self._limits.data = {"x0": steps, "y0": below, "x1": steps, "y1": above}
-
-    def _draw_orbits(self, orbits: tuple[OrbitAtSpeed, ...], speed: float) -> None:
-        found = [one for one in orbits if one.multipliers]
-        self._now.update(location=speed / (2.0 * math.pi), visible=math.isfinite(speed))
-        losses = list(LOSS_COLORS)
-        speeds = [one.shaft_speed / (2.0 * math.pi) for one in found]
-        self._path.data = path = {"x": speeds, "y": [one.size for one in found]}
-        self._orbits.data = {
-            **path,
-            "which": [losses.index(one.loss) for one in found],
-            "loss": [one.loss or "none" for one in found],
-        }
-        multipliers = [(*at, losses.index(one.loss)) for one in found for at in one.multipliers]
-        self._multipliers.data = columns_of(("x", "y", "which"), multipliers)
-        if found:
-            self._speeds.x_range.update(start=0.95 * speeds[0], end=1.02 * speeds[-1])
-            top = max(1.2, *(min(one.size, 3.0) for one in found))
-            self._speeds.y_range.update(start=0.0, end=1.1 * top)
-            for side in (self._circle.x_range, self._circle.y_range):
-                side.update(start=-1.1 * top, end=1.1 * top)
-
-
-def _figure(x: str, y: str, height: int = 200, **more: Any) -> figure:
-    sides = style.AxisQuantity(x, "", ""), style.AxisQuantity(y, "", "")
-    ranges = Range1d(-1.8, 1.8, syncable=False), Range1d(-1.8, 1.8, syncable=False)
-    return style.make_figure(*sides, *ranges, height=height, sizing_mode="stretch_width", **more)
-
-
 def steps_sentence(chart: StabilityChart | None) -> str:
     """Step rates at which each method diverges, found and expected."""
     if chart is None:
@@ -412,8 +276,8 @@ def steps_sentence(chart: StabilityChart | None) -> str:
         words.append(f"{name} {met} (linear theory: {expected})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
-        f"Vertical: linear limit. Steps per period of the highest frequency, {frequency}, below "
-        f"which the motion diverges: {', '.join(words)}."
+        f"Steps per period of the highest frequency, {frequency}, below which the motion diverges: "
+        f"{', '.join(words)}."
     )
 
 
@@ -427,12 +291,15 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     def at(one: OrbitAtSpeed) -> str:
         return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
 
-    changes = [
-        f"{b.loss or 'stable again'} from {at(b)}" for a, b in pairwise(found) if a.loss != b.loss
-    ]
+    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
+    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
     first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
+    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
+    named = dict.fromkeys([found[0], *changed, found[-1]])
+    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
     missing = len(orbits) - len(found)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    changes = changes or [f"and so to {at(found[-1])}"]
-    words = ", ".join([first, *changes])
-    return f"{words}. The factor by which a ball pass changes a small disturbance.{rest}"
+    return (
+        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
+        f"the orbit is unstable: {sizes}.{rest}"
+    )

@@ -54,7 +54,7 @@ FIELDS = (
         1e5,
         "Of the whole bearing, with all its rows. Left empty it is that of a bearing chosen by its "
         "number, else computed by ISO 281.",
-        "by number, or ISO 281",
+        "automatic",
     ),
     Field(
         "viscosity",

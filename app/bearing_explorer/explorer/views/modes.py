@@ -10,6 +10,7 @@ from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.results import reasons
+from bearing_explorer.explorer.results.chain import in_same_order
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
@@ -153,12 +154,13 @@ class NaturalFrequencies(View):
         if not known:
             why = results.equilibrium.reason(0)
             return f"There is no static state to take natural frequencies from: {why}."
-        radial = [label for label in known if label[:-1] in ("x", "y")] or list(known)
-        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in radial]
+        named = sorted(known, key=lambda label: label[:-1] not in ("x", "y"))  # radial ones first
+        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in named]
         turning = "In all turns of the shaft" if results.over_shaft else "As the cage turns"
         text = f"{turning} the natural frequencies move: {style.list_words(words)}"
-        first = radial[0]
-        if results.reference_label and np.isfinite(healthy.get(first, (np.nan,))[0]):
+        first = named[0]
+        is_known = np.isfinite(healthy.get(first, (np.nan,))[0])
+        if results.reference_label and is_known and in_same_order(first, known, healthy):
             text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
         return f"{text}. {why}".rstrip()

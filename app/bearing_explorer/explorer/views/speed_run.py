@@ -205,8 +205,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             return {}, {}
         run, speeds = found.run, found.speeds
         alpha = FAINT if self._is_of_another(results, found) else 1.0
-        # more than usual where a band lies higher
-        seen = run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
+        seen = in_picture(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
         level_ranges = {}
@@ -264,19 +263,25 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
+def in_picture(run: SpeedRun) -> NDArray[np.bool_]:
+    """Which frequencies are drawn: more than usual where a band lies higher."""
+    return run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
+
+
 def words_of(found: FoundRun) -> str:
-    """Where the housing vibrates most, and how many motions were integrated in time."""
-    run, words = found.run, []
+    """Where the housing vibrates most in the picture; how many motions were integrated in time."""
+    run, words, seen = found.run, [], in_picture(found.run)
     for dof in SHOWN:
         level = levels_of(run, dof)
-        level[:, run.frequency < 100.0] = np.nan
+        level[:, (run.frequency < 100.0) | ~seen] = np.nan
         if np.isfinite(level).any():
             i, k = np.unravel_index(np.nanargmax(level), level.shape)
             words.append(
                 f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
                 f"{style.number(found.speeds.values[i])} Hz"
             )
-    text = f"Loudest {style.list_words(words)}." if words else "Nothing moves."
+    top = style.with_prefix(float(run.frequency[seen][-1]), "Hz", 2)
+    text = f"Up to {top} loudest {style.list_words(words)}." if words else "Nothing moves."
     marched = int(np.sum(~run.from_orbit))
     if marched:
         text += (

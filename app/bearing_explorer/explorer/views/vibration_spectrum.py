@@ -34,7 +34,7 @@ from bearing_explorer.kit.plots.layers import (
 from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources
+from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
@@ -160,9 +160,18 @@ class VibrationSpectra(LookView):
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [box, *linear.plots]
         high = {"min-height": "calc(var(--room) - 170px)"}
-        return self.only_with_numbers(
+        self._all = self.only_with_numbers(
             self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
         )
+        return self._all
+
+    def attach(self, parts: SessionParts) -> None:
+        super().attach(parts)
+        self.withhold(self._all, but=1 + len(self._narrow))
+
+    def bring(self) -> None:
+        if self.wide:
+            super().bring()
 
     @property
     def is_empty(self) -> bool:
@@ -286,7 +295,8 @@ def why_words(results: Results, *, briefly: bool = False) -> str:
     most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
     rates = [rate for _, _, rate in passed(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
-    words.append(reasons.passes(most, min(rates), briefly=briefly))
+    lowest = min((low for low, _ in results.bands.values() if low == low), default=0.0)
+    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 

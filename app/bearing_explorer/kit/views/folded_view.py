@@ -25,6 +25,8 @@ class FoldedView(View[C]):
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
         self.opened = False
+        for picture in self._pictures:
+            self.withhold(picture)
         self._show_fold()
 
     def _turn(self) -> None:

@@ -59,6 +59,7 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
     assert view.found is found
 
 
+@pytest.mark.proof
 def test_a_simulated_signal_is_measured_with_its_own_load_and_edges():
     """Edges as published lose the load over twice the angle, which no measured spall does."""
     truth = math.radians(14.3)

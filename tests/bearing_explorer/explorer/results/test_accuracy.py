@@ -37,18 +37,17 @@ RIG = presets["fan-rig"]
 def point(method: str, value: float, error: float, seconds: float, **more: object) -> Point:
     calls = 0 if math.isnan(seconds) else round(1e6 * seconds)
     errors = {} if math.isnan(error) else {"spectrum": error}
-    return Point(method, f"{value:g}", value, errors, seconds, 3, calls, **more)  # type: ignore[arg-type]
+    return Point(method, f"{value:g}", value, errors, seconds, calls, **more)  # type: ignore[arg-type]
 
 
 EXPERIMENT = Experiment(
     "motion",
-    "Motion",
     {"spectrum": "[dB]"},
     "right-hand sides",
-    {"": Reference(("LSODA", "DOP853"), {"spectrum": 2e-7}, True, 1.0)},
+    {"": Reference(("LSODA", "DOP853"), {"spectrum": 2e-7}, True)},
     (
-        point("RK4", 32768.0, 1e-2, 1e-3, settings={"step_rate": 32768.0}, in_use=True),
-        point("RK4", 65536.0, 1e-4, 2e-3, settings={"step_rate": 65536.0}),
+        point("RK4", 32768.0, 1e-2, 1e-3, in_use=True),
+        point("RK4", 65536.0, 1e-4, 2e-3),
         point("scipy RK45", 65536.0, 1e-1, 2e-2),
         point("scipy RK45", 8192.0, math.nan, math.nan, status="failed: diverged <at once>"),
         point("scipy LSODA", 8192.0, math.inf, 1e-3),

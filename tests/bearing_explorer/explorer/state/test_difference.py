@@ -1,7 +1,7 @@
 """What two scenes differ in, in words."""
 
 import pytest
-from bearing_explorer.explorer.state.difference import difference
+from bearing_explorer.explorer.state.difference import difference, distinct_name
 from bearing_explorer.explorer.state.history import LastState
 
 from bearingcore import Defect, presets
@@ -34,6 +34,25 @@ TWO = SCENE.replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
 )  # fmt: skip
 def test_what_has_changed(now, before, words: str) -> None:
     assert difference(now, before) == words
+
+
+LOADED, FAST = SCENE.replace(fy=-200.0), SCENE.replace(shaft_speed=SCENE.shaft_speed * 2.0)
+
+
+@pytest.mark.parametrize(
+    ("scene", "others", "name"),
+    [
+        (SCENE, [SCENE], "12.9°, 50 µm"),
+        (SCENE, [LOADED], "100 N"),
+        (SCENE, [SCENE.replace(fx=30.0)], "100 N at 270°"),
+        (FAST, [SCENE, LOADED], "14 Hz, 100 N"),
+        (SCENE.replace(race="inner"), [SCENE], "inner"),
+        (SCENE.healthy(), [SCENE], "no defect"),
+        (SCENE, [SCENE.replace(center=1.0, extent=0.1)], "12.9°, 50 µm, centre 270°"),
+    ],
+)
+def test_a_scene_is_named_by_what_differs(scene, others, name: str) -> None:
+    assert distinct_name(scene, others) == name
 
 
 def test_the_scene_before_a_drag_is_where_it_began() -> None:

@@ -62,6 +62,18 @@ def test_the_cause_is_that_of_the_change() -> None:
     assert "balls near the line of the load carry more of it, so k_yy rises" in back
 
 
+def test_modes_that_have_swapped_names_are_not_compared() -> None:
+    """Under a diagonal load both modes move along x and y alike; the lower one sinks a little."""
+    across = FAN_RIG.replace(fx=70.0, fy=-70.0)
+    now, before = Results(across).bands, Results(across.healthy()).bands
+    assert sum(now["y1"]) < 0.6 * sum(before["y1"]), "the lower one of the two, then the upper one"
+    said = told(across, None)
+    assert "k_yy falls by 9" in said
+    assert "y₁" not in said
+    turned = told(FAN_RIG.healthy().replace(fx=100.0, fy=0.0), FAN_RIG.healthy())
+    assert "₁ rises from" in turned or "₁ sinks from" in turned
+
+
 ALL_AROUND = FAN_RIG.replace(extent=2.0 * np.pi)
 
 

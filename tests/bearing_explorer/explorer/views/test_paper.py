@@ -29,14 +29,6 @@ def test_each_has_the_sentence_of_the_model_and_every_value(figure: PaperFigure)
     assert all(value and "no value" not in value for value in ours(figure.number).values())
 
 
-def test_what_the_paper_says_comes_out() -> None:
-    assert ours(3)["Balls in the defect at 5°, 40° and 70°"] == "0 or 1, 1 or 2, 2 or 3"
-    assert ours(5)["Mean k_yy is least at an extent of"] == "63.75°"
-    assert ours(6)["Fewest balls carry load at an extent of"] == "63.50°"
-    assert ours(9)["From entry to exit"].startswith("12.45 ms")
-    assert ours(9)["Ball that leaves after ball 9 has entered"] == "9, 10"
-
-
 def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
     figure = BY_NUMBER[4]
     place = read(figure.link)

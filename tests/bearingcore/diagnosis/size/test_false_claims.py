@@ -17,6 +17,8 @@ from tests.benchmarks.measured_records import records
 from tests.helpers import recordings
 from tests.helpers.recordings import RIG, noisy, signal_of
 
+pytestmark = pytest.mark.proof
+
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
 
 

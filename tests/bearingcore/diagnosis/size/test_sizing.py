@@ -21,6 +21,8 @@ from tests.benchmarks.sizing import FAMILIES, as_given, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
 from tests.helpers.simulated import pit, simulated_recording
 
+pytestmark = pytest.mark.proof
+
 sized_by = partial(size_defect, support_known=True)
 """Sizing where the scene's support is that of the machine."""
 
@@ -32,7 +34,6 @@ def measured() -> tuple[Scene, bytes]:
     return file_from_elsewhere()
 
 
-@pytest.mark.proof
 def test_a_file_from_elsewhere_is_sized(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording(
@@ -49,7 +50,6 @@ def test_a_file_from_elsewhere_is_sized(measured):
     assert sized.passes.frequency == pytest.approx(1.001 * nominal, rel=1.5e-4)
 
 
-@pytest.mark.proof
 def test_in_another_unit_it_says_so(measured):
     truth, content = measured
     recording = read_table("rig.csv", content).recording([1, 2], ["x", "y"], "m/s²")
@@ -136,7 +136,6 @@ def test_only_outer_races_can_be_told_by_hand():
         sized_by(noise, RIG, fault="inner race")
 
 
-@pytest.mark.proof
 def test_what_is_no_defect_s_signal_is_not_sized():
     rig = RIG.replace(shaft_speed=2.0 * math.pi * 20.0)
     noise = np.random.default_rng(4).standard_normal((20_000, 2))
@@ -207,7 +206,6 @@ def marched(scene, frequency, count, columns) -> BallPasses:
     return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
 
 
-@pytest.mark.proof
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
     """A small part of `python -m tests.benchmarks.sizing given`, with room for bad luck."""
     answers = list(size_all(partial(as_given, FAMILIES["given"], noises=(20.0,)), 8))

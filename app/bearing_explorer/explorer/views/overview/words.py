@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_explorer.explorer.results.chain import Chain, Peak
+from bearing_explorer.explorer.results.chain import Chain, Peak, in_same_order
 from bearing_explorer.explorer.results.reasons import why_softer
 from bearing_explorer.kit.plots import style
 from bearingcore.statics import TERM_SYMBOLS
@@ -26,6 +26,7 @@ ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
 _MOSTLY = 3.0  # times the effect of the next cause, from which one is the main one
+_OF_STIFFNESS, _SHIFT = 0.75, 0.05  # of the logarithm of a stiffness; its root has 0.5
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
@@ -259,7 +260,10 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
     labels = [
         label
         for label in now.bands
-        if label[:-1] == along and label in before.bands and moved(label) >= LEAST
+        if label[:-1] == along
+        and label in before.bands
+        and moved(label) >= LEAST
+        and is_same_mode(label, now, before)
     ]
     if along in now.peaks and along in before.peaks:
         for label in labels:
@@ -268,6 +272,17 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
             ):
                 return label
     return max(labels, key=moved, default="")
+
+
+def is_same_mode(label: str, now: Chain, before: Chain) -> bool:
+    """Whether a label names the same mode before and now.
+
+    If not in the same order, then at most as far as the stiffness along it moves a mode.
+    """
+    grown = sum(now.bands[label]) / sum(before.bands[label])
+    stiffer = 1.0 + _change(now, before, f"k_{label[:-1] * 2}")
+    room = _OF_STIFFNESS * abs(math.log(stiffer)) + _SHIFT
+    return in_same_order(label, now.bands, before.bands) or abs(math.log(grown)) <= room
 
 
 def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:

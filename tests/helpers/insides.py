@@ -1,17 +1,9 @@
-"""Insides that are estimated from a designation, against those that are published.
-
-    python -m tests.benchmarks.insides
-
-prints each bearing of `tests/reference/published_insides.csv` with the number of balls printed and
-estimated and the errors of ball over pitch diameter and of BPFO, the number being right.
-"""
+"""Insides that are estimated from a designation, against those that are published."""
 
 import csv
 import math
 from pathlib import Path
 from typing import NamedTuple
-
-import numpy as np
 
 from bearingcore.bearings.designation import inside_of, read_designation
 
@@ -67,23 +59,3 @@ def _judged(line: dict[str, str]) -> Judged:
         gamma / printed - 1.0,
         (1.0 - gamma) / (1.0 - printed) - 1.0,
     )
-
-
-def main() -> None:
-    """Print the table and its summary."""
-    found = judged()
-    for one in sorted(found, key=lambda each: abs(each.frequency)):
-        print(
-            f"{one.designation:>6} {one.count:3d} {one.estimated_count:3d}  ratio "
-            f"{100 * one.ratio:+6.2f} %  BPFO {100 * one.frequency:+6.2f} %  {one.source}"
-        )
-    right = [abs(one.frequency) for one in found if one.is_right]
-    within = sum(error <= 0.01 for error in right)
-    print(
-        f"number right {len(right)} of {len(found)}; of those BPFO within 1 % {within}, median "
-        f"{100 * np.median(right):.2f} %, 19 of 20 within {100 * np.quantile(right, 0.95):.1f} %"
-    )
-
-
-if __name__ == "__main__":
-    main()

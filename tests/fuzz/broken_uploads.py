@@ -1,21 +1,16 @@
-"""Hostile messages and damaged files: ``python -m tests.benchmarks.hostile --messages 20000``.
+"""Hostile messages and damaged files, sent to a server that is really started.
 
-A server is really started. From a process of their own several clients open the page and send what
-no page sends (`tests.fuzz.hostile_messages`), connecting again whenever they are cut off; two
-sessions upload files of every format that were good before a mutation of `tests.fuzz.inputs`.
-Meanwhile a good session moves a slider and `/liveness` is asked over and over; and inside the
-server each turn of its event loop is timed. The exit code says whether the good session and
-`/liveness` were answered every time and each file in a sentence, whether no turn took more than a
-second of processor time, whether the log is without a traceback, and whether nothing is left in the
-folder for temporary files.
+From a process of their own several clients open the page and send what no page sends
+(`tests.fuzz.hostile_messages`), connecting again whenever they are cut off; two sessions upload
+files of every format that were good before a mutation of `tests.fuzz.inputs`. Meanwhile a good
+session moves a slider and `/liveness` is asked over and over; and inside the server each turn of
+its event loop is timed.
 """
 
-import argparse
 import asyncio
 import math
 import random
 import re
-import sys
 import tempfile
 import time
 from collections import Counter
@@ -26,15 +21,12 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import pandas as pd
 from tornado.httpclient import AsyncHTTPClient
 
-from tests.benchmarks.machine import pace
 from tests.browser.helpers import serving
 from tests.fuzz.attacker import PATIENCE, Tally, attack
 from tests.fuzz.targets import broken_files, unclear
-from tests.fuzz.watched_server import LONGEST_HOLD, WatchedServer, faults_of, words_of
+from tests.fuzz.watched_server import LONGEST_HOLD, WatchedServer, faults_of
 from tests.helpers.loops import run as run_coroutine
 from tests.helpers.page_client import PageClient
 
@@ -155,7 +147,12 @@ async def all_at_once(url: str, messages: int, files: int, first: int, outcome: 
 
 
 def run(messages: int, files: int, first: int) -> Outcome:
-    """Start a server and send it so many; `first` is the number of the first client and file."""
+    """Start a server and send it so many; `first` is the number of the first client and file.
+
+    Faults are: a good session, `/liveness` or a file without an answer or a sentence, a turn of
+    more than a second of processor time, a traceback in the log, and what is left behind in the
+    folder for temporary files.
+    """
     outcome = Outcome()
     with tempfile.TemporaryDirectory() as folder, serving(WatchedServer(TMPDIR=folder)) as server:
         # browser tests keep a loop in the main thread
@@ -174,37 +171,3 @@ def run(messages: int, files: int, first: int) -> Outcome:
     if math.isinf(max(outcome.pictures + outcome.alive)):
         outcome.faults.append("the good session or /liveness was not answered every time")
     return outcome
-
-
-def main() -> int:
-    """Send, print a table, and say with the exit code whether anything was found."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--messages", type=int, default=20_000)
-    parser.add_argument("--files", type=int, default=1_000)
-    parser.add_argument("--first", type=int, default=0, help="number of the first client and file")
-    chosen = parser.parse_args()
-    began = time.perf_counter()
-    outcome = run(chosen.messages, chosen.files, chosen.first)
-    took, tally = time.perf_counter() - began, outcome.tally
-    columns = {
-        "messages": tally.sent,
-        "cut off": tally.cut,
-        "slowest until taken [s]": tally.slowest,
-    }
-    print(pd.DataFrame(columns).to_string())
-    print(f"files answered: {dict(outcome.answered)}, of them refused: {dict(outcome.refused)}")
-    print(f"{tally.sent.total():,} messages in {took:.0f} s; the longest turns of the event loop:")
-    print(*map(words_of, outcome.turns), sep="\n")
-    for what, waits in (("pictures", outcome.pictures), ("/liveness", outcome.alive)):
-        median, most, longest = np.quantile(waits, [0.5, 0.95, 1.0])
-        print(
-            f"{what}: {len(waits)}; median {median:.3f}, 95 % {most:.3f}, longest {longest:.2f} s"
-        )
-    print(pace())
-    for words in outcome.faults:
-        print(f"FOUND: {words}")
-    return int(bool(outcome.faults))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

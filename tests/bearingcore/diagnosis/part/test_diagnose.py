@@ -248,7 +248,7 @@ def test_an_unknown_speed_is_looked_for(damaged):
 
 
 def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_one(damaged):
-    """At 300 rpm half a second holds 8 ball passes and most of a ninth; at the machine's own speed it holds enough."""
+    """At 300 rpm half a second holds 8 ball passes, at the machine's own speed it holds enough."""
     half = Recording(damaged["outer race"][:6000], MOTOR.rate, ("y",))
     found = diagnose(half, MOTOR.bearing, None)
     assert found.status == DiagnosisStatus.SPEED_OPEN

@@ -70,7 +70,9 @@ class Table(FileColumns):
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
             return sampling.parts
-        parts = np.stack(runs(np.isfinite(self.columns[:, picked]).all(axis=1)), axis=1)
+        parts = np.stack(
+            runs(np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)), axis=1
+        )
         return long_parts(parts.tolist()) if picked else ()
 
     def one_of_recordings(self, number: int) -> Table:

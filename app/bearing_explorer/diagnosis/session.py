@@ -165,7 +165,8 @@ class Measurement(SignalForm):
         self.series = replace(self.series, together=True)
         shown = "" if self._table is None else self._table.name
         words = f"{name} is what {shown} is compared with. See the trend below."
-        self._tell(words=words, remarks=words, bad=False, busy=False)
+        remarks = f"{words} {self._in_short(self.state.values)['remarks']}"
+        self._tell(words=words, remarks=remarks, bad=False, busy=False)
         self._draw()
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:

@@ -76,7 +76,7 @@ class MachineForm(pn.Column):
         )
         self._shown: tuple[Any, Any] = (None, None)
         super().__init__(
-            row(*(fields.widgets[name] for name in LABELS), self._kept), self._notes,
+            row(*(fields.widgets[name] for name in LABELS)), self._notes, self._kept,
             css_classes=["machine"], sizing_mode="stretch_width", margin=(2, 0, 8, 0),
         )  # fmt: skip
 

@@ -65,7 +65,7 @@ class Table(FileColumns):
     def recordings(self) -> tuple[tuple[int, int], ...]:
         """Rows (last excluded) of each recording, where times jump or numbers are missing between.
 
-        None where there is one alone.
+        Empty where there is one alone.
         """
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
@@ -205,7 +205,7 @@ class Table(FileColumns):
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
-                why = "no vibration, by its name"
+                why = "no acceleration, by its heading"
             else:
                 along = {"z": "along the shaft"}.get(column.direction, "another signal")
                 why = column.place or along

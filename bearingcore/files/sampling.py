@@ -7,7 +7,7 @@ proposed; rows after a jump are not joined to those before it.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -238,9 +238,7 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         first, last = int(edges[longest]), int(edges[longest + 1])
         part = time[first:last]
         if last - first >= FEWEST_SAMPLES:
-            least = max(FEWEST_SAMPLES, SHORTEST_PART * (last - first))
-            parts = tuple((a, b) for a, b in pairwise(edges.tolist()) if b - a >= least)
-            parts = parts if len(parts) > 1 else ()
+            parts = long_parts(pairwise(edges.tolist()))
             said = _recordings(time, parts, (first, last), unit)
             said += _jumps(steps, jumps, usual, first, last, shared)
             even = _even(part)
@@ -268,6 +266,15 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         f"it would be {number(mean / unit, 6)} Hz."
     )
     return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
+
+
+def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
+    """Those of parts (first row, last excluded) that are recordings; none where it is one alone."""
+    all_parts = [(first, last) for first, last in parts]
+    longest = max((last - first for first, last in all_parts), default=0)
+    least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
+    found = tuple((first, last) for first, last in all_parts if last - first >= least)
+    return found if len(found) > 1 else ()
 
 
 def _recordings(

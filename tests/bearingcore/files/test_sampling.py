@@ -63,6 +63,11 @@ def test_recordings_in_one_file_are_counted_and_any_is_read() -> None:
     with pytest.raises(FieldError, match="part is 4"):
         table.one_of_recordings(4)
     assert Table(("t [s]", "a [g]"), table.columns[:2000]).recordings == ()
+    gap = table.columns[:2000].copy()
+    gap[1500:1510, 1] = np.nan
+    gap = Table(("t [s]", "a [g]"), gap)
+    assert gap.recordings == ((0, 1500), (1510, 2000))
+    assert len(gap.one_of_recordings(2).recording([1], "y").acceleration) == 490
 
 
 def test_a_jump_shows_in_rounded_times_too() -> None:

@@ -9,7 +9,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearingcore import presets
 from tests.fuzz.hostile_messages import quantities
 
-SCENES = 1200
+SCENES = 400
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")

@@ -46,7 +46,7 @@ _NOT_SIGNALS = PULSES | {
     "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
     "load", "index", "sample", "samples", "row", "no", "gyro", "gyroscope", "gyr", "magnetic",
-    "magnetometer",
+    "magnetometer", "quat", "quaternion",
 }  # fmt: skip
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",

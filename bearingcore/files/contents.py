@@ -371,12 +371,8 @@ def _rate(
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    if (
-        timed
-        and said
-        and timed.stated == said.stated
-        and abs(timed.value / said.value - 1.0) > TWO_RATES
-    ):
+    both = timed and said and said.taken and timed.stated == said.stated
+    if timed and said and both and abs(timed.value / said.value - 1.0) > TWO_RATES:
         reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
         return dataclasses.replace(timed, reason=reason, stated=False)
     for finding in (timed, said):

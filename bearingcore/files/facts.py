@@ -70,11 +70,15 @@ class Finding(Generic[T]):
 
 @dataclass(frozen=True)
 class Named:
-    """A number that a file names, with its unit where that is said."""
+    """A number that a file names, with its unit where that is said.
+
+    `thousands` is whether its point may stand between thousands: "12.000".
+    """
 
     name: str
     value: float
     unit: str | None = None
+    thousands: bool = False
 
 
 _STEADY = 0.02
@@ -195,7 +199,9 @@ def _in_line(line: str) -> Iterator[Named]:
     for name, text, unit in found:
         value = _number(text)
         if value is not None:
-            yield Named(name.strip(" :;,=\t"), value, unit_named(unit) if unit else unit_in(name))
+            unit = unit_named(unit) if unit else unit_in(name)
+            grouped = re.fullmatch(r"\d{1,3}[.,]\d{3}", text) is not None
+            yield Named(name.strip(" :;,=\t"), value, unit, grouped)
 
 
 def names_a_fact(line: str) -> bool:
@@ -240,12 +246,14 @@ _OTHER_RATE = re.compile(
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz]"""
     found: list[Finding[float]] = []
+    in_hz = False
     for one in named:
         key, value = _rate_key(one.name), one.value
         if not (math.isfinite(value) and value > 0.0):
             continue
         if key in _RATES:
             rate = value * (1e3 if one.unit == "kHz" else 1.0)
+            in_hz |= one.unit == "Hz" and not one.thousands
             found.append(Finding(rate, f"“{one.name}” in the file"))
         if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
             step = value * TIMES.get(one.unit or "s", 1.0)
@@ -256,7 +264,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             return _doubted(first)
         if LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
-        if LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
+        if not in_hz and LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
             return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
         return dataclasses.replace(first, stated=False)
     for one in named:

@@ -85,7 +85,12 @@ def test_remarks_above_one_column_are_no_names_of_it(remark, rate, turns, unit) 
 
 @pytest.mark.parametrize(
     ("remark", "likely"),
-    [("# fs = 12.000 Hz", 12e3), ("# 12 kHz", 12e3), ("# recorded at 12 kHz", 12e3)],
+    [
+        ("# fs = 12.000 Hz", 12e3),
+        ("# fs: 64.0 Hz", 64.0),
+        ("# 12 kHz", 12e3),
+        ("# recorded at 12 kHz", 12e3),
+    ],
 )
 def test_a_rate_that_is_not_sure_is_asked_about(remark: str, likely: float) -> None:
     rate = read(remark.encode() + b"\n" + rows(SIGNAL[:, 0])).contents.sample_rate

@@ -107,21 +107,10 @@ _TYPED: Mapping[str, tuple[float, str]] = {
 """Further units that may be typed: multiples of one of `UNITS`."""
 
 _PREFIXES = {"n": 1e-9, "µ": 1e-6, "u": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6, "G": 1e9}
-_WITH_PREFIX = (
-    "m",
-    "s",
-    "g",
-    "Hz",
-    "rad",
-    "N",
-    "N·m",
-    "Nm",
-    "N/m",
-    "N/mm",
-    "N/rad",
-    "N·m/rad",
-    "Pa",
+_WITH_PREFIX = frozenset(
+    ["m", "s", "g", "Hz", "rad", "N", "N·m", "Nm", "N/m", "N/mm", "N/rad", "N·m/rad", "Pa"]
 )
+"""Units that may stand behind a prefix."""
 
 _WITH_UNIT = re.compile(
     r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)"

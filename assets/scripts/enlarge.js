@@ -2,7 +2,6 @@
 // cells shows one of them with its axes, and arrows lead to the next; on a projector and a phone it begins
 // with the one that a lesson names.
 
-const LAID_OUT = 150   // ms until figures have followed a change of their width
 const SENTENCE = 70    // px below enlarged figures
 const NARROW = 820, LOW = 300  // px, of a phone and of a cell on it
 
@@ -18,7 +17,7 @@ function enlarging(model, root) {
     const end = Math.max(...plots.map(({ el }) => el.getBoundingClientRect().bottom))
     const more = Math.floor((innerHeight - end - SENTENCE) / rows)
     for (const { model: plot } of more > 0 ? plots : []) {
-      heights.set(plot, plot.height)
+      if (!heights.has(plot)) heights.set(plot, plot.height)
       if (plot.height) plot.setv({ height: plot.height + more }, { sync: false })
     }
   }
@@ -48,10 +47,8 @@ function enlarging(model, root) {
     view.classList.toggle("enlarged", large)
     enlarge.textContent = large ? "Close" : "Enlarge"
     steps.hidden = !(large && model.cells.length)
-    if (large) {
-      view.showPopover()
-      setTimeout(resize, LAID_OUT)
-    } else {
+    if (large) view.showPopover()
+    else {
       for (const [plot, height] of heights) plot.setv({ height }, { sync: false })
       heights.clear()
     }
@@ -59,6 +56,7 @@ function enlarging(model, root) {
     enlarge.focus()
   }
   enlarge.addEventListener("click", () => set_large(!is_large()))
+  on_event("laid-out", enlarge, () => { if (is_large()) resize() })
   while_there("keydown", enlarge, (event) => {
     if (!(is_large() || named) || event.defaultPrevented) return
     const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key]

@@ -170,9 +170,10 @@
       view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
       if (view.matches(".watched")) view.getRootNode().host.classList.toggle("beside", views.some((one) => one.matches(".folded")))
     }
-    for (const view of views.filter((one) => !one.matches(".folded"))) {
+    const folded = views.filter((one) => one.matches(".folded"))
+    for (const view of views.filter((one) => !folded.includes(one))) {
       const fits = views.length === 1 || view.matches(".watched")
-      show_choices(view, !fits || !(root.hasAttribute("data-asks") || view.getRootNode().host.matches(".two-columns")))
+      show_choices(view, !fits || !(root.hasAttribute("data-asks") || view.getRootNode().host.matches(".two-columns")), folded.at(-1))
       if (!fits) continue
       const box = view.getBoundingClientRect()
       const plots = drawn_in(view)
@@ -190,8 +191,16 @@
     }
   }
   // The choices above a figure: there is no room for them beside another one, and no use before the answer.
-  const show_choices = (where, wanted) => {
-    for (const one of inside(where.shadowRoot ?? where)) if (one.matches(".look")) one.style.display = wanted ? "" : "none"
+  // Below what is folded beside the figure they leave its height to it.
+  const show_choices = (where, wanted, above) => {
+    for (const one of inside(where.shadowRoot ?? where)) if (one.matches(".look")) {
+      const from = one.getRootNode().host.getBoundingClientRect(), at = above?.getBoundingClientRect()
+      const px = (length) => at ? `${Math.round(length / LARGER)}px` : ""
+      Object.assign(one.style, {
+        display: wanted ? "" : "none", position: at ? "absolute" : "", width: px(at?.width),
+        left: px(at?.left - from.left), top: px(at?.bottom + 10 - from.top),
+      })
+    }
   }
   const end_fit = () => {
     show_choices(main, true)
@@ -280,12 +289,11 @@
   // Figures have their places some time after their numbers: the event "laid-out".
   const announce_layouts = () => {
     const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
-    if (!follow) return
-    let coming = false
-    plot.after_layout = function () {
+    let coming
+    if (follow) plot.after_layout = function () {
       follow.call(this)
-      if (!coming) setTimeout(() => { coming = false; announce("laid-out") })
-      coming = true
+      clearTimeout(coming)
+      coming = setTimeout(() => announce("laid-out"))
     }
   }
 

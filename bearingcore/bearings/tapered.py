@@ -98,7 +98,7 @@ class Tapered(Roller):
         dimensions=("roller_length", "contact_angle"),
         notes=(
             "a roller on its races, its taper not drawn",
-            "the rib takes nothing here, and does not rub",
+            "no load and no friction at its rib",
         ),
     )
     directions = needed_directions = DIRECTIONS

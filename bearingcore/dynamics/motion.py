@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -26,7 +27,7 @@ from bearingcore.dynamics.status import MotionStatus
 from bearingcore.dynamics.step_rate import step_rate_of
 from bearingcore.scene import packing
 from bearingcore.scene.packing import PackedMotion, PackedScene
-from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.scene.scene import CONTACT_LAWS, MASSLESS, WITH_MASS, Scene
 from bearingcore.signals.spectrum import Spectrum, spectrum
 from bearingcore.statics.equilibrium import Equilibrium, equilibrium_of
 from bearingcore.statics.status import StaticStatus
@@ -44,6 +45,10 @@ minutes of marching in two directions, hours in five."""
 
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
+
+MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
+"""Doublings of the steps a second where contacts let go, at most; the part of a level up to which
+two motions are alike; and the level [m/s] below which nothing counts."""
 
 KEPT = 4
 """Rows a sample, at most, that a motion of balls with mass is filtered from."""
@@ -309,7 +314,9 @@ def simulate(
     step_rate
         [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
         balls a multiple: fewer than keep a ball from jumping about between its contacts are not
-        taken, and the status says how many are needed. None takes that of `default_step_rate`.
+        taken, and the status says how many are needed. None takes that of `default_step_rate`, and
+        under the law without tension doubles it until half as many steps make no difference, or
+        says that none of them is enough.
         Samples between steps come from quintic interpolation.
     most_steps
         steps that may be taken. They are counted before the first: where there are more, none is
@@ -347,7 +354,18 @@ def simulate(
     rest = equilibrium_of(packed, [0.0])
     with_mass = scene.balls == WITH_MASS
     if step_rate is None:
-        step_rate = step_rate_of(packed, sample_rate, highest)
+        step_rate = step_rate_of(packed, sample_rate)
+        if not with_mass and scene.contact_law != CONTACT_LAWS[0]:
+
+            def at(rate: float) -> Motion:
+                return simulate(
+                    scene, duration, sample_rate, ball_loads=ball_loads, step_rate=rate,
+                    most_steps=most_steps,
+                )  # fmt: skip
+
+            a_sample = step_rate / sample_rate
+            half = sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * step_rate
+            return _with_enough_steps(at, half, step_rate)
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
     if with_mass and a_step > 1:
         raise checks.refuse(
@@ -434,6 +452,36 @@ def simulate(
         filtered=filtered,
     )
     return motion.with_ball_loads(packed) if ball_loads else motion
+
+
+def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: float) -> Motion:
+    """Motion of contacts that let go: steps are doubled until half as many make no difference.
+
+    Where they touch and leave their load jumps, so that errors fall with the step itself.
+    """
+    before = _level(at(coarser))
+    for _ in range(MOST_DOUBLINGS + 1):
+        motion = at(rate)
+        level = _level(motion)
+        alike = abs(level - before) <= SAME_LEVEL * max(level, QUIET)
+        if alike or not motion.completed:
+            return motion
+        before, rate = level, 2.0 * rate
+    return replace(
+        motion,
+        status=MotionStatus.DIVERGED,
+        detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
+        "the vibration by more than a tenth",
+        history=np.full_like(motion.history, math.nan),
+        ball_load=None if motion.ball_load is None else np.full_like(motion.ball_load, math.nan),
+    )
+
+
+def _level(motion: Motion) -> float:
+    """Root mean square [m/s] of the housing's velocity in the second half of a motion."""
+    last = motion.time[-1] * motion.step_rate  # what follows is for the filter alone
+    late = motion.history[int(0.5 * last) : int(last) + 1, 4]
+    return math.sqrt(float(np.mean(late * late)))
 
 
 def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:

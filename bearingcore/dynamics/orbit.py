@@ -280,7 +280,7 @@ def orbit(
     period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     packed = packed_motion(scene)
-    rate = step_rate or step_rate_of(packed, 65536.0, highest_frequency_of(packed))
+    rate = step_rate or step_rate_of(packed, 65536.0)
     steps = max(math.ceil(period * rate), 8)
     # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
     if 2 * steps > most_steps:

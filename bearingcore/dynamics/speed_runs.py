@@ -15,7 +15,7 @@ from bearingcore.common.numbers import thousands
 from bearingcore.common.progress import Cancelled, Progress, in_turn
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.low_pass import PASSED
-from bearingcore.dynamics.modes import frequency_bands, highest_natural_frequency
+from bearingcore.dynamics.modes import frequency_bands
 from bearingcore.dynamics.motion import (
     MOST_SAMPLES,
     MOST_STEPS,
@@ -232,9 +232,8 @@ def _steps_of_marching(
     """
     steps = []
     try:
-        highest = highest_natural_frequency(scene.replace(shaft_speed=float(speeds.max())))
         for speed in speeds.tolist():
-            rate = default_step_rate(scene.replace(shaft_speed=speed), sample_rate, highest)
+            rate = default_step_rate(scene.replace(shaft_speed=speed), sample_rate)
             steps.append(duration * rate)
     except ValueError:  # said where the motion is tried
         return 0.0

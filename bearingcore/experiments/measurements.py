@@ -101,8 +101,6 @@ class Measurements:
 
     Attributes
     ----------
-    preset
-        name of the scene, where it is a preset; empty otherwise.
     machine
         what it was measured on.
     experiments
@@ -115,7 +113,6 @@ class Measurements:
         why an experiment cannot be done with this scene, by its name.
     """
 
-    preset: str
     machine: Machine
     experiments: dict[str, Experiment] = field(default_factory=dict)
     stability: StabilityChart | None = None
@@ -184,7 +181,6 @@ def measure(
     scene: Scene,
     names: Sequence[str] = MEASURED,
     *,
-    preset: str = "",
     c_loop: float = math.nan,
     slow: bool = True,
     progress: Callable[[float, str], object] = lambda part, words: None,
@@ -202,8 +198,8 @@ def measure(
         at hand.
     names
         out of MEASURED.
-    preset, c_loop
-        for `Measurements` and `Machine`.
+    c_loop
+        for `Machine`.
     slow
         whether integrators that take longer than all others together are among them.
     progress
@@ -216,7 +212,7 @@ def measure(
         of a refusal, for `Measurements.refused`.
     """
     scene = scene.replace(balls=MASSLESS)
-    found = Measurements(preset, this_machine(c_loop))
+    found = Measurements(this_machine(c_loop))
     for k, name in enumerate(names):
         if cancelled():
             break

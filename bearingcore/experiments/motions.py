@@ -119,7 +119,7 @@ def motion_experiment(
                 problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate
             )
     reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
-    usual = default_step_rate(scene, sample_rate, highest)
+    usual = default_step_rate(scene, sample_rate)
     tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]
     experiment = Experiment(
         "motion",

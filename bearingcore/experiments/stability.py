@@ -169,7 +169,7 @@ def stability_chart(
     """
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
-    usual = default_step_rate(scene, 65536.0, highest)
+    usual = default_step_rate(scene, 65536.0)
     good = _size(METHODS["RK4"].march(problem, usual, duration, usual))
     limits = linear_limits(scene)
     # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π

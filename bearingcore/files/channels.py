@@ -45,7 +45,8 @@ PULSES = {
 _NOT_SIGNALS = PULSES | {
     "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
-    "load", "index", "sample", "samples", "row", "no",
+    "load", "index", "sample", "samples", "row", "no", "gyro", "gyroscope", "gyr", "magnetic",
+    "magnetometer",
 }  # fmt: skip
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
@@ -105,8 +106,8 @@ def column_of(name: str) -> Column:
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    if unit is None and kind_of(unit_named(first) or "") == "time" and len(first) > 1 and not more:
-        unit = unit_named(first)  # "milliseconds"
+    if unit is None and len(first) > 1 and more in ([], ["elapsed"]):  # "seconds_elapsed"
+        unit = unit_named(first) if kind_of(unit_named(first) or "") == "time" else None
     timed = (
         first in _TIMES
         or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
@@ -116,7 +117,9 @@ def column_of(name: str) -> Column:
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = words & _NOT_SIGNALS and (unit is None or unit in VOLTAGES)  # of a sensor for it
+    other = (words & _NOT_SIGNALS or first == "mag") and (
+        unit is None or unit in VOLTAGES
+    )  # of a sensor for it
     if other or (unit is not None and unit not in UNITS):
         return Column(name, OTHER, unit)
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")

@@ -29,7 +29,14 @@ from bearingcore.files.channels import (
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named, is_steady
-from bearingcore.files.sampling import Sampling, clock_columns, clock_time, sampling_of, times_of
+from bearingcore.files.sampling import (
+    Sampling,
+    clock_columns,
+    clock_time,
+    sampling_of,
+    since_1970,
+    times_of,
+)
 from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
@@ -260,13 +267,11 @@ def _columns(
             return tuple(columns), times_of(values)
         found = sampling_of(values, TIMES[unit])
         return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
-    if stamped:
-        return tuple(columns), times_of(table.columns[:, stamped[0]], "s", sure=True)
-    return _with_times(table, columns)
+    return _with_times(table, columns, stamped)
 
 
 def _with_times(
-    table: FileColumns, columns: list[Column]
+    table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what those say that count rows or are times: by name, or as they rise."""
     found: dict[int, Sampling] = {}
@@ -276,22 +281,25 @@ def _with_times(
         if index in table.given or not (timed or rises):
             continue
         if timed:
-            found[index] = times_of(values, column.unit)
-        elif table.sample_rate is None and (sampling := sampling_of(values)).stated:
+            found[index] = times_of(values, column.unit, sure=index in stamped)
+        elif table.sample_rate is None and (
+            (dated := since_1970(values)) or (sampling := sampling_of(values)).stated
+        ):
             # what rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
-            if not sampling.trouble and not names_a_frequency(column.name):
+            if (dated or not sampling.trouble) and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
-    time = next((i for i, one in found.items() if one.stated), next(iter(found), None))
+    known = {i: (one.stated, one.sample_rate is not None) for i, one in found.items()}
+    time = max(known, key=lambda index: known[index], default=None)
     if time is None:
         return tuple(columns), None
     first = found[time]
     for index, other in found.items():
-        rate = other.sample_rate
-        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
+        rate, usual = other.sample_rate, first.sample_rate
+        if other.stated and rate and usual and abs(rate / usual - 1.0) > TWO_RATES:
             said = (
                 f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
             )
@@ -351,7 +359,7 @@ def _counts(time: Array, column: Column) -> bool:
 
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
-    return finite.size > 0 and bool(np.ptp(finite) > 0.0)
+    return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
 
 
 def _rate(
@@ -363,11 +371,14 @@ def _rate(
     timed = None
     if sampling is not None and sampling.sample_rate is not None:
         timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    if timed and said and timed.stated and said.stated:
-        if abs(timed.value / said.value - 1.0) > TWO_RATES:
-            reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
-            return dataclasses.replace(timed, reason=reason, stated=False)
-        return timed
+    if (
+        timed
+        and said
+        and timed.stated == said.stated
+        and abs(timed.value / said.value - 1.0) > TWO_RATES
+    ):
+        reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+        return dataclasses.replace(timed, reason=reason, stated=False)
     for finding in (timed, said):
         if finding is not None and finding.stated:
             return finding
@@ -426,7 +437,7 @@ def _speed(
             speeds = table.columns[:, index]
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
-            if mean > 0.0:
+            if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
                 steady = is_steady(speeds)
                 words = f"the column “{column.name}”" + (
                     ""

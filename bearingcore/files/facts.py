@@ -87,7 +87,7 @@ def is_steady(values: Array) -> bool:
 
 MOST_REMARKS = 100
 
-_NUMBER = r"[-+]?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
+_NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
     r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?"
     rf"({_NUMBER})\"?"
@@ -129,8 +129,9 @@ BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
 
-LEAST_STATED, GREATEST_STATED = 100.0, 5e6
-"""[Hz] of recordings of vibration; another "sample rate" is asked about."""
+LEAST_STATED, GREATEST_STATED = 90.0, 5e6
+"""[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
+"sample rate" is asked about."""
 
 LEAST_RATE = 500.0
 """[Hz] below which a "rate" is the shaft's, not that of the samples."""
@@ -232,7 +233,7 @@ def _rate_key(name: str) -> str:
 
 
 _OTHER_RATE = re.compile(
-    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|bpf|bsf|ftf|f_?max|lines|baud|bit"
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
 )
 
 
@@ -263,12 +264,12 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
         if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
             return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
-    match = re.search(
-        r"(?<![a-z0-9])(\d+(?:\.\d+)?)[ _-]?k(hz|sps)?(?![a-z0-9])", file_name.lower()
-    )
-    if match is not None and float(match[1]) > 0.0:
-        words = f"“{match[0]}” in the file's name"
-        return Finding(1e3 * float(match[1]), words, match[2] is not None, strong=True)
+    name = file_name.lower()
+    for match in re.finditer(r"(?<![a-z0-9])(\d+\.?\d*)[ _-]?(k(?:hz|sps)?|hz)(?![a-z0-9])", name):
+        value = float(match[1]) * (1.0 if match[2] == "hz" else 1e3)
+        if value >= LEAST_RATE:
+            words = f"“{match[0]}” in the file's name"
+            return Finding(value, words, match[2] in ("khz", "ksps"), strong=True)
     return None
 
 

@@ -286,7 +286,7 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
 
     _check_depth(depth)
     if isinstance(value, MatlabOpaque):
-        found.objects.append(path)
+        found.objects.append("a variable" if path == "None" else path)  # as SciPy names it
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
         return
     if value.dtype.names:
@@ -459,7 +459,7 @@ _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
     (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
-    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file", libraries.uff, "pyuff"),
+    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),
     (rb"# Created by Octave", "text of Octave", _walk_octave, ""),
 )
 """Formats by their first bytes, what reads each, and the package that it needs."""

@@ -7,7 +7,7 @@ proposed; rows after a jump are not joined to those before it.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -32,6 +32,10 @@ SHORTEST_PART = 0.1
 
 JUMP = 1.5
 """Steps longer than this many usual ones leave samples out."""
+
+PARTS, DRIFT = 10, 5e-3
+"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts
+or is read a little early and late: that is less than bearings slip."""
 
 SHARED = 0.2
 """Share of rows with the time of the row before, from which on times are rounded to over a step."""
@@ -74,23 +78,26 @@ class Sampling:
     parts: tuple[tuple[int, int], ...] = ()
 
 
-LIKELY_RATES = 500.0, 1e6
+LIKELY_RATES = 100.0, 1e6
 """[Hz]"""
 
 _SINCE_1970 = 1e9, 2.6e9
 """[s] from 2001 to 2052, counted as computers do."""
+
+_SINCE_1900 = 3e4
+"""[d] to 1982, as sheets count days."""
 
 
 def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
     """Sample rate and faults of a column of times whose unit may not be known.
 
     Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
-    has is a proposal, in the unit that would make it a likely one; none where the unit is `sure`.
+    has is a proposal, where no unit is given in the one that would make it a likely one; there is
+    none where the unit is `sure`.
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
-    low, high = _SINCE_1970
-    dated = next((name for name in _PARTS[:-1] if low <= first * TIMES[name] <= high), None)
+    dated = since_1970(time)
     found = sampling_of(time, TIMES[unit or dated or "s"])
     if unit is None and dated is not None:
         found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
@@ -104,7 +111,8 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
         return dataclasses.replace(found, sample_rate=None, stated=False, trouble=trouble)
     per_second = rate * TIMES[unit or dated or "s"]
     low, high = LIKELY_RATES
-    likely = next((name for name in _PARTS if low <= per_second / TIMES[name] <= high), None)
+    parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
+    likely = next((name for name in parts if low <= per_second / TIMES[name] <= high), None)
     said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
     if likely is None:
         reason = f"{found.reason}; no recording of vibration is so: in {said}"
@@ -115,6 +123,16 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")
+
+
+def since_1970(time: Array) -> str | None:
+    """The unit in which numbers count from 1970, None where they do not."""
+    finite = time[np.isfinite(time)]
+    least, most = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
+    low, high = _SINCE_1970
+    return next(
+        (p for p in _PARTS[:-1] if low <= least * TIMES[p] and most * TIMES[p] <= high), None
+    )
 
 
 def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
@@ -183,7 +201,7 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
 
 def _rounded(time: Array, steps: Array) -> float | None:
     """Grain to which times were rounded where this is more than a step, else None."""
-    if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
+    if steps.min() < 0.0 or not SHARED <= np.mean(steps == 0.0) < 1.0:
         return None
     grain = float(steps[steps > 0.0].min())
     step = float(time[-1] - time[0]) / (len(time) - 1)
@@ -220,9 +238,7 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         first, last = int(edges[longest]), int(edges[longest + 1])
         part = time[first:last]
         if last - first >= FEWEST_SAMPLES:
-            least = max(FEWEST_SAMPLES, SHORTEST_PART * (last - first))
-            parts = tuple((a, b) for a, b in pairwise(edges.tolist()) if b - a >= least)
-            parts = parts if len(parts) > 1 else ()
+            parts = long_parts(pairwise(edges.tolist()))
             said = _recordings(time, parts, (first, last), unit)
             said += _jumps(steps, jumps, usual, first, last, shared)
             even = _even(part)
@@ -238,12 +254,27 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
                 )
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
+    ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
+    means = np.diff(time[ends]) / np.maximum(np.diff(ends), 1)
+    if n > FEWEST_SAMPLES and not jumps.size and means.max() <= (1.0 + DRIFT) * means.min():
+        drift = number(100.0 * (means.max() / means.min() - 1.0), 2)
+        trouble = f"The clock drifts: by {drift} % between tenths of the recording."
+        return Sampling(mean / unit, True, 0, n, trouble)
     trouble = (
         f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
         f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "
         f"it would be {number(mean / unit, 6)} Hz."
     )
     return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
+
+
+def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
+    """Those of parts (first row, last excluded) that are recordings; none where it is one alone."""
+    all_parts = [(first, last) for first, last in parts]
+    longest = max((last - first for first, last in all_parts), default=0)
+    least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
+    found = tuple((first, last) for first, last in all_parts if last - first >= least)
+    return found if len(found) > 1 else ()
 
 
 def _recordings(

@@ -17,13 +17,13 @@ from itertools import pairwise
 import numpy as np
 
 from bearingcore.common import checks
-from bearingcore.common.arrays import Array
+from bearingcore.common.arrays import Array, runs
 from bearingcore.common.lazy import cached_property
 from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
-from bearingcore.files.sampling import longest_run
+from bearingcore.files.sampling import long_parts, longest_run
 from bearingcore.files.units import (
     SPEEDS,
     TIMES,
@@ -63,9 +63,17 @@ class Table(FileColumns):
 
     @property
     def recordings(self) -> tuple[tuple[int, int], ...]:
-        """Rows (last excluded) of each recording, where times jump between several; else none."""
-        sampling = self.contents.sampling
-        return () if sampling is None else sampling.parts
+        """Rows (last excluded) of each recording, where times jump or numbers are missing between.
+
+        Empty where there is one alone.
+        """
+        sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
+        if sampling is not None and sampling.parts:
+            return sampling.parts
+        parts = np.stack(
+            runs(np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)), axis=1
+        )
+        return long_parts(parts.tolist()) if picked else ()
 
     def one_of_recordings(self, number: int) -> Table:
         """The table of one of the `recordings` in the file alone, counted from 1.
@@ -197,7 +205,7 @@ class Table(FileColumns):
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
-                why = "no vibration, by its name"
+                why = "no acceleration, by its heading"
             else:
                 along = {"z": "along the shaft"}.get(column.direction, "another signal")
                 why = column.place or along

@@ -24,7 +24,7 @@ from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
-from bearingcore.files.facts import named_in, names_a_fact, units_said
+from bearingcore.files.facts import named_in, names_a_fact, sample_rate_in, units_said
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -90,6 +90,7 @@ def read_text(
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     if b"\n" not in content:
         content = content.replace(b"\r", b"\n")
+    content = _without_labels(content)
     style, begin, remarks = _beginning(name, content)
     width = style.width
     if width > min(LONG_ROW, most_columns):
@@ -104,12 +105,18 @@ def read_text(
                 width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
+    if _goes_on(remarks, content[begin:], style):
+        content, width, style = (
+            b"\n".join(content[begin:].split()), 1, dataclasses.replace(style, width=1)
+        )  # fmt: skip
+        begin = 0
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style)
+    said: list[str] = []
     read = _numbers(body, style, most_rows)
     if read is None:
         above = content.count(b"\n", 0, begin) + 1
-        body, more = _mended(name, body, style, above)
+        body, more, said = _mended(name, body, style, above)
         notes += more
         read = _numbers(body, style, most_rows)
         if read is None:
@@ -127,7 +134,7 @@ def read_text(
     if len(kept) < width and kept:
         read = read[:, kept]
         headings = headings and [headings[i] for i in kept]
-    return _about(read, headings, remarks, [kept.index(i) for i in style.stamps], notes)
+    return _about(read, headings, remarks + said, [kept.index(i) for i in style.stamps], notes)
 
 
 def _of_two_bytes(start: bytes) -> str:
@@ -138,6 +145,59 @@ def _of_two_bytes(start: bytes) -> str:
     if min(even, odd) > 0 or max(even, odd) < 0.45 * len(start) or not start:
         return ""
     return "utf-16-le" if odd else "utf-16-be"
+
+
+_LABELLED = re.compile(
+    r"([^\W\d][\w .()-]{0,30}?) ?[:=]\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?) ?([a-zA-Z/²]{1,5}|%)?"
+    r"[,;\s]*(?=[^\W\d]|$)"
+)
+"""A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
+
+
+def _without_labels(content: bytes) -> bytes:
+    """Lines of such numbers as a table with a heading; any other text as it is."""
+
+    def labels(line: str) -> list[tuple[str, str, str]]:
+        found = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
+        whole = "".join(one[0] for one in found) == line
+        return [(one[1].strip(), one[2], one[3] or "") for one in found] if whole else []
+
+    first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
+    heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
+    named = heads[-1]
+    if not named or 2 * heads.count(named) < len(heads) or len(heads) < SAMPLE:
+        return content
+    heading = [",".join(f"{name} [{unit}]" if unit else name for name, unit in named)]
+    made: list[str] = []
+    for line in content.splitlines():
+        said = labels(text := _decoded(line).strip())
+        made += [heading.pop()] if said and heading else []
+        made.append(",".join(value for _, value, _ in said) if said else text)
+    return "\n".join(made).encode()
+
+
+_COUNT = re.compile(r"(?i)npts|n?samples|points|(number|no\.?) of (samples|points|data)")
+
+
+def _goes_on(remarks: list[str], body: bytes, style: _Style) -> bool:
+    """Whether one signal goes on from row to row, as in records of earthquakes.
+
+    The count of its samples that is said above shows it, or its duration.
+    """
+    named = named_in(remarks)
+    counts = {one.value for one in named if _COUNT.fullmatch(one.name)}
+    counts |= {float(said) for line in remarks for said in re.findall(r"(\d+) samples", line)}
+    rate = sample_rate_in(named, "")
+    if rate is not None:
+        lasts = re.findall(r"(?i)duration\D{0,20}(\d+\.?\d*)", " ".join(remarks))
+        counts |= {rate.value * float(seconds) for seconds in lasts}
+    if style.delimiter is not None or style.width == 1 or style.stamps or not counts:
+        return False
+    above = remarks[-1].split()
+    if len(above) == style.width and all(re.match(r"[^\W\d]", cell) for cell in above):
+        return False  # the names of columns
+    rows = body.strip().count(b"\n") + 1
+    return any(rows - 1 < count / style.width <= rows for count in counts)
 
 
 def _about(
@@ -154,14 +214,16 @@ def _about(
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
 _DATE = rf"(?:{_DAY})[T _;,\t]+"
-_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d:\d\d"
-_ZONE = r"(\s?Z|[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
+_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d?:\d\d?"
+_ZONE = r"(\s?Z|{space}[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
 _POINT_STAMP, _COMMA_STAMP = (
     # minutes and seconds alone are known by the part of a second behind them
     re.compile(
-        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?{_ZONE}"
+        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?"
+        + _ZONE.format(space=space)
     )
-    for point in (r"\.", "[.,]")
+    # between blanks a number may come next
+    for point, space in ((r"\.", r"\s?"), ("[.,]", ""))
 )
 
 
@@ -334,9 +396,10 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
         first = _row(line, style.delimiter) if len(second) > 1 else None
     if first is None:
         return None
-    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
-    width = len(first) - (closed and len(first) > 1)
     rows = [_row(line, style.delimiter, words) for line in plain]
+    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
+    closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
+    width = len(first) - (closed and len(first) > 1)
     fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
@@ -357,7 +420,8 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
     kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
     words = next(iter(kinds)) if len(kinds) == 1 else ()
     if any(
-        word and not re.search(r"[^\W\d]", cell) for word, cell in zip(words, rows[0], strict=False)
+        word and " " in cell and not re.search(r"[^\W\d]", cell)
+        for word, cell in zip(words, rows[0], strict=False)
     ):
         return ()  # "000125 −0" between two commas of decimals
     return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
@@ -402,6 +466,9 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
             numbered = _is_numbered(sample)
             found = None if numbered else _style(sample, remarks[-1] if remarks else "")
+            follows = _style(sample[1:], "") if found and found.width == 1 < len(sample) else None
+            if follows is not None and follows.width > 2:
+                found = None  # how many lines follow
             if found is not None:
                 return _one_column(found, sample, remarks), place, remarks
             words += 1
@@ -513,7 +580,8 @@ LONGEST_HEADING = 4
 
 _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
-    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled",
+    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled", "start",
+    "increment",
 }  # fmt: skip
 _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
 
@@ -552,8 +620,16 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if _is_a_value(names):
             continue
-        while len(names) > width and (not names[-1] or names[-1].lower() in _WORDS_OF_A_ROW):
-            names.pop()  # LabVIEW names a column of words, which is empty
+        while len(names) > width and (
+            _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
+        ):
+            names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+        if len(names) == width + 1 and re.fullmatch(
+            r"\W*(headers|columns|fields)", names[0].lower()
+        ):
+            names.pop(0)
+        if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
+            names += [""] * (width - len(names))  # rows with empty cells at their ends
         if len(names) == width - 1 and _counts_rows(columns[:, 0]):
             names.insert(0, "")  # R names no column of the rows' names
         if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
@@ -657,10 +733,12 @@ def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
     return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
 
 
-def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, list[str]]:
-    """Lines with gaps in place of a few that hold no numbers, and sentences on them.
+def _mended(
+    name: str, body: bytes, style: _Style, above: int
+) -> tuple[bytes, list[str], list[str]]:
+    """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
-    The first line has the number `above`.
+    The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
     """
     lines, width = body.splitlines(keepends=True), style.width
     few, many = (
@@ -691,11 +769,12 @@ def _mended(name: str, body: bytes, style: _Style, above: int) -> tuple[bytes, l
         lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
         lines[index] += b"\n"
     if not wrong:
-        return b"".join(lines), []
+        return b"".join(lines), [], []
     index, text, _ = wrong[0]
     number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
     first = f"line {above + index}, “{text}”"
-    return b"".join(lines), [f"{number} numbers ({first}), which count as missing."]
+    notes = [f"{number} numbers ({first}), which count as missing."]
+    return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
 
 
 def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:

@@ -57,7 +57,7 @@ SPEEDS: Mapping[str, float] = MappingProxyType(
 )
 """[rad/s]"""
 
-_OTHERS = ("µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "kHz")
+_OTHERS = ("µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz")
 
 _WRITTEN = {
     "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 "
@@ -93,30 +93,17 @@ _WRITTEN = {
     "mil": "mils",
     "°C": "degc celsius",
     "deg": "°",
+    "deg/s": "dps °/s",
+    "µT": "ut",
 }
 _ALIASES = {unit.lower(): unit for unit in (*UNITS, *_TIMES, *FORCES, *SPEEDS, *_OTHERS)}
 _ALIASES |= {word: unit for unit, words in _WRITTEN.items() for word in words.split()}
 
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?)\s*[\])]")
 _LOOSE = {
-    "g",
-    "gs",
-    "mg",
-    "v",
-    "mv",
-    "s",
-    "ms",
-    "us",
-    "ns",
-    "volt",
-    "volts",
-    "rpm",
-    "g's",
-    "hz",
-    "n",
-    "kn",
-    "ips",
-}
+    "g", "gs", "mg", "v", "mv", "s", "ms", "us", "ns", "volt", "volts", "rpm", "g's", "hz", "n",
+    "kn", "ips",
+}  # fmt: skip
 """Short words that are units at the end of a name, as in "sensor_g"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3

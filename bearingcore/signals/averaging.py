@@ -51,12 +51,9 @@ class BallPasses:
         mean coefficient of each harmonic and direction; twice its size is the amplitude.
     power : (N, d)
         mean squared size of the coefficients of single passes.
-    noise_power : (d,) or (N, d)
-        what noise adds to `power`, estimated from the quietest stretches of the spectrum, or of
-        what differs from pass to pass around each harmonic; 0 for a simulated motion.
     prominence
         how far the ball-pass lines are above those of other frequencies close by, in standard
-        deviations of the latter; infinite for a simulated motion.
+        deviations of the latter.
     begins : (passes + 1,) [s] or None
         when the passes begin, and the last one ends, where the cage was followed; None where it
         turns steadily.
@@ -66,8 +63,7 @@ class BallPasses:
     n_passes: int
     harmonics: NDArray[np.complex128]
     power: Array
-    noise_power: Array
-    prominence: float = math.inf
+    prominence: float
     begins: Array | None = None
 
     @property
@@ -75,6 +71,19 @@ class BallPasses:
         """Variance (N, d) of `harmonics`, from the differences between passes."""
         around = self.power - np.abs(self.harmonics) ** 2
         return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
+
+    @property
+    def noise_power(self) -> Array:
+        """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an
+        octave around each harmonic, as what moves irregularly differs too.
+        """
+        around = np.maximum(self.power - np.abs(self.harmonics) ** 2, 0.0)
+        order = np.arange(1, len(around) + 1)
+        noise = np.empty_like(around)
+        for index, number in enumerate(order.tolist()):
+            near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
+            noise[index] = np.quantile(around[near], 0.2, axis=0)
+        return noise
 
     def waveform(self, n: int) -> Array:
         """The mean pass as n samples (n, d)."""
@@ -120,7 +129,6 @@ def average_passes(
     widest: float,
     *,
     follow: bool = False,
-    coloured: bool = False,
     shaft: float | None = None,
     turns: float = 0.0,
 ) -> BallPasses:
@@ -138,8 +146,6 @@ def average_passes(
         how far off nominal the frequency may be, as a fraction of it.
     follow
         whether a cage that wanders is followed, see `order_tracking`.
-    coloured
-        whether noise may be louder at some frequencies than at others.
     shaft
         turns a second [Hz] whose tones are taken out first; None to leave them.
     turns
@@ -168,7 +174,6 @@ def average_passes(
     signal = signal[:kept] - signal[:kept].mean(axis=0)
     pass_up = butter(4, cut, "highpass", fs=sample_rate, output="sos")
     signal = sosfiltfilt(pass_up, signal, axis=0)
-    floor = _noise_density(signal, sample_rate, lowest)
     frequency, prominence = _ball_pass_frequency(
         signal, sample_rate, nominal, slip, lowest, highest
     )
@@ -198,10 +203,7 @@ def average_passes(
     mean, power = each.mean(axis=0), (np.abs(each) ** 2).mean(axis=0)
     if turns:
         mean, power = _weighted(each, load_zone_weights(each, turns, slip))
-    noise = 0.5 * floor * frequency
-    if coloured:
-        noise = _coloured(mean, power, noise)
-    return BallPasses(frequency, n_passes, mean, power, noise, prominence, begins)
+    return BallPasses(frequency, n_passes, mean, power, prominence, begins)
 
 
 def load_zone_weights(passes: NDArray[np.complex128], turns: float, slip: float) -> Array:
@@ -244,31 +246,6 @@ def _weighted(each: NDArray[np.complex128], weights: Array) -> tuple[NDArray[np.
     away = np.abs(each - weights[:, None, None] * mean) ** 2
     variance = np.tensordot(weights**2, away, 1) / squares**2
     return mean, np.abs(mean) ** 2 + len(each) * variance
-
-
-def _coloured(mean: NDArray[np.complex128], power: Array, floor: Array) -> Array:
-    """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an octave
-    around each harmonic, as what moves irregularly differs too. Never below the floor (d,).
-    """
-    around = np.maximum(power - np.abs(mean) ** 2, 0.0)
-    order = np.arange(1, len(mean) + 1)
-    noise = np.empty_like(power)
-    for index, number in enumerate(order.tolist()):
-        near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
-        noise[index] = np.quantile(around[near], 0.2, axis=0)
-    return np.asarray(np.minimum(np.maximum(noise, floor), power))
-
-
-def _noise_density(signal: Array, sample_rate: float, lowest: float) -> Array:
-    """Density (d,) [(unit)²/Hz] of broad-band noise: the quiet tenth of the smoothed spectrum."""
-    from scipy.signal import welch
-
-    segment = min(len(signal), max(64, round(8.0 * sample_rate / lowest)))
-    frequency, density = welch(np.ascontiguousarray(signal.T), fs=sample_rate, nperseg=segment)
-    inside = (frequency > lowest) & (frequency < 0.45 * sample_rate)
-    if not inside.any():
-        return np.zeros(signal.shape[1])
-    return np.asarray(np.quantile(density[:, inside], 0.1, axis=1))
 
 
 def _ball_pass_frequency(

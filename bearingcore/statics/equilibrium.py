@@ -156,6 +156,11 @@ class Equilibrium:
         angle = angle + np.where(contacts.fixed, 0.0, turned)
         return np.where(self.ball_load > 0.0, angle, math.nan)
 
+    @property
+    def inner_contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the inner race: α_j, where balls have no mass."""
+        return self.contact_angle
+
     def term(self, name: str) -> Array:
         """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
         if name not in TERM_INDICES:

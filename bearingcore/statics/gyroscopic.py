@@ -28,6 +28,7 @@ with it the direction of its load at the outer one:
     dα_o = T/Q_o / (1 + (l_o/l_i) (sin α_o/sin α_i)³).
 
 Beside a radial load as large as the thrust, in which the ring moves too, it is up to twice this.
+Far beyond the limit it is more, as the moment grows with the turn: `GREATEST_ESTIMATE`.
 
 Source: A. B. Jones, J. Basic Engineering 82 (1960) 309-322; Harris, Rolling Bearing Analysis,
 chapter "Bearing deflections, preloading": "Race control".
@@ -52,6 +53,9 @@ GYROSCOPIC_MOMENT = "gyroscopic moment"
 LIMIT = 0.02
 """Of the load: friction between ball and race holds so much (Harris), and the outer contact turns
 by a degree at the most."""
+
+GREATEST_ESTIMATE = math.radians(3.6)
+"""Turn up to which the estimate holds: at 4 to 10° contacts turn by up to twice as much."""
 
 HEAVY = 0.5
 """Part of the heaviest load from which a ball counts: what others carry matters little."""
@@ -91,14 +95,21 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
         "The gyroscopic moment of a heavily loaded ball, "
         f"{with_prefix(found.moment, 'N·m')}, takes a force across the groove of "
         f"{percent(found.share, 3)} of its load of {with_prefix(found.load, 'N')}; left out, it "
-        f"would turn the outer contact by {number(math.degrees(found.turn), 3)}° under thrust "
-        f"alone, at most by {number(math.degrees(found.share), 2)}°"
+        f"would turn the outer contact by {_turn_words(found)}"
     )
     speed = _speed_of_limit(scene, found.share)
     if found.share <= LIMIT and math.isfinite(speed):
         fact += f", and from about {thousands(speed * 30.0 / math.pi)} rpm on by a degree"
     beyond = ", more than the degree up to which it may be left out."
     return upper_limit(GYROSCOPIC_MOMENT, found.share, LIMIT, "", fact, beyond, ".")
+
+
+def _turn_words(found: _Gyroscopic) -> str:
+    """Turn of the outer contact; the moment grows with it, which the estimate leaves out."""
+    turn, most = math.degrees(found.turn), math.degrees(found.share)
+    if found.turn > GREATEST_ESTIMATE:
+        return f"more than {number(turn, 2)}°"
+    return f"{number(turn, 3)}° under thrust alone, at most by {number(most, 2)}°"
 
 
 def _speed_of_limit(scene: Scene, share: float) -> float:

@@ -268,10 +268,12 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     if words := bearing.kind.tilt_unknown:
         name = f"tilt of the {bearing.kind.elements}"
         return Limit(name, math.nan, math.nan, "rad", False, words)
-    loads, angles = state.ball_load[kept], np.abs(state.contact_angle[kept])
+    loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
+    angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
     return _worst(
-        _shoulder_of(own, loads[:, balls], angles[:, balls], height)
+        _shoulder_of(own, race, loads[race][:, balls], angles[race][:, balls], height)
         for own, balls in bearing.unlike_rows
+        for race in bearing.kind.shoulders
     )
 
 
@@ -280,8 +282,10 @@ def _worst(found: Iterable[Limit]) -> Limit:
     return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
 
 
-def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | None) -> Limit:
-    """Contact angle of loaded balls, with half the contact ellipse where it is known.
+def _shoulder_of(
+    bearing: Bearing, race: str, loads: Array, angles: Array, height: float | None
+) -> Limit:
+    """Contact angle of loaded balls at a race, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
     arccos(1 − h/r_b) (Harris, truncated contact ellipse).
@@ -293,12 +297,11 @@ def _shoulder_of(bearing: Bearing, loads: Array, angles: Array, height: float | 
     carries = loads > 0.0
     if not carries.any():
         return unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
-    reach, angles = angles[carries], angles[carries]
+    reach = angles = np.abs(angles[carries])
     known = bearing.knows_contacts
     if known:
-        ellipses = map(bearing.race_contact, bearing.kind.shoulders)
-        half = [ellipse.semi_axes(loads[carries])[0] for ellipse in ellipses]
-        spread = np.arcsin(np.minimum(np.maximum.reduce(half) / bearing.ball_radius, 1.0))
+        half = bearing.race_contact(race).semi_axes(loads[carries])[0]
+        spread = np.arcsin(np.minimum(half / bearing.ball_radius, 1.0))
         reach = angles + spread
     worst = int(np.argmax(reach))
     value = float(reach[worst])

@@ -31,7 +31,7 @@ IN_DOCUMENT = ("fan-rig", "liew-lim")
 def ship(preset: str) -> None:
     """Measure a preset and write its file."""
     began = time.perf_counter()
-    found = measure(presets[preset], preset=preset, c_loop=pace().motion)
+    found = measure(presets[preset], c_loop=pace().motion)
     FILES.mkdir(exist_ok=True)
     (FILES / f"{preset}.json").write_text(found.as_json(), encoding="utf-8")
     print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")

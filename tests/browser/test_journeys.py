@@ -521,6 +521,8 @@ def test_a_file_brought_to_the_other_half_is_offered_there(visitor: Visitor) -> 
     visitor.press("Diagnose it")
     visitor.is_at("Diagnosis")
     visitor.reads(re.compile("fan.wav · 3 s"))
+    visitor.page.reload()
+    visitor.reads(re.compile("fan.wav, and what was said of it, is not kept"))
     scene = presets["6205"].to_toml().encode()
     visitor.bring(visitor.main, "motor.toml", scene)
     visitor.press("Open the scene")

@@ -75,7 +75,8 @@ def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Serv
 
 
 def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explorer: Server) -> None:
-    open_page(page, explorer, "vibration")
+    page.goto(f"{explorer.url}?v=1&tab=vibration")
+    page.wait_for_function("window.__tab == 'vibration'")
     rest(page)
     assert page.evaluate(_HIDDEN) == 0, "what is folded or not chosen is not built"
     page.evaluate(_WATCH)

@@ -153,17 +153,61 @@ def test_share_of_the_power_that_mass_adds() -> None:
 
 @witness(
     "law: *", "function: simulate", by="SciPy's DOP853 on the equations of `march.py`",
-    compared="housing's motion by the steps that are chosen, with dampers 800 times as strong",
-    within=0.02,
+    compared="housing's motion by the steps that are chosen: dampers 800 times as strong, and a "
+    "load of 50 mN on a support 40 times as soft, with and without unbalance", within=0.05,
 )  # fmt: skip
 @pytest.mark.parametrize("law", ["published", "no tension"])
-def test_steps_are_as_fine_as_dampers_need(law: str) -> None:
-    """One law diverged, the other "completed" with three times the acceleration."""
-    strong = 1e5
-    one = replace(problem("fan-rig"), c=strong, no_tension=law == "no tension")
-    scene = RIG.replace(balls="massless", contact_damping=strong, contact_law=law)
+@pytest.mark.parametrize(
+    ("damping", "load", "soft", "unbalance", "within"),
+    [
+        (1e5, -100.0, 1.0, 0.0, 0.02),
+        (DAMPING, -0.05, 40.0, 0.0, 0.05),
+        (DAMPING, -0.05, 40.0, 1e-3, 0.02),
+    ],
+)
+def test_steps_are_fine_enough(
+    law: str, damping: float, load: float, soft: float, unbalance: float, within: float
+) -> None:
+    """One law diverged with strong dampers, the other "completed" with thrice the acceleration.
+
+    Under 50 mN steps were those of its slow modes, 5500 a second: 15 % without tension.
+    """
+    speed = RIG.shaft_speed if soft == 1.0 else 200.0
+    one = replace(
+        problem("fan-rig", shaft=speed), c=damping, no_tension=law == "no tension",
+        force=np.array([0.0, load, 0.0, 0.0, 0.0]), stiffness=np.full(2, SUPPORT / soft),
+        unbalance=unbalance * speed**2, shaft=speed,
+    )  # fmt: skip
+    scene = RIG.replace(
+        balls="massless", contact_damping=damping, contact_law=law, shaft_speed=speed, fy=load,
+        stiffness_x=SUPPORT / soft, stiffness_y=SUPPORT / soft, unbalance=unbalance,
+    )  # fmt: skip
     found = simulate(scene, 0.01, RATE)
     assert found.completed
     own = 1e-6 * one.solved(one.start(), found.time)[:, 6:8]
     off = np.sqrt(np.mean((found.outer_velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
-    assert off.max() < 0.02
+    assert off.max() < within
+
+
+@witness(
+    "law: no tension", "function: simulate", by="SciPy's DOP853 on the equations of `march.py`",
+    compared="level of the housing's velocity, a 7208 under 0.5 N whose balls come and go",
+    within=0.08,
+)  # fmt: skip
+def test_steps_are_doubled_where_contacts_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 33 and 66 kHz levels are 18 and 45 % off. Where no steps are enough there is no motion."""
+    scene = presets["7208-25deg"].replace(
+        contact_law="no tension", contact_damping=1e3, fy=-0.5, fz=0.5
+    )
+    force = np.array([0.0, -0.5, 0.5, 0.0, 0.0])
+    one = replace(problem("7208-25deg"), c=1e3, no_tension=True, force=force)
+    found = simulate(scene, 0.02, RATE)
+    own = 1e-6 * one.solved(one.start(), found.time, 1e-7)[:, 9:12]
+    level, true = (
+        np.sqrt(np.mean(v[len(v) // 2 :] ** 2, axis=0)) for v in (found.outer_velocity, own)
+    )
+    assert level == pytest.approx(true, rel=0.08)
+    monkeypatch.setattr("bearingcore.dynamics.motion.SAME_LEVEL", 0.0)
+    refused = simulate(scene, 1e-3, RATE)
+    assert "too few" in refused.reason
+    assert np.isnan(refused.outer_acceleration).all()

@@ -83,28 +83,34 @@ def test_a_7208_at_speed(angle: int, rpm: int) -> None:
 
 
 @witness(
-    "balls: with mass", "function: contact_pressures", "function: film",
+    "balls: with mass", "function: contact_pressures", "function: film", "function: limits",
     by="Jones's equations by SciPy, Hertz by his integrals",
-    compared="load and pressure on each race of a 7208 at 16,000 rpm",
+    compared="load, pressure and reach of the contact on each race of a 7208 at 16,000 rpm",
     within=1e-5,
 )  # fmt: skip
-def test_each_race_of_a_fast_bearing_has_its_own_pressure() -> None:
+def test_each_race_of_a_fast_bearing_has_its_own_pressure_and_reach() -> None:
     D, pitch, angle, speed = 11.90625e-3, 60e-3, math.radians(25.0), 16e3 * math.pi / 30.0
     steel = (210e9, 0.3)
     case = Jones(14, D, pitch, angle, (0.52, 0.53), 7800.0, steel, steel)
-    load = case.solve(500.0, 0.0, speed, gyroscopic=False)[0][:, 0]
+    load, angles = (one[:, 0] for one in case.solve(500.0, 0.0, speed, gyroscopic=False)[:2])
     scene = presets["7208-25deg"].healthy().replace(
         fy=0.0, fz=500.0, shaft_speed=speed, balls="with mass"
     )  # fmt: skip
     found, oil = contact_pressures(scene), film(scene, viscosity=0.02)
+    reach = []
     for race, one, groove, side in zip(
         ("inner", "outer"), load, (0.52, 0.53), (1, -1), strict=True
     ):
         along = side / (0.5 * (pitch / math.cos(angle) - side * D))
-        own = point_contact(D, -1.0 / (groove * D), along)[1] * one ** (1.0 / 3.0)
+        _, pressure, ratio = point_contact(D, -1.0 / (groove * D), along)
+        own = pressure * one ** (1.0 / 3.0)
+        half = math.sqrt(1.5 * one * ratio / (math.pi * own))
+        reach.append(angles[len(reach)] + math.asin(half / (0.5 * D)))
         assert getattr(found, race).load == pytest.approx(one, rel=1e-5)
         assert getattr(found, race).greatest_pressure == pytest.approx(own, rel=1e-5)
         assert getattr(oil, race).load == pytest.approx(one, rel=1e-5)
+    said = {one.name: one.value for one in limits(scene, static_state(scene))}
+    assert said["contact angle at the shoulder"] == pytest.approx(max(reach), rel=1e-5)
 
 
 @witness(
@@ -150,6 +156,18 @@ def test_radial_balls_rollers_and_standing_shafts_have_none() -> None:
     still = presets["7208-25deg"].replace(shaft_speed=0.0)
     for scene in (presets["6205"], presets["nu208"], still):
         assert not [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+
+
+def test_far_beyond_the_limit_contacts_turn_by_more_than_it_says() -> None:
+    """9.7°, where 7.1° at the most was said: as a contact turns the moment grows."""
+    steel, speed = (210e9, 0.3), 30e3 * math.pi / 30.0
+    case = Jones(14, 11.90625e-3, 60e-3, math.radians(40.0), (0.52, 0.53), 7800.0, steel, steel)
+    without, turned = (case.solve(5e3, 0.0, speed, gyroscopic=one) for one in (False, True))
+    scene = presets["7208-40deg"].healthy().replace(fy=0.0, fz=5e3, shaft_speed=speed)
+    (said,) = [one for one in limits(scene) if one.name == GYROSCOPIC_MOMENT]
+    (most,) = re.findall(r"by more than ([0-9.]+)°", said.sentence)
+    own = math.degrees(np.abs(turned[1][1] - without[1][1]).max())
+    assert 0.5 * own < float(most) < own
 
 
 @pytest.mark.parametrize(

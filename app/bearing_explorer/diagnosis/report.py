@@ -212,7 +212,14 @@ def assumptions(
     """Assumptions of the answer: name, value, and whether that is given, from the file, ..."""
     measured, bearing = question.measured, question.bearing
     machine, recording = measured.machine, measured.recording
-    given, values = dict(part_words.facts(answer, question)), measurement.state.values
+    values = measurement.state.values
+    given = dict(part_words.facts(answer, question))
+    for name, source in (
+        ("Shaft", machine.source_of("speed")), ("Bearing", machine.source_of("bearing")),
+        ("Slip", "assumed"), ("Demodulation band", "found"),
+    ):  # fmt: skip
+        if source and name in given:  # it stands in a column of its own
+            given[name] = given[name].replace(f", {source}", "", 1)
     load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")

@@ -163,10 +163,10 @@ class Measurement(SignalForm):
     def _take_baseline(self, name: str) -> None:
         """The files of the series are compared with the first one, which came now."""
         self.series = replace(self.series, together=True)
-        words = (
-            f"{name} is what {'' if self._table is None else self._table.name} is compared with."
-        )
-        self._tell(words=f"{words} See the trend below.", bad=False, busy=False)
+        shown = "" if self._table is None else self._table.name
+        words = f"{name} is what {shown} is compared with. See the trend below."
+        remarks = f"{words} {self._in_short(self.state.values)['remarks']}"
+        self._tell(words=words, remarks=remarks, bad=False, busy=False)
         self._draw()
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:

@@ -26,7 +26,7 @@ from bearingcore.diagnosis.part.judged import judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.diagnosis.part.status import DiagnosisStatus
-from bearingcore.diagnosis.part.unknown_speed import in_range
+from bearingcore.diagnosis.part.unknown_speed import NARROW, in_range
 from bearingcore.signals.recording import Recording
 
 SLIP = 0.02
@@ -110,9 +110,25 @@ def _diagnose(
         return silent(*signal.unusable, source)
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
+    answer = _between(signal, bearing, low, high, slip, source, speed_source)
+    if answer.names_a_part or high > NARROW * low:
+        return answer
+    reach = (high - low) / (high + low) + slip
+    return _if_in_another_unit(signal, answer, 0.5 * (low + high), reach)
+
+
+def _between(
+    signal: ListenedSignal,
+    bearing: Bearing,
+    low: float,
+    high: float,
+    slip: float,
+    source: str,
+    speed_source: str,
+) -> Diagnosis:
+    """The diagnosis at a speed between two [Hz], which may be one and the same."""
     if high <= low * (1.0 + 1e-9):
-        answer = _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
-        return answer if answer.names_a_part else _if_in_another_unit(signal, answer, low, slip)
+        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
     if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
         source = f"{speed_source} as a range"
         return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
@@ -124,7 +140,7 @@ def _diagnose(
 
 
 def _if_in_another_unit(
-    signal: ListenedSignal, answer: Diagnosis, speed: float, slip: float
+    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float
 ) -> Diagnosis:
     """The answer, with a question where the shaft shows at 60 times the speed [Hz], or a 60th.
 
@@ -132,15 +148,15 @@ def _if_in_another_unit(
     """
     least, most = (turning / (2.0 * math.pi) for turning in SPEEDS)
     for other in (60.0 * speed, speed / 60.0):
-        shown = least <= other <= most and _shows(signal, other, slip)
-        if shown and not _shows(signal, speed, slip):
+        shown = least <= other <= most and _shows(signal, other, reach)
+        if shown and not _shows(signal, speed, reach):
             return replace(answer, detail=f"{answer.detail} {say.other_unit(speed, other)}")
     return answer
 
 
-def _shows(signal: ListenedSignal, speed: float, slip: float) -> bool:
+def _shows(signal: ListenedSignal, speed: float, reach: float) -> bool:
     """Whether the shaft's own lines are clear about a speed [Hz]."""
-    return signal.shaft(speed * (1.0 - slip), speed * (1.0 + slip)).clear
+    return signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach)).clear
 
 
 def _speeds(

@@ -119,6 +119,17 @@ class Judged:
             self, evidence=_weighed(replace(one, swing=share * one.swing) for one in self.evidence)
         )
 
+    def among(self, speeds: float) -> Judged:
+        """The same where so many speeds were open: another source fits one of them as often more.
+
+        The odds that lines are those of the bearing fall by that number.
+        """
+        tried = (
+            replace(one, probability=one.probability / (speeds + (1.0 - speeds) * one.probability))
+            for one in self.evidence
+        )
+        return replace(self, evidence=tuple(tried))
+
 
 def judge(
     signal: ListenedSignal,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -13,7 +14,7 @@ from bearingcore.diagnosis.part.judged import NOISE_MARGIN, Judged, compare, jud
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import PartLines, part_lines
 from bearingcore.diagnosis.part.probability import SURE
-from bearingcore.diagnosis.part.shaft import ShaftLines
+from bearingcore.diagnosis.part.shaft import ERROR, ShaftLines
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 
 NARROW = 1.3
@@ -82,8 +83,12 @@ def in_range(
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
         return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
     part = first.judged.own.part
-    found = _FOUND if first.shaft.clear else f"taken from the lines of the {part}"
-    return decide(signal, first.judged, first.judged.shaft, found)
+    if first.shaft.clear:
+        return decide(signal, first.judged, first.judged.shaft, _FOUND)
+    # any source with lines somewhere in the range would have been taken for the part's
+    width = 2.0 * math.atanh(max(slip, ERROR))
+    judged = first.judged.among(1.0 + math.log(high / low) / width)
+    return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
 
 _FOUND = "found by the shaft's own lines"

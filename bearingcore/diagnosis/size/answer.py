@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.size.matching import PassQuality
-from bearingcore.diagnosis.size.synthesis import Band
+from bearingcore.diagnosis.size.simulation import Band
 from bearingcore.errors import Status
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.averaging import BallPasses
@@ -123,6 +123,10 @@ class Sizing:
     quality: PassQuality
     apart: float = 0.0
     diagnosis: Diagnosis | None = None
+
+    def said(self, status: SizingStatus, sentence: str) -> Sizing:
+        """With another outcome."""
+        return replace(self, status=status, sentence=sentence)
 
     @property
     def conclusive(self) -> bool:

@@ -7,12 +7,11 @@ Then knocks in the envelope, which need no model of the machine, are held agains
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from bearingcore.common.numbers import probability, with_deviation
 from bearingcore.diagnosis.extent.measure import ExtentStatus, MeasuredExtent
 from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
-from bearingcore.diagnosis.size.fitting import EXTENT_STEP, GREATEST_EXTENT, LEAST_EXTENT
+from bearingcore.diagnosis.size.search import EXTENT_STEP, GREATEST_EXTENT, LEAST_EXTENT
 from bearingcore.errors import FieldError
 
 WIDEST = 0.1
@@ -44,16 +43,9 @@ _KNOCKS_TWICE = (ExtentStatus.MEASURED, ExtentStatus.EITHER, ExtentStatus.BOUNCE
 _CANNOT = "The size of the defect is not clear: "
 
 
-class Judgement(NamedTuple):
-    """A status, and its sentence with numbers."""
-
-    status: SizingStatus
-    sentence: str
-
-
-def judged(sized: Sizing) -> Judgement:
-    """The finding of the search itself: an answer, a bound, or why neither."""
-    return _refusal(sized) or _several(sized) or _answer(sized)
+def judged(sized: Sizing) -> Sizing:
+    """With the finding of the search itself: an answer, a bound, or why neither."""
+    return sized.said(*(_refusal(sized) or _several(sized) or _answer(sized)))
 
 
 def _size(sized: Sizing) -> str:
@@ -61,7 +53,7 @@ def _size(sized: Sizing) -> str:
     return with_deviation(extent, spread, "°")
 
 
-def _refusal(sized: Sizing) -> Judgement | None:
+def _refusal(sized: Sizing) -> tuple[SizingStatus, str] | None:
     """Why the best extent is not an explanation of the signal; None where it is one."""
     best, quality = sized.best, sized.quality
     unexplained = float(best.waveform_misfit.mean())
@@ -92,10 +84,10 @@ def _refusal(sized: Sizing) -> Judgement | None:
         )
     else:
         return None
-    return Judgement(status, _CANNOT + words)
+    return status, _CANNOT + words
 
 
-def _several(sized: Sizing) -> Judgement | None:
+def _several(sized: Sizing) -> tuple[SizingStatus, str] | None:
     """Why the best extent is not ahead of all others; None where it is."""
     best = sized.best
     if best.probability < CLEAR:
@@ -103,37 +95,34 @@ def _several(sized: Sizing) -> Judgement | None:
         each = ", ".join(
             f"{math.degrees(c.extent):.1f}° ({probability(c.probability)})" for c in likely
         )
-        return Judgement(SizingStatus.SEVERAL, f"Several extents explain the signal: {each}.")
+        return SizingStatus.SEVERAL, f"Several extents explain the signal: {each}."
     if sized.apart > WIDEST * best.scene.bearing.ball_spacing:
         low, high = (math.degrees(best.extent + way * sized.apart) for way in (-1.0, 1.0))
-        return Judgement(
-            SizingStatus.WIDE,
+        return SizingStatus.WIDE, (
             f"{_CANNOT}best match {_size(sized)}, but extents from {max(low, 0.0):.0f}° to "
-            f"{high:.0f}° explain it nearly as well.",
+            f"{high:.0f}° explain it nearly as well."
         )
     pit = _like_a_pit(sized)
     if pit:
-        return Judgement(
-            SizingStatus.LIKE_A_PIT,
+        return SizingStatus.LIKE_A_PIT, (
             f"{_CANNOT}best match {_size(sized)}, but there one ball enters as another leaves, "
-            f"and a pit shorter than {math.degrees(pit):.1f}° gives nearly the same.",
+            f"and a pit shorter than {math.degrees(pit):.1f}° gives nearly the same."
         )
     return None
 
 
-def _answer(sized: Sizing) -> Judgement:
+def _answer(sized: Sizing) -> tuple[SizingStatus, str]:
     best, spread = sized.best, sized.extent_uncertainty
     if best.extent < max(sized.resolved, LEAST_EXTENT + 2.0 * spread):
         most = math.degrees(sized.end(AT_MOST))
         words = f"The defect extends over {most:.1f}° at most: shorter ones cannot be separated."
-        return Judgement(AT_MOST, words)
+        return AT_MOST, words
     if GREATEST_EXTENT - best.extent < max(2.0 * spread, EXTENT_STEP):
         least = math.degrees(sized.end(AT_LEAST))
-        return Judgement(AT_LEAST, f"The defect extends over {least:.1f}° at least.")
-    return Judgement(
-        SizingStatus.SIZED,
+        return AT_LEAST, f"The defect extends over {least:.1f}° at least."
+    return SizingStatus.SIZED, (
         f"The defect extends over {_size(sized)}, {best.turns} whole ball spacings and a rest; "
-        f"probability {probability(best.probability)}.",
+        f"probability {probability(best.probability)}."
     )
 
 
@@ -151,29 +140,22 @@ def _like_a_pit(sized: Sizing) -> float:
     return reach if whole >= 1 and abs(best.extent - whole * spacing) < reach else 0.0
 
 
-def confirmed(sized: Sizing, knocks: MeasuredExtent | FieldError) -> Judgement:
-    """The judgement of an answer or a bound, once knocks in the envelope are held against it.
+def confirmed(sized: Sizing, knocks: MeasuredExtent | FieldError) -> Sizing:
+    """An answer or a bound, once knocks in the envelope are held against it.
 
     `knocks` is the extent from entry to exit, of the same recording, or why there is none.
     """
-    size = _size(sized)
     if isinstance(knocks, FieldError):
-        return Judgement(
-            SizingStatus.UNCONFIRMED,
-            f"{_CANNOT}best match {size}, but no entry and exit can bear it out: {knocks}.",
-        )
-    if sized.status == AT_MOST and knocks.status in _KNOCKS_TWICE:
-        return Judgement(
-            SizingStatus.TWO_KNOCKS,
-            f"{_CANNOT}best match {size}, but the envelope has two knocks a ball pass, as a ball's "
-            "entry and exit give.",
-        )
-    if not _agree(sized, knocks):
-        return Judgement(
-            SizingStatus.UNCONFIRMED,
-            f"{_CANNOT}best match {size}, but entry and exit in the envelope do not bear it out.",
-        )
-    return Judgement(sized.status, sized.sentence)
+        status, why = SizingStatus.UNCONFIRMED, f"no entry and exit can bear it out: {knocks}"
+    elif sized.status == AT_MOST and knocks.status in _KNOCKS_TWICE:
+        status = SizingStatus.TWO_KNOCKS
+        why = "the envelope has two knocks a ball pass, as a ball's entry and exit give"
+    elif not _agree(sized, knocks):
+        status = SizingStatus.UNCONFIRMED
+        why = "entry and exit in the envelope do not bear it out"
+    else:
+        return sized
+    return sized.said(status, f"{_CANNOT}best match {_size(sized)}, but {why}.")
 
 
 def _agree(sized: Sizing, knocks: MeasuredExtent) -> bool:

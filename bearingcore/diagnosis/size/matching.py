@@ -20,7 +20,7 @@ from numpy.fft import irfft
 from numpy.typing import NDArray
 
 from bearingcore.common.arrays import Array, summit
-from bearingcore.diagnosis.size.synthesis import Band
+from bearingcore.diagnosis.size.simulation import Band
 from bearingcore.signals.averaging import BallPasses
 
 WAVEFORM_FLOOR = 0.05
@@ -44,36 +44,31 @@ PHASES = 2048
 
 @dataclass(frozen=True)
 class Match:
-    """Match of m simulated passes with a measured one.
+    """Match of simulated ball passes with measured ones.
 
     Attributes
     ----------
-    waveform_misfit : (m, d)
+    waveform_misfit : (d,)
         share of the mean pass's power that is left after the simulated one is taken off.
-    waveform_cost : (m, d)
+    waveform_cost : (d,)
         how much speaks against it: logarithm of what is left, each harmonic weighted by its noise.
-    spectrum_misfit : (m, d)
+    spectrum_misfit : (d,)
         mean squared natural logarithm of the ratio of smoothed spectra.
-    level : (m,)
+    level
         natural logarithm of simulated over measured power, all directions.
-    waveform_residual : (m, n, d), spectrum_residual : (m, b, d)
-        for least squares; exp(waveform_cost) is 1 and the sum of the former's squares,
-        spectrum_misfit the mean of the latter's.
     """
 
     waveform_misfit: Array
     waveform_cost: Array
     spectrum_misfit: Array
-    level: Array
-    waveform_residual: NDArray[np.complex128]
-    spectrum_residual: Array
+    level: float
 
     @property
-    def score(self) -> Array:
-        """Evidence of the misfits for their cause, (m,)."""
-        return np.asarray(
-            -WAVEFORM_WEIGHT * self.waveform_cost.mean(axis=1)
-            - SPECTRUM_WEIGHT * np.log(SPECTRUM_FLOOR + self.spectrum_misfit).mean(axis=1)
+    def score(self) -> float:
+        """Evidence of the misfits for their cause."""
+        spectrum = np.log(SPECTRUM_FLOOR + self.spectrum_misfit)
+        return float(
+            -WAVEFORM_WEIGHT * self.waveform_cost.mean() - SPECTRUM_WEIGHT * spectrum.mean()
         )
 
 
@@ -120,7 +115,7 @@ class Target:
         # what a simulation may be off by, and noise, of a pass of power 1
         self.noise = WAVEFORM_FLOOR / max(len(self.kept), 1) + scatter / self.energy
         self.weight = 1.0 / self.noise / max(len(self.kept), 1)
-        self.noise_power = np.broadcast_to(measured.noise_power, measured.power.shape)[self.kept]
+        self.noise_power = measured.noise_power[self.kept]
         self.window = _smoothing(frequency[self.kept], band)
         power = self.window @ measured.power[self.kept]
         self.floor = DYNAMIC_RANGE * power.max(axis=0) + 1e-300
@@ -138,52 +133,40 @@ class Target:
         )
 
     def match(self, harmonics: NDArray[np.complex128], power: Array) -> Match:
-        """Compare with simulated `harmonics` and `power`, each (m, N, d)."""
-        simulated = harmonics[:, self.kept]
-        bad = np.asarray(~np.isfinite(simulated).all(axis=(1, 2)), dtype=bool)
+        """Compare with simulated `harmonics` and `power`, each (N, d)."""
+        simulated = harmonics[self.kept]
+        if not np.isfinite(simulated).all():
+            worst = np.full(simulated.shape[1], GREATEST_MISFIT)
+            return Match(worst, np.log1p(worst / WAVEFORM_FLOOR), worst**2, 0.0)
         # of a pass of power 1 in each direction: the weaker one, which distinguishes sizes, counts
         scale = 1.0 / np.sqrt(self.energy)
-        relative = np.where(bad[:, None, None], 0.0, simulated) * scale
-        measured = self.harmonics * scale
-        # lag [rad] and gain (m,) that fit best; harmonics count by their noise
-        cross = relative.conj() * self.weight * measured
-        lag = self._best_lag(cross.sum(axis=2))
-        back = np.exp(-1j * lag[:, None] * self.order)
-        agree = (back[:, None, :] @ cross)[:, 0].real.sum(axis=1)
-        energy = (self.weight * np.abs(relative) ** 2).sum(axis=(1, 2))
-        gain = np.maximum(agree, 0.0) / np.maximum(energy, 1e-300)
-        turn = np.exp(1j * lag[:, None] * self.order)
-        residual = measured - (gain[:, None] * turn)[:, :, None] * relative
-        weighed = residual * np.sqrt(self.weight)
-        cost = np.log1p((np.abs(weighed) ** 2).sum(axis=1))
-        misfit = (np.abs(residual) ** 2).sum(axis=1)
-        clean = np.where(bad[:, None, None], 1.0, power[:, self.kept]) + self.noise_power
-        log_power = np.log(np.einsum("bn,mnd->mbd", self.window, clean) + self.floor)
-        difference = log_power - self.log_power
-        level = np.log(clean.sum(axis=(1, 2)) / self.measured.power[self.kept].sum())
-        misfit[bad] = GREATEST_MISFIT
-        cost[bad] = math.log1p(GREATEST_MISFIT / WAVEFORM_FLOOR)
-        difference[bad] = GREATEST_MISFIT
+        relative, measured = simulated * scale, self.harmonics * scale
+        # lag [rad] and gain that fit best; harmonics count by their noise
+        lag = self._best_lag((relative.conj() * self.weight * measured).sum(axis=1))
+        relative = np.exp(1j * lag * self.order)[:, None] * relative
+        agree = float((relative.conj() * self.weight * measured).real.sum())
+        energy = float((self.weight * np.abs(relative) ** 2).sum())
+        left = np.abs(measured - max(agree, 0.0) / max(energy, 1e-300) * relative) ** 2
+        clean = power[self.kept] + self.noise_power
+        difference = np.log(self.window @ clean + self.floor) - self.log_power
         return Match(
-            np.minimum(misfit, GREATEST_MISFIT),
-            cost,
-            (difference**2).mean(axis=1),
-            level,
-            weighed,
-            difference,
+            np.minimum(left.sum(axis=0), GREATEST_MISFIT),
+            np.log1p((self.weight * left).sum(axis=0)),
+            (difference**2).mean(axis=0),
+            math.log(float(clean.sum() / self.measured.power[self.kept].sum())),
         )
 
-    def _best_lag(self, cross: NDArray[np.complex128]) -> Array:
-        """Lag (m,) [rad] at which cross spectra (m, n) agree most, refined by a parabola."""
+    def _best_lag(self, cross: NDArray[np.complex128]) -> float:
+        """Lag [rad] at which a cross spectrum (n,) agrees most, refined by a parabola."""
         phases = PHASES
         while phases < 4 * self.order[-1]:
             phases *= 2
-        padded = np.zeros((len(cross), phases // 2 + 1), dtype=complex)
-        padded[:, self.order] = cross.conj()
-        likeness = irfft(padded, phases, axis=1)
-        row, best = np.arange(len(cross)), likeness.argmax(axis=1)
-        shift = summit(*(likeness[row, (best + k) % phases] for k in (-1, 0, 1)))
-        return np.asarray(2.0 * math.pi * (best + shift) / phases)
+        padded = np.zeros(phases // 2 + 1, dtype=complex)
+        padded[self.order] = cross.conj()
+        likeness = irfft(padded, phases)
+        best = int(likeness.argmax())
+        shift = summit(*(likeness[(best + k) % phases] for k in (-1, 0, 1)))
+        return 2.0 * math.pi * (best + float(shift)) / phases
 
 
 def _smoothing(frequency: Array, band: Band) -> Array:

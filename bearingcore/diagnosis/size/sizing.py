@@ -30,17 +30,10 @@ from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, SLIP, diagnose
 from bearingcore.diagnosis.part.parts import INNER, OUTER
 from bearingcore.diagnosis.size.answer import Candidate, Sizing, SizingStatus
-from bearingcore.diagnosis.size.fitting import (
-    GREATEST_EXTENT,
-    LEAST_EXTENT,
-    Guess,
-    Search,
-    guesses,
-    steps_needed,
-)
 from bearingcore.diagnosis.size.judge import confirmed, judged
 from bearingcore.diagnosis.size.matching import Target
-from bearingcore.diagnosis.size.synthesis import comparison_band
+from bearingcore.diagnosis.size.search import GREATEST_EXTENT, LEAST_EXTENT, Guess, Search
+from bearingcore.diagnosis.size.simulation import comparison_band
 from bearingcore.errors import FieldError
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import MASSLESS, Scene
@@ -58,11 +51,6 @@ TEMPERATURE = 3.0
 WITHIN_TEMPERATURE = 1.0
 """The same for extents nearly as good that are less than half a ball spacing away: it makes the
 stated standard deviation that of the errors on rigs drawn by seed."""
-
-SLACK = 0.25
-"""Of the variance that the extent has where what is left is all that models err by: it counts with
-what is left by its lever on the extent. Both, and `WITHIN_TEMPERATURE`, were chosen on scenes other
-than those that are scored."""
 
 SPREAD_FLOOR = math.radians(0.02)
 """[rad] No extent is better known than what is simulated of it."""
@@ -135,7 +123,6 @@ def size_defect(
         band.highest,
         min(FOLLOWED * band.highest, 0.4 * recording.sample_rate),
         follow=True,
-        coloured=True,
         shaft=scene.shaft_speed / (2.0 * math.pi),
     )
     target = Target(passes, band)
@@ -159,23 +146,19 @@ def size_defect(
             return nothing
     if not support_known:
         status = SizingStatus.SUPPORT_NOT_MEASURED
-        return dataclasses.replace(nothing, status=status, sentence=status.sentence)
+        return nothing.said(status, status.sentence)
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     search = Search(scene, target, columns)
-    steps = steps_needed(search)
-    if steps > most_steps:
+    if search.steps > most_steps:
         cost = (
-            f"{SizingStatus.TOO_MANY_STEPS}: about {thousands(steps)}, allowed are most_steps = "
-            f"{thousands(most_steps)}"
+            f"{SizingStatus.TOO_MANY_STEPS}: about {thousands(search.steps)}, "
+            f"allowed are most_steps = {thousands(most_steps)}"
         )
-        return dataclasses.replace(nothing, status=SizingStatus.TOO_MANY_STEPS, sentence=cost)
-    sized = _answer(nothing, search, guesses(search))
-    status, sentence = judged(sized)
-    sized = dataclasses.replace(sized, status=status, sentence=sentence)
-    if not (sized.bound or sized.conclusive):
-        return sized
-    status, sentence = confirmed(sized, _knocks(sized, scene))
-    return dataclasses.replace(sized, status=status, sentence=sentence)
+        return nothing.said(SizingStatus.TOO_MANY_STEPS, cost)
+    sized = judged(_answer(nothing, search, search.guesses()))
+    if sized.bound or sized.conclusive:
+        return confirmed(sized, _knocks(sized, scene))
+    return sized
 
 
 def _knocks(sized: Sizing, scene: Scene) -> MeasuredExtent | FieldError:
@@ -205,7 +188,8 @@ def _answer(nothing: Sizing, search: Search, found: list[Guess]) -> Sizing:
         _candidate(search, guess, float(weight))
         for guess, weight in zip(chosen, weights, strict=True)
     )
-    spread, apart = _spread(best, [g for g in found if search.cell(g.extent - best.extent) == 0])
+    near = [guess for guess in found if search.cell(guess.extent - best.extent) == 0]
+    spread, apart = _spread(best, search.spread(best), near)
     return dataclasses.replace(
         nothing, candidates=candidates, extent_uncertainty=spread, apart=apart
     )
@@ -240,19 +224,18 @@ def _candidate(search: Search, guess: Guess, probability: float) -> Candidate:
         extent=guess.extent,
         probability=probability,
         edge=guess.edge,
-        waveform_misfit=guess.match.waveform_misfit[0],
-        spectrum_misfit=guess.match.spectrum_misfit[0],
-        level=float(guess.match.level[0]),
+        waveform_misfit=guess.match.waveform_misfit,
+        spectrum_misfit=guess.match.spectrum_misfit,
+        level=guess.match.level,
         scene=search.scene.replace(extent=guess.extent, edge=guess.edge),
     )
 
 
-def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
+def _spread(best: Guess, own: float, others: list[Guess]) -> tuple[float, float]:
     """Standard deviation [rad] of the extent, and how far apart extents nearly as good are.
 
-    Of the best guess it is what is left unexplained, by the lever that it has on the extent (the
-    sandwich of curvatures); guesses nearly as good add their distance. Never more than that of not
-    knowing it at all.
+    Of the best guess it is its own, by the curvature of the score; guesses nearly as good add their
+    distance. Never more than that of not knowing it at all.
     """
     behind = np.array([g.score for g in others]) - best.score
     away = np.array([g.extent - best.extent for g in others])
@@ -261,7 +244,6 @@ def _spread(best: Guess, others: list[Guess]) -> tuple[float, float]:
         weights = np.exp(behind / temperature)
         return float((weights * away**2).sum() / weights.sum())
 
-    own = best.extent_scatter**2 + SLACK * best.extent_spread**2
-    spread = math.sqrt(own + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
+    spread = math.sqrt(own**2 + between(WITHIN_TEMPERATURE) + SPREAD_FLOOR**2)
     unknown = (GREATEST_EXTENT - LEAST_EXTENT) / math.sqrt(12.0)
     return min(spread, unknown), math.sqrt(between(TEMPERATURE))

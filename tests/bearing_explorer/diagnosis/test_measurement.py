@@ -27,6 +27,7 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
+from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
@@ -453,7 +454,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         assert made.measured.machine.kept == {"bearing", "speed"}
         assert made.measured.machine.source_of("speed") == "assumed, kept from the file before"
         assert made.source_of("designation") == "Assumed, kept from the file before, first.csv"
-        assert "1500 rpm? · unit? · 6205?" in made.state.line
+        assert "1500 rpm? · g · 6205?" in made.state.line
         assert "as for the file before: the bearing (6205) and" in assumed(made.question())
         content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
         await bring(made, "third.csv", content)
@@ -469,6 +470,25 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
 
     run(steps())
+
+
+def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_used_are_said():
+    time = np.concatenate([np.arange(1200), np.arange(800)]) / 10_000.0
+    pulses = 5.0 * (np.arange(2000) % 100 < 10)
+    values = np.column_stack([time, NOISE, NOISE[::-1, 0], pulses])
+    heading = "time [s],a x [g],a y [g],a z [g],tacho [V]"
+    content = "\n".join([heading, *(",".join(f"{v:.6f}" for v in row) for row in values)]).encode()
+    made = brought("two.csv", content)
+    assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
+    assert "holds 2 recordings" in made.state.remarks
+    assert "“a z [g]” (along the shaft), “tacho [V]” (a guess at the shaft" in made.state.remarks
+    assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
+    answer(made, part="2")
+    assert made.measured.recording.acceleration.shape == (800, 2)
+    assert "one_of_recordings(2)" in "\n".join(recording_lines(made.measured))
+    assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
+    answer(made, part="3")
+    assert made.state.refused == {"part": "two.csv has no such recording."}
 
 
 def zip_of(**files: bytes) -> bytes:

@@ -154,7 +154,7 @@ def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_wou
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     signal = Recording(noisy(signal_of(RIG), 20.0), RATE)
-    monkeypatch.setattr("bearingcore.diagnosis.size.sizing.guesses", begun)
+    monkeypatch.setattr("bearingcore.diagnosis.size.search.Search.guesses", begun)
     sized = size_defect(signal, RIG, fault="outer race", support_known=True, most_steps=100_000)
     assert sized.sentence.startswith("too many steps: about ")
     assert sized.sentence.endswith(f"allowed are most_steps = {thousands(1e5)}")

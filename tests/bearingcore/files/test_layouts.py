@@ -342,6 +342,107 @@ def test_a_rate_above_columns_that_count(heading: str) -> None:
     check_one_signal(read(f"{heading}\n" + "\n".join(lines)))
 
 
+def lines(row: Any, heading: str = "") -> str:
+    return "\n".join([*([heading] if heading else []), *(row(i, *SIGNAL[i]) for i in range(N))])
+
+
+SETTINGS = ("Record Length,2.0e+03", "Sample Interval,1.25e-4", ",", "Source,CH1",
+            "Vertical Units,V", "Vertical Scale,2.0e+00", "Yzero,0.0", "Model,TDS")  # fmt: skip
+SLOW = 0.5 + np.arange(N) / 99.7
+
+
+@pytest.mark.parametrize(
+    ("text", "rate", "stated", "unit", "signals"),
+    [
+        (
+            lines(lambda i, x, y: f"{SETTINGS[i] if i < 8 else ','},,  {i * 1.25e-4:.12f},  {x},"),
+            RATE, True, "V", ["column 3"],
+        ),
+        (
+            lines(lambda i, x, y: f"{x},{y},", "CH1,CH2,Start,Increment,\nVolt,Volt,-0.1,1.25e-4"),
+            RATE, True, "V", ["CH1 [Volt]", "CH2 [Volt]"],
+        ),
+        (
+            lines(lambda i, x, y: f"{i},{x},", "X,CH1,Start,Increment\nSequence,Volt,0.1,1.25e-4,"),
+            RATE, True, "V", ["Volt"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"{17 * 10**17 + int(1e9 * SLOW[i])},{SLOW[i]:.9f},{y},{x}",
+                "time,seconds_elapsed,y,x",
+            ),
+            99.7, True, "g", ["y", "x"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"2024-01-01 10:00:{i // 100:02d},{1 + 10 * i},{x},{y}",
+                "Timestamp,Milliseconds,X,Y",
+            ),
+            100.0, True, "g", ["X", "Y"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"{TIME[i]:.6f},{x},{y},{9 * y},{x},{x}",
+                "time,accX,GyroX,gyro_z,MagX,X (rad/s)",
+            ),
+            RATE, True, "g", ["accX"],
+        ),
+        (
+            lines(lambda i, x, y: f"{i / 51.63:.6f},{x}", "Time (s),X (m/s^2)"),
+            51.63, False, "m/s²", ["X (m/s^2)"],
+        ),
+        (
+            lines(lambda i, x, y: f"{1e-9 * i:.3e},{x}", "x-axis,1\nsecond,Volt"),
+            1e9, False, "V", ["column 2 [V]"],
+        ),
+        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, "g", ["column 2"]),
+        (
+            "log of today\n" + lines(lambda i, x, y: f"t: {TIME[i] * 1e3:.3f}ms, ax={x}g, T: 21.5"),
+            RATE, True, "g", ["ax [g]"],
+        ),
+        (
+            "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
+            + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
+            RATE, True, "g", ["Memo.  a comment"],
+        ),
+        (
+            ";Headers, time,acc\n"
+            + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
+            1690, False, "g", ["acc"],
+        ),
+        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, "g",
+         ["column 2", "column 3"]),
+        (
+            lines(
+                lambda i, x, y: f"2024-1-01 10:0:{TIME[i]:.6f} -0700,my phone,192.168.1.1,{x}",
+                "time,device,address,acc",
+            ),
+            RATE, True, "g", ["acc"],
+        ),
+        (
+            lines(lambda i, x, y: f"00:08,{TIME[i]:.6f},{x},,,", "Duration,time,acc,watch"),
+            RATE, True, "g", ["acc"],
+        ),
+    ],
+    ids=[
+        "settings beside the first numbers", "scope of two channels", "scope that counts",
+        "phone that counts twice", "seconds and milliseconds", "nine axes", "slow seconds",
+        "fast seconds", "nanoseconds without a heading", "labels", "rows of one signal",
+        "clock against the file's name",
+        "count above", "zone and address", "empty cells at the ends",
+    ],
+)  # fmt: skip
+def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -> None:
+    made = read(text, "run 1 1600Hz.csv" if rate == 1690 else "a.csv").contents
+    assert (made.sample_rate.value, made.sample_rate.stated) == (
+        pytest.approx(rate, rel=1e-3), stated,
+    )  # fmt: skip
+    assert made.unit.value == unit
+    chosen = made.choice.columns.values() or made.choice.options
+    assert {made.columns[index].name for index in chosen} == set(signals)
+    assert made.shaft_speed is None
+
+
 def test_lists_and_records_of_json_are_columns() -> None:
     check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
     check_one_signal(read(f"[{' '.join(map(str, SIGNAL[:, 0]))}]"), None)

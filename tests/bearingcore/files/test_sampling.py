@@ -63,6 +63,11 @@ def test_recordings_in_one_file_are_counted_and_any_is_read() -> None:
     with pytest.raises(FieldError, match="part is 4"):
         table.one_of_recordings(4)
     assert Table(("t [s]", "a [g]"), table.columns[:2000]).recordings == ()
+    gap = table.columns[:2000].copy()
+    gap[1500:1510, 1] = np.nan
+    gap = Table(("t [s]", "a [g]"), gap)
+    assert gap.recordings == ((0, 1500), (1510, 2000))
+    assert len(gap.one_of_recordings(2).recording([1], "y").acceleration) == 490
 
 
 def test_a_jump_shows_in_rounded_times_too() -> None:
@@ -102,6 +107,19 @@ def test_only_the_longest_part_with_times_is_used() -> None:
     assert (found.first, found.last) == (110, 3000)
     assert found.sample_rate == pytest.approx(RATE)
     assert "Times are missing in 10 rows" in found.trouble
+
+
+def test_a_clock_that_drifts_a_little_says_its_mean_rate() -> None:
+    time = np.cumsum(np.linspace(0.998, 1.002, 3000)) / RATE
+    found = sampling_of(time)
+    assert found.stated
+    assert "drifts: by 0.36 %" in found.trouble
+    assert found.sample_rate == pytest.approx(RATE, rel=1e-3)
+    assert not sampling_of(np.cumsum(np.linspace(0.98, 1.02, 3000)) / RATE).stated
+
+
+def test_a_time_that_stands_still_after_a_jump_is_no_error() -> None:
+    assert not sampling_of(np.concatenate([np.arange(10.0), np.full(990, 1e3)])).stated
 
 
 def test_a_clock_that_is_off_is_believed() -> None:

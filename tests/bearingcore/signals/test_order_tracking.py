@@ -64,7 +64,7 @@ def test_coloured_noise_is_known_by_frequency() -> None:
     transform = np.fft.rfft(rng.standard_normal(signal.shape), axis=0)
     frequency = np.fft.rfftfreq(len(signal), 1.0 / RATE)
     noise = np.fft.irfft(transform / np.sqrt(1.0 + frequency / 100.0)[:, None], len(signal), axis=0)
-    passes = average_passes(signal + noise, RATE, 57.0, 0.02, 60.0, 2250.0, 2250.0, coloured=True)
+    passes = average_passes(signal + noise, RATE, 57.0, 0.02, 60.0, 2250.0, 2250.0)
     assert passes.noise_power.shape == passes.power.shape
     # power of a coefficient: two-sided density 1/rate, over a pass
     expected = FREQUENCY / RATE / (1.0 + passes.harmonic_frequency / 100.0)

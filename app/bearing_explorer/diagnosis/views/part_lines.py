@@ -65,7 +65,9 @@ class Zoom:
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
     """The part that stands out, be it enough to be named or not; None where none is seen."""
-    return None if diagnosis.fault == NONE_SEEN else diagnosis.leading
+    lead = diagnosis.leading
+    seen = lead is not None and diagnosis.fault != NONE_SEEN and lead.level > lead.noise
+    return lead if seen or diagnosis.names_a_part else None
 
 
 def shaft_frequency(diagnosis: Diagnosis) -> float:

@@ -71,10 +71,12 @@ class MachineForm(pn.Column):
         self._kept = row(
             button("The same machine", keep), button("Another machine", forget), visible=False
         )
-        self._notes = pn.pane.HTML("", stylesheets=[asset_text("measurement.css")], margin=0)
+        self._notes = pn.pane.HTML(
+            "", stylesheets=[asset_text("measurement.css")], sizing_mode="stretch_width", margin=0
+        )
         self._shown: tuple[Any, Any] = (None, None)
         super().__init__(
-            row(*(fields.widgets[name] for name in LABELS), self._kept), self._notes,
+            row(*(fields.widgets[name] for name in LABELS)), self._notes, self._kept,
             css_classes=["machine"], sizing_mode="stretch_width", margin=(2, 0, 8, 0),
         )  # fmt: skip
 

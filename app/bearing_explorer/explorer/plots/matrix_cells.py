@@ -99,7 +99,7 @@ def matrix_figure(
     plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
     # as a property of the figure Panel would give the width to the whole card
     plot.min_width = None
-    plot.stylesheets = [f":host {{ min-width: var(--matrix-width, 560px); }} {looks}"]
+    plot.stylesheets = [f":host {{ min-width: var(--matrix-width, 500px); }} {looks}"]
     return plot
 
 

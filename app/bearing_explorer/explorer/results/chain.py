@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 LOWEST_PEAK = 100.0
 """[Hz] from which on the loudest line of a spectrum is looked for, as far as it is known."""
+ALIKE = 1.05
+"""Ratio of two natural frequencies up to which it makes no difference which is which."""
 LEVEL_FLOOR = 1e-20
 """[(m/s²)²/Hz] below which a housing does not move at all."""
 
@@ -178,11 +180,12 @@ def direction(scene: Scene) -> float:
 def in_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool:
     """Whether the mode of a label is in each scene above, or below, that of the other direction.
 
-    Modes that move along x and y alike may have each other's names in another scene.
+    Modes that move along x and y alike may have each other's names in another scene. Modes within
+    `ALIKE` of each other are in any order.
     """
     other = {"x": "y", "y": "x"}.get(label[:-1], "") + label[-1]
-    orders = {own[label][0] > own[other][0] for own in bands if label in own and other in own}
-    return len(orders) <= 1
+    pairs = [(sum(own[label]), sum(own[other])) for own in bands if label in own and other in own]
+    return len({a > b for a, b in pairs if max(a, b) > ALIKE * min(a, b)}) <= 1
 
 
 def picture_top(results: Results) -> float:

@@ -85,7 +85,7 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
     highest = highest_natural_frequency(scene)
     if scene.shaft_speed == 0.0 or not math.isfinite(highest):
         return None
-    return default_step_rate(scene, sample_rate, highest)
+    return default_step_rate(scene, sample_rate)
 
 
 def _contacts(scene: Scene, how: Marching) -> float:
@@ -136,7 +136,7 @@ def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> fl
 
 
 def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
-    return default_step_rate(scene, sample_rate, COARSE_STEPS * highest_natural_frequency(scene))
+    return default_step_rate(scene, sample_rate, COARSE_STEPS)
 
 
 # Motions and what is made of them
@@ -153,8 +153,10 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
     duration = quick_duration(scene, how)
     if rate is not None:
         duration = _affordable(scene, duration, rate, by_hand is not None)
+    # the default takes more steps where contacts that let go need them
+    chosen = rate if how.coarse or by_hand is not None else None
     found = core.simulate(
-        scene, duration, how.sample_rate, step_rate=rate, most_steps=MOST_STEPS_WITH_MASS
+        scene, duration, how.sample_rate, step_rate=chosen, most_steps=MOST_STEPS_WITH_MASS
     )
     preview = how.coarse and duration < SHORTEST
     return SettledMotion(found, (PREVIEW_TRANSIENT_SHARE if preview else 0.5) * duration)

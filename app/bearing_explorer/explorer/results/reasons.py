@@ -239,6 +239,11 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     push = f"lie near {_ACROSS[dof]} and push back along it"
     if large < NEAR:
         push = f"push back more along {_ACROSS[dof]} than along {_ACROSS[other]}"
+    if briefly:
+        return (
+            f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: balls "
+            f"push back more along {_ACROSS[dof]} ({_SQUARE[dof]} {large:.2f})."
+        )
     return (
         f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: loaded balls "
         f"{push} ({_SQUARE[dof]} {large:.2f} on average, {_SQUARE[other]} {small:.2f})."
@@ -272,7 +277,7 @@ def play(now: Bearing, before: Bearing) -> str:
         return ""
     text = f"the play {'grows' if new > old else 'shrinks'} from {_micro(old)} to {_micro(new)}"
     of_angle = new - 2.0 * now.radial_clearance
-    if abs(of_angle) < ALIKE * abs(new):
+    if abs(of_angle) <= ALIKE * abs(new):
         return text
     rest = f", {_micro(2.0 * now.radial_clearance)} the clearance" if now.radial_clearance else ""
     return f"{text} ({_micro(of_angle)} of it the contact angle{rest})"
@@ -379,6 +384,8 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             times = hertz if halves == 2 else f"{style.number(0.5 * halves)} × {hertz}"
             why = "as often as balls pass" if halves == 2 else "a multiple of the ball passes"
             why = "so the motion does not repeat with each ball pass" if halves % 2 else why
+            if briefly:
+                return f"Peak{above} at the line nearest {times}, {why}."
             return (
                 f"{text} lies in no band of {dof}. It is the line nearest {times}, {why} (lines "
                 f"are {most.resolution:.0f} Hz apart)."
@@ -427,7 +434,7 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
     text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
     if around.min() > KEPT * load.max():
-        return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} all along."
+        return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} then."
     return f"{text} and {what} its load ({style.with_prefix(load.max(), 'N', 2)} at most)."
 
 

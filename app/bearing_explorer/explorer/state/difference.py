@@ -59,7 +59,7 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
     The parts of a load are one cause, and so is a defect that is longer at one end. Empty where
     there are fewer than two, or more than numbers have changed.
     """
-    if len(defects_of(now)) != len(defects_of(before)):
+    if len(now.defects) != len(before.defects):
         return {}
     focus = min(focus, len(defects_of(now)) - 1)
     changed = [field for field, _ in _numbers(values_of(now, focus), values_of(before, focus))]

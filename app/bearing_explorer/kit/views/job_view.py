@@ -37,6 +37,7 @@ class Editor(Protocol):
 
 E = TypeVar("E", bound=Editor)
 
+_FIELDS = ":host { flex-wrap: wrap; align-items: end; gap: 8px; min-width: 0 !important; }"
 _PROGRESS = """
 progress { width: 220px; height: 6px; accent-color: var(--accent); vertical-align: middle; }
 progress::-webkit-progress-bar { background: var(--track-soft); border-radius: 3px; }
@@ -92,9 +93,11 @@ class JobForm(pn.Column):
         self._sentence = Sentence(css_classes=["words"])
         #: of the job that is shown
         self.state = JobState("idle", 0.0, "")
-        below = (begin, self._cancel) if at_once else ()
+        # many fields: the last one is below, with the buttons
+        first, below = (widgets[:-1], widgets[-1:]) if at_once else (widgets, [])
+        (below if at_once else first).extend((begin, self._cancel))
         super().__init__(
-            row(*widgets, *(() if at_once else (begin, self._cancel))),
+            row(*first, stylesheets=[_FIELDS]),
             row(*below, self._bar, self._sentence, margin=(6, 0, 0, 0)),
             css_classes=["job", "idle"],
             sizing_mode="stretch_width",

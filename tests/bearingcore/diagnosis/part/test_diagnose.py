@@ -248,15 +248,27 @@ def test_an_unknown_speed_is_looked_for(damaged):
 
 
 def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_one(damaged):
-    """At 300 rpm half a second holds 9 ball passes; at the machine's own speed it holds enough."""
+    """At 300 rpm half a second holds 8 ball passes, at the machine's own speed it holds enough."""
     half = Recording(damaged["outer race"][:6000], MOTOR.rate, ("y",))
     found = diagnose(half, MOTOR.bearing, None)
     assert found.status == DiagnosisStatus.SPEED_OPEN
     assert found.sentence.startswith("No clear result: the shaft speed is not known.")
-    assert "slowest speed looked for, 300 rpm: 0.5 s hold 9 ball passes" in found.sentence
+    assert "slowest speed looked for, 300 rpm: 0.5 s hold 8 ball passes" in found.sentence
     assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
     hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT
+
+
+def test_open_speeds_count_as_so_many_chances_for_another_source_to_fit(damaged):
+    speed = MOTOR.shaft_speed
+    sure = answer(damaged["outer race"])
+    rough = answer(damaged["outer race"], speed=(0.9 * speed, 1.1 * speed))
+    assert (sure.fault, rough.fault) == ("outer race", "outer race")
+    odds = [one.probability / (1.0 - one.probability) for one in (sure, rough)]
+    assert odds[0] / odds[1] == pytest.approx(1.0 + math.log(1.1 / 0.9) / 0.04, rel=0.05)
+    just_outside = answer(damaged["outer race"], speed=(1.02 * speed, 1.275 * speed))
+    assert (just_outside.fault, just_outside.shaft_speed) == (CANNOT_TELL, None)
+    assert "may be the outer race at 180" in just_outside.sentence
 
 
 def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():

@@ -10,12 +10,12 @@ import pytest
 
 from bearingcore import Defect, Scene, presets, simulate
 from bearingcore.diagnosis.size.answer import AT_LEAST, AT_MOST, Sizing, SizingStatus
-from bearingcore.diagnosis.size.fitting import GREATEST_EXTENT, LEAST_EXTENT
 from bearingcore.diagnosis.size.judge import judged
+from bearingcore.diagnosis.size.search import GREATEST_EXTENT, LEAST_EXTENT
+from bearingcore.diagnosis.size.simulation import Simulator
 from bearingcore.diagnosis.size.sizing import size_defect
-from bearingcore.diagnosis.size.synthesis import Simulator
 from bearingcore.files.table import read_table
-from bearingcore.signals.averaging import BallPasses, average_passes, coefficients
+from bearingcore.signals.averaging import average_passes, coefficients
 from bearingcore.signals.recording import Recording
 from tests.benchmarks.sizing import FAMILIES, as_given, size_all
 from tests.helpers.recordings import RATE, RIG, file_from_elsewhere, noisy, signal_of
@@ -193,17 +193,15 @@ def test_averages_find_the_frequency_and_lose_the_noise():
     assert found.prominence > 10.0
 
 
-def marched(scene, frequency, count, columns) -> BallPasses:
-    """Ball passes by `simulate`, of a long motion with fine steps."""
+def marched(scene, frequency, count, columns) -> np.ndarray:
+    """Harmonics of ball passes by `simulate`, of a long motion with fine steps."""
     n, settle, passes = 600, 90, 30
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     scene = scene.replace(shaft_speed=scene.shaft_speed * frequency / nominal)
     rate = n * frequency
     motion = simulate(scene, (settle + passes) / frequency, rate, step_rate=rate)
     signal = motion.outer_acceleration[settle * n :, list(columns)]
-    each = coefficients(signal.reshape(passes, n, len(columns)), count)
-    power = (np.abs(each) ** 2).mean(axis=0)
-    return BallPasses(frequency, passes, each.mean(axis=0), power, np.zeros(len(columns)))
+    return coefficients(signal.reshape(passes, n, len(columns)), count).mean(axis=0)
 
 
 def test_scenes_drawn_by_seed_are_sized_as_the_proof_says():
@@ -242,16 +240,16 @@ def test_a_simulator_gives_the_passes_of_a_motion():
     simulator = Simulator(RIG, frequency, 40, (0, 1))
     for edge in ("published", "exact"):
         extent = math.radians(31.0)
-        passes, _ = simulator.passes(extent, edge)
+        passes = simulator.passes(extent, edge)
         scene = RIG.replace(extent=extent, edge=edge)
-        assert apart(marched(scene, frequency, 40, (0, 1)).harmonics, passes.harmonics) < 2e-3
+        assert apart(marched(scene, frequency, 40, (0, 1)), passes.harmonics) < 2e-3
 
 
 def test_short_pits_are_stepped_finely_enough():
     """A pit of half a step of the usual ones against steps twelve times as many."""
     frequency = RIG.bearing.bpfo(RIG.shaft_speed)
     passes = [
-        Simulator(RIG, frequency, 60, (0, 1), steps).passes(math.radians(0.3), "exact")[0]
+        Simulator(RIG, frequency, 60, (0, 1), steps).passes(math.radians(0.3), "exact")
         for steps in (9.0, 400.0)
     ]
     assert apart(passes[1].harmonics, passes[0].harmonics) < 0.02

@@ -58,6 +58,7 @@ class LastChange(View):
         reference = before or results.grey
         now, then = results.scene, reference.scene
         played = now.bearing != then.bearing and _alike_but_for_play(now.bearing, then.bearing)
+        only_play = played and then.replace(bearing=now.bearing) == now
         cause = Cause(
             words,
             defect=now.healthy() == then.healthy(),
@@ -65,7 +66,7 @@ class LastChange(View):
             weighs=_masses_words(now, then, words),
             contacts=(now.bearing != then.bearing and not played) or now.balls != then.balls,
             why_not="" if before is None else why_not(now, then),
-            play=reasons.play(now.bearing, then.bearing) if played else "",
+            play=reasons.play(now.bearing, then.bearing) if only_play else "",
         )
         former = results.chain_of(reference)
         text = story(cause, results.chain, former)

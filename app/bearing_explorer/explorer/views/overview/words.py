@@ -26,7 +26,7 @@ ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
 _MOSTLY = 3.0  # times the effect of the next cause, from which one is the main one
-_OF_STIFFNESS, _SHIFT = 0.75, 0.05  # of the logarithm of a stiffness; its root has 0.5
+_OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
 
@@ -257,14 +257,10 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
         ends = zip(now.bands[label], before.bands[label], strict=True)
         return max(abs(_ratio(new, old)) for new, old in ends)
 
-    labels = [
-        label
-        for label in now.bands
-        if label[:-1] == along
-        and label in before.bands
-        and moved(label) >= LEAST
-        and is_same_mode(label, now, before)
-    ]
+    common = [label for label in now.bands if label[:-1] == along and label in before.bands]
+    if not all(is_same_mode(label, now, before) for label in common):
+        return ""
+    labels = [label for label in common if moved(label) >= LEAST]
     if along in now.peaks and along in before.peaks:
         for label in labels:
             if _goes_along(

@@ -103,6 +103,9 @@ def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center:
             assert ranges.least[name] == pytest.approx(values.min(), rel=0.01), name
             mean = ranges.mean(ranges.state.term(name))
             assert mean == pytest.approx(values.mean(), rel=5e-3), name
+    some = np.full(len(ranges.state.shares), 7.0)
+    some[::3] = math.nan
+    assert ranges.mean(some) == pytest.approx(7.0), "what is not known does not count"
 
 
 def test_exact_edges_of_a_deep_groove_bearing_by_the_same_computation() -> None:

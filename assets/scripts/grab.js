@@ -114,7 +114,7 @@ if (view?.frame?.bbox?.width > 0) {
     event.stopPropagation()
     event.preventDefault()
     el.setPointerCapture(event.pointerId)
-    el.style.cursor = "grabbing"
+    el.style.cursor = event.composedPath()[0].style.cursor = "grabbing"
     Object.assign(grabbed, { from: polar(event), last: polar(event), turn: 0 })
     say({ kind: grabbed.kind, defect: grabbed.defect, began: true })
   }, true)
@@ -133,6 +133,9 @@ if (view?.frame?.bbox?.width > 0) {
     say({ kind: grabbed.kind, defect: grabbed.defect, turn: grabbed.turn,
       stretch: at.radius / grabbed.from.radius })
   }, true)
+  el.addEventListener("pointermove", (event) => {  // after Bokeh, whose layer above all has a cursor of its own
+    if (el.style.cursor) event.composedPath()[0].style.cursor = el.style.cursor
+  })
   const end = (event) => {
     if (!grabbed) return
     event.stopPropagation()

@@ -170,6 +170,7 @@ def read_designation(text: str) -> Designation:
     """
     checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
     name = " ".join(text.upper().replace("–", "-").split())
+    name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
     suffix = "" if form is None else form["suffix"] or ""

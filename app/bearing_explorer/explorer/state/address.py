@@ -226,7 +226,8 @@ def _written(place: Place, without_floors: bool) -> str:
     for number, one in enumerate(place.compared, 1):
         preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
         label = [("label", one.name)] if one.name else []
-        own = [*label, *_scene_pairs(Place(one.scene, preset), without_floors)]
+        own_place = Place(one.scene, preset, name=one.bearing)
+        own = [*label, *_scene_pairs(own_place, without_floors)]
         pairs += [(f"compare{number}.{name}", value) for name, value in own]
     if place.cage_angle:
         pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
@@ -344,8 +345,8 @@ def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
     found = []
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
-        scene = _read({"v": VERSION, **part}).scene
-        found.append(Reference(scene, label))
+        place = _read({"v": VERSION, **part})
+        found.append(Reference(place.scene, label, bearing=place.name))
     return tuple(found)
 
 
@@ -358,6 +359,7 @@ def _read(given: dict[str, str]) -> Place:
         raise ValueError(
             f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
         )
+    place_alone = not given.keys() - {"tab"}
     preset = given.pop("preset", "fan-rig")
     if preset not in presets:
         raise ValueError(f"There is no bearing “{_shown(preset)}”.")
@@ -368,7 +370,8 @@ def _read(given: dict[str, str]) -> Place:
     tab = given.pop("tab", "")
     name = one_line(given.pop("name", ""), LONGEST_NAME)
     defects = []
-    note = "" if version else f"The address names no version; it was read as v={VERSION}."
+    note = f"The address names no version; it was read as v={VERSION}."
+    note = "" if version or place_alone else note
     for number in range(count):
         here = {name: _behind(number) + name for name in _DEFECT_NAMES}
         own = {name: given.pop(there) for name, there in here.items() if there in given}

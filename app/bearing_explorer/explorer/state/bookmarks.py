@@ -111,14 +111,14 @@ class Bookmarks:
     def compared(self) -> tuple[Reference, ...]:
         """Scenes that are drawn too."""
         return tuple(
-            one if one.name else replace(one, name=self._usual_name(one.scene))
+            one if one.name else replace(one, name=self._usual_name(one.scene, one.bearing))
             for one in self._compared
         )
 
-    def _usual_name(self, scene: Scene) -> str:
+    def _usual_name(self, scene: Scene, bearing: str) -> str:
         """A name by what differs from the scene of now and those that are compared."""
         others = [self._editor.scene, *(one.scene for one in self._compared)]
-        return distinct_name(scene, others, self._editor.selected)
+        return distinct_name(scene, others, self._editor.selected, bearing)
 
     def say(self, sentence: str) -> None:
         """Set the notice shown in the toolbar; the same one again counts as new."""
@@ -203,7 +203,7 @@ class Bookmarks:
     def change_compared(self, message: Mapping[Any, Any]) -> None:
         """Add the scene of now, rename or remove compared scenes, where a message says so."""
         if isinstance(name := message.get("compare_here"), str):
-            self._compare(self._editor.scene, one_line(name, LONGEST_NAME))
+            self._compare(self._editor.scene, one_line(name, LONGEST_NAME), self._editor.name)
         compared = list(self._compared)
         number = message.get("number")
         if not isinstance(number, int) or number >= len(compared):
@@ -214,11 +214,11 @@ class Bookmarks:
             compared[number] = replace(compared[number], name=name_of(name))
         self._compared = tuple(compared)
 
-    def _compare(self, scene: Scene, name: str) -> None:
+    def _compare(self, scene: Scene, name: str, bearing: str = "") -> None:
         if len(self._compared) == MOST_COMPARED:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
-        self._compared += (Reference(scene, name),)
+        self._compared += (Reference(scene, name, bearing="" if name else bearing),)
         name = self.compared[-1].name
         self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: “{name}”, for comparison.")
 
@@ -244,7 +244,7 @@ class Bookmarks:
             "redo": self._history.can_redo,
             "compared": [one.name for one in self.compared],
             "scene": scene_line(self._editor.name, self._editor.scene),
-            "usual_name": self._usual_name(self._editor.scene),
+            "usual_name": self._usual_name(self._editor.scene, self._editor.name),
             "said": {"number": self._said[0], "words": self._said[1]},
             "left": self.can_go_back,
         }

@@ -81,10 +81,11 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         return {}
 
 
-def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0) -> str:
-    """A name by what differs from other scenes: "100 N", "12.9°, 50 µm, 7 Hz".
+def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing: str = "") -> str:
+    """A name by what differs from other scenes: "100 N", "6208, 7 Hz", "12.9°, 50 µm".
 
-    By at most MOST_NUMBERS of these, by the size of the defect `focus` where nothing does.
+    By at most MOST_NUMBERS of these, by the size of the defect `focus` where nothing does. Another
+    bearing comes first, by its name `bearing` where that is known.
     """
     defects = defects_of(scene)
     focus = min(focus, len(defects) - 1)
@@ -105,8 +106,9 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0) -> str:
                 for choice in choices_of
                 if choice.name_of(now) != choice.name_of(then)
             }
-    numbers: dict[str, None] = {}
     of_bearing = [field for field in changed if field.part in ("bearing", "pair", "second")]
+    is_another = len(of_bearing) > MOST_NUMBERS
+    numbers: dict[str, None] = {bearing: None} if bearing and is_another else {}
     for field in SHOWN_FIELDS:
         if field not in changed:
             continue
@@ -116,10 +118,11 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0) -> str:
         elif field.name in ("fx", "fy"):
             at_angle = f" at {math.degrees(_direction(scene)) % 360.0:.4g}°" if turned else ""
             name = f"{with_prefix(math.hypot(scene.load.fx, scene.load.fy), 'N')}{at_angle}"
-        elif field in of_bearing and len(of_bearing) > MOST_NUMBERS:
-            bearing = scene.bearing
-            size = number(1e3 * bearing.ball_diameter)
-            name = f"{bearing.total_balls} {bearing.kind.element}s of {size} mm"
+        elif field in of_bearing and is_another:
+            if bearing:
+                continue
+            size = number(1e3 * scene.bearing.ball_diameter)
+            name = f"{scene.bearing.total_balls} {scene.bearing.kind.element}s of {size} mm"
         else:
             unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
             name = f"{_number(field.read_sign * value, 4)}{unit}"

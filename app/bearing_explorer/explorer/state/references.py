@@ -24,11 +24,14 @@ class Reference:
         of its curves on the page.
     label
         before its numbers in sentences: "without the defect".
+    bearing
+        name of its bearing, where that is known.
     """
 
     scene: Scene
     name: str
     label: str = ""
+    bearing: str = ""
 
 
 BEFORE = "the scene before the last change"

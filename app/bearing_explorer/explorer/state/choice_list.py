@@ -197,7 +197,7 @@ FLOOR = Choice(
 LAW = Choice(
     "law",
     "Contact law",
-    "Contacts in motion",
+    "Contact of a moving ball",
     (
         Option(
             "published",

@@ -93,13 +93,21 @@ window.dispatchEvent(new CustomEvent("explorer-cell", {detail}))
 
 
 def matrix_figure(
-    x: tuple[float, float], y: tuple[float, float], looks: str = "", **options: Any
+    x: tuple[float, float],
+    y: tuple[float, float],
+    looks: str = "",
+    least_width: int = 500,
+    **options: Any,
 ) -> figure:
-    """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card."""
+    """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card.
+
+    `least_width` [px] is that at which its words have room.
+    """
     plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
     # as a property of the figure Panel would give the width to the whole card
     plot.min_width = None
-    plot.stylesheets = [f":host {{ min-width: var(--matrix-width, 500px); }} {looks}"]
+    least = f"min-width: var(--matrix-width, {least_width}px);"
+    plot.stylesheets = [f":host {{ {least} }} {looks}"]
     return plot
 
 

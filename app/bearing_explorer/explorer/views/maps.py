@@ -116,7 +116,7 @@ class StiffnessMaps(View):
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
         )
         plot = matrix_cells.matrix_figure(
-            (-0.12, 5.23), (-5.1, 0.0), looks, height=HEIGHT, name="maps_drawing"
+            (-0.12, 5.23), (-5.1, 0.0), looks, 560, height=HEIGHT, name="maps_drawing"
         )
         cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)

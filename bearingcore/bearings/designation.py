@@ -155,7 +155,7 @@ class Designation:
             "not been measured, and makers differ: count the balls."
             if self.reinforced
             else "JTEKT (Koyo) catalogue; nine of ten of other makers' are from 10 % below to 15 % "
-            f"above, some of small or thin bearings 35 % below or above. {accuracy(tapered)}"
+            f"above, some of small or thin bearings 35 % below or above. {accuracy(self.bearing)}"
         )
         return CatalogueBearing(
             self.name, self.bearing, self.dynamic_load_rating, note, self.assumed, self.unread

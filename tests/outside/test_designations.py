@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from bearingcore import contact_pressures, scene_of
-from bearingcore.bearings import ratings
+from bearingcore import contact_pressures, life, scene_of
+from bearingcore.bearings import inside, ratings
 from bearingcore.bearings.designation import read_designation
 from bearingcore.bearings.designation_tables import boundaries
 from bearingcore.errors import FieldError
@@ -269,3 +269,50 @@ def test_static_ratings_are_the_loads_of_their_pressure(name: str) -> None:
         one.greatest_pressure * (load / one.load) ** power for one in (races.inner, races.outer)
     )
     assert own == pytest.approx(known * (210.0 / 207.0) ** (1.0 - power), rel=0.01)
+
+
+SNFA_BALLS = {
+    "719": (3, "13 14 15 17 18 18 20 21 22 24 25 24 25 26 25 26 27 26"),
+    "70": (0, "10 10 12 12 12 13 13 15 16 15 16 16 17 18 18 19 18 19 21 20 21"),
+    "72": (0, "8 9 9 9 11 12 12 14 14 15 14 14 15 15 16 17 17 16 15 17"),
+}
+"""Balls of SEB 17 to 100, EX 10 to 100, E 210 to 300, by bore number from the first. Source: SNFA,
+precision bearings, in the public collection ArtemFilin1990/Mar (GitHub)."""
+
+
+@witness(
+    "function: read_designation",
+    by="SNFA's catalogue of spindle bearings",
+    compared="number of balls of 59: 16 alike, 28 one off, as the note says", within="each number",
+)  # fmt: skip
+def test_balls_of_spindle_bearings_differ_as_the_note_says() -> None:
+    """Their boundary dimensions are those of 719, 70 and 72; their makers fit more or larger."""
+    off, note = [], ""
+    for series, (first, counts) in SNFA_BALLS.items():
+        for bore, count in enumerate(map(int, counts.split()), first):
+            found = read_designation(f"{series}{bore:02d} C")
+            off.append(abs(found.bearing.n_balls - count))
+            note = found.entry.note
+    known = inside.SPINDLE_BEARINGS, inside.SAME_BALLS, inside.ONE_OFF
+    assert (len(off), off.count(0), off.count(1)) == known
+    assert f"of {len(off)} of SNFA {off.count(0)} have the number estimated here" in note
+    assert all("SNFA" not in read_designation(one).entry.note for one in ("6208", "1208", "30206"))
+
+
+@witness(
+    "function: life",
+    by="worked examples: SKF general catalogue (6309), NTN ball and roller bearings (6208)",
+    compared="life in hours", within=0.012,
+)  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "rating", "load", "rpm", "hours"),
+    [("6309", 55.3e3, 10e3, 3000, 940), ("6208", 32.5e3, 3.2e3, 650, 27_000)],
+)
+def test_life_of_catalogues_examples(
+    name: str, rating: float, load: float, rpm: float, hours: float
+) -> None:
+    """Radial load alone, no clearance, at which ISO 281 and ISO 16281 agree."""
+    b = read_designation(name).bearing.replace(radial_clearance=0.0)
+    scene = scene_of(name).healthy().replace(bearing=b, fx=0.0, fy=-load, fz=0.0)
+    scene = scene.replace(shaft_speed=rpm * math.pi / 30.0)
+    assert life(scene, rating, positions="all").hours == pytest.approx(hours, rel=0.012)

@@ -67,8 +67,7 @@ class Alternative:
     note
         what else there is to know, or why there is no error.
     changes
-        what takes it: fields of `Scene.replace`, or `step_rate` [Hz] of `simulate`; none for what
-        neither of them does.
+        what takes it: fields of `Scene.replace`; none for what these do not change.
     """
 
     name: str
@@ -176,9 +175,7 @@ class _Measure:
             yield replace(row, changes={"dofs": dofs})
         yield from self._edges()
         for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
-            rate = factor * self.own.step_rate
-            row = self._other_march(words, self.scene, rate)
-            yield replace(row, changes={"step_rate": rate})
+            yield self._other_march(words, self.scene, factor * self.own.step_rate)
         other = MASSLESS if self.scene.balls == WITH_MASS else WITH_MASS
         yield replace(self._balls(), changes={"balls": other})
         if self.scene.balls == MASSLESS:

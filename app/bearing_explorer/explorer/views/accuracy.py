@@ -139,10 +139,10 @@ class Accuracy(View[Results]):
         preset = preset_like(results.scene)
         found = shipped(preset)
         refused = found.refused if presets[preset] == results.scene else {}
-        cost, step_rate = self._chosen.values["cost"], results.settings.step_rate
+        cost = self._chosen.values["cost"]
         for one, chart in chain.from_iterable(self._charts.values()):
             why = refused.get(one.experiment, "")
-            chart.draw(_part(found, one), cost, step_rate, why)
+            chart.draw(_part(found, one), cost, why)
         self._origin.object = paragraph(self.sentence(results))
         self._foot.object = foot(found)
 

@@ -97,14 +97,11 @@ class Alternatives:
         the other models.
     right_hand_side_calls
         evaluations of all contacts in all motions, which say what it cost on any machine.
-    seconds
-        [s] that the comparison took in all.
     """
 
     scene: Scene
     rows: tuple[Alternative, ...]
     right_hand_side_calls: int
-    seconds: float
 
     def table(self) -> ResultTable:
         """A row a model: its error in the spectrum or in the curves, and the time of both."""
@@ -138,14 +135,13 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
     cancelled
         called before each row; True ends with those that are there.
     """
-    began = time.thread_time()
     measure = _Measure(scene)
     rows: list[Alternative] = []
     for row in measure.rows():
         rows.append(row)
         if cancelled is not None and cancelled():
             break
-    return Alternatives(scene, tuple(rows), measure.calls, time.thread_time() - began)
+    return Alternatives(scene, tuple(rows), measure.calls)
 
 
 class _Measure:

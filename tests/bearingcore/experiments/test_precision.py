@@ -9,6 +9,7 @@ import pytest
 from bearingcore import presets
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import HAS_CVODE
+from bearingcore.experiments.measurements import Measurements, this_machine
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.points import Experiment
 from bearingcore.experiments.references import motion_reference
@@ -53,7 +54,7 @@ def check_that_all_is_given(experiment: Experiment) -> None:
         if not point.failed:
             assert set(point.errors) <= set(experiment.errors)
             assert point.errors
-    table = experiment.table()
+    table = Measurements(this_machine(), {experiment.name: experiment}).table()
     assert table["method"].tolist() == [point.method for point in experiment.points]
     assert {table.unit(name) for name in table if name.endswith("_error")} <= {"dB", "1"}
 

@@ -98,7 +98,7 @@ class OtherModels(SceneJobView[Alternatives]):
             words = f"Within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
         if self.found.scene != results.scene:
             words += ". Computed for an earlier scene"
-        return f"{words}. {price(self.found)}"
+        return f"{words}."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
@@ -114,24 +114,6 @@ def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
     """The models that a scene can have, each once."""
     known = {one.name: one for one in rows if one.changes and math.isfinite(one.error)}
     return list(known.values())
-
-
-def price(found: Alternatives) -> str:
-    """The cost of choosing against the time saved."""
-    good = [
-        one
-        for one in found.rows
-        if one.error <= GOOD_ENOUGH[one.quantity == SPECTRUM] and one.saved > 0.0
-    ]
-    spent = style.with_prefix(found.seconds, "s")
-    if not good:
-        return f"Choosing took {spent} and saves nothing: no model within that is faster."
-    best = max(good, key=lambda one: one.saved)
-    pictures = math.ceil(found.seconds / best.saved)
-    return (
-        f"{best.name.capitalize()} saves most, {style.with_prefix(best.saved, 's')} a picture; "
-        f"choosing took {spent}, so it pays after {pictures} pictures."
-    )
 
 
 def table_of_rows(rows: tuple[Alternative, ...]) -> str:

@@ -186,16 +186,6 @@ class Motion:
         full[:, : place.shape[1]] = place
         return full
 
-    @cached_property
-    def ball_load_inner(self) -> Array:
-        """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
-        return self.race_loads()[0]
-
-    @cached_property
-    def ball_load_outer(self) -> Array:
-        """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
-        return self.race_loads()[1]
-
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 

@@ -26,7 +26,7 @@ CAGE_ANGLE = "cage_angle_deg"
 
 SCENE_GROUPS = ("Defect", "Turning", "Load")
 BEARING_GROUPS = ("Balls", "Rows", "Second row", "Drawing", "Contact", "Races")
-MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
+MODEL_GROUPS = ("Bodies", "Contacts in motion", "Support, stiffness", "Support, damping")
 
 Values = dict[str, float]
 """A value for each key, in the shown unit of the field; NaN for an optional one left open."""

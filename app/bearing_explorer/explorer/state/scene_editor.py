@@ -228,9 +228,14 @@ class SceneEditor:
     def name(self) -> str:
         """Name of the bearing: the one given, else that of the preset it began from."""
         label = preset_labels[self.preset]
-        changed = self.own_name == self._begun_from if self.own_name else self.changed
-        name = (self.own_name or label) + (", changed" if changed else "")
+        name = self.name_in_links or label + (", changed" if self.changed else "")
         return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
+
+    @property
+    def name_in_links(self) -> str:
+        """The name that was given, and whether the numbers that it names are changed; or empty."""
+        changed = bool(self.own_name) and self.own_name == self._begun_from
+        return self.own_name + (", changed" if changed else "")
 
     @property
     def note(self) -> str:

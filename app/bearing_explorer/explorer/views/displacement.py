@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -57,9 +58,11 @@ class Displacement(View):
             "",
             *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
         )
+        moved = displacements(results)
+        shown = [_without_noise(part, 5e-5) for part in (moved[:, :3], moved[:, 3:])]
         rows = (
             (html_text(when), *(_digits(value) for value in line))
-            for when, line in zip(_WHEN, displacements(results).tolist(), strict=True)
+            for when, line in zip(_WHEN, np.hstack(shown).tolist(), strict=True)
         )
         return _headed(name, html_table(heads, rows, named=True))
 
@@ -104,7 +107,8 @@ class OperatingPoint(Displacement):
     about = (
         "Displacement, and stiffness to copy, in N, m and rad. A row is a load on the inner ring, "
         "a column the displacement that it resists: at this cage angle, and the mean in time over "
-        "a period, as rotor programs want it. Directions that are held have a stiffness as well."
+        "a period, as rotor programs want it. "
+        f"{reasons.STIFF_WHERE_HELD}"
     )
 
     def html(self, named: tuple[str, Results]) -> str:
@@ -145,10 +149,10 @@ def _stiffness_html(when: str, table: ResultTable) -> str:
     return _headed(f"Stiffness {when}", html_table(("", *per), rows, named=True))
 
 
-def _without_noise(values: np.ndarray) -> np.ndarray:
-    """Numbers that are rounding noise of the largest ones beside them as zero."""
+def _without_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
+    """Numbers below `least` of the largest one, noise or beyond its digits, as zero."""
     largest = np.nanmax(np.abs(values), initial=0.0)
-    return np.where(np.abs(values) < 1e-9 * largest, 0.0, values)
+    return np.where(np.abs(values) < least * largest, 0.0, values)
 
 
 def displacements(results: Results) -> np.ndarray:

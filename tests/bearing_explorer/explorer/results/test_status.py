@@ -8,6 +8,7 @@ from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
+from bearing_explorer.kit.widgets.limits import judged, rows_of
 
 import bearingcore
 from bearingcore import presets, simulate
@@ -25,6 +26,13 @@ def test_the_status_line_says_what_happened() -> None:
     bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
     assert bad["mood"] == "bad"
     assert "nothing touches" in bad["words"]
+    kept, crossed = (
+        rows_of(Results(presets["fan-rig"].replace(fy=fy)).limits) for fy in (-100.0, -2e4)
+    )
+    assert judged(good, kept) == good
+    warned = judged(good, crossed)
+    assert (warned["mood"], warned["words"]) == ("warn", "Computed, limits exceeded")
+    assert judged(bad, crossed) == bad
 
 
 @pytest.mark.parametrize(

@@ -140,6 +140,19 @@ def test_a_bearing_has_the_name_that_was_typed() -> None:
     assert editor.name == "6206, deep groove bearing"
 
 
+def test_a_listed_bearing_that_is_changed_is_so_in_its_link_too() -> None:
+    editor = SceneEditor("fan-rig")
+    editor.take_bearing(presets["6205"].bearing, "6205 C3", "From a list.")
+    for changes, name in (({}, "6205 C3"), ({"n_balls": 8}, "6205 C3, changed")):
+        editor.set(changes)
+        assert editor.name == name
+        place = read(write(place_of(editor)))
+        assert place is not None
+        other = SceneEditor("fan-rig")
+        other.take_scene(place.scene, place.preset, name=place.name)
+        assert other.name == name
+
+
 def test_second_units_are_the_first_times_a_factor() -> None:
     editor = SceneEditor("6205")
     units = editor.state()["second_units"]

@@ -157,14 +157,3 @@ def test_references_end_as_soon_as_they_are_cancelled(calls: int) -> None:
     found = measure(FAN_RIG, ["motion"], cancelled=lambda: next(asked) > calls)
     assert found.count == 0
     assert next(asked) <= calls + 3
-
-
-def test_refusals() -> None:
-    with pytest.raises(ValueError, match="method is 'Euler'"):
-        motion_experiment(FAN_RIG, methods=("Euler",))
-    with pytest.raises(ValueError, match="shaft_speed is 0"):
-        motion_experiment(FAN_RIG.replace(shaft_speed=0.0))
-    with pytest.raises(ValueError, match="static state"):
-        motion_problem(FAN_RIG.replace(fy=0.0))
-    with pytest.raises(ValueError, match="static state"):
-        statics_experiment(FAN_RIG.replace(fy=0.0))

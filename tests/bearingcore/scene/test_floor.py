@@ -77,28 +77,6 @@ def test_a_floor_is_read_from_two_columns(text: str) -> None:
     assert float(defect.surface(math.radians(275.0), BEARING)) == pytest.approx(25e-6)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("1 2\n3 x\n", "line 2"),
-        ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),
-        ("1 2\n1 3\n", "different angles"),
-        ("1 -2\n2 3\n", "at least 0"),
-        ("1 0\n2 0\n", "not 0 everywhere"),
-        ("0 1\n400 1\n", "within one turn"),
-    ],
-)
-def test_an_unreadable_floor_is_refused_in_words(text: str, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        read_floor(text)
-
-
-def test_touching_defects_of_different_edges_are_refused() -> None:
-    pair = (Defect(0.2, 50e-6, 0.0), Defect(0.2, 50e-6, 0.1, edge="exact"))
-    with pytest.raises(ValueError, match="run into one another"):
-        presets["fan-rig"].replace(defect=pair)
-
-
 def test_a_race_worn_all_round_only_shifts_the_ring() -> None:
     """With no edge left, a depth all around is a clearance: the ball loads stay."""
     scene = presets["fan-rig"]

@@ -35,16 +35,11 @@ from scipy.io import savemat, wavfile
 from bearingcore import Scene, catalogue, presets, read_table
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files are read in this process; that of their own has its tests with the core."""
-    read_in_this_process(monkeypatch)
 
 
 def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:

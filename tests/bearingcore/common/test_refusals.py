@@ -26,7 +26,6 @@ from bearingcore.experiments.statics import statics_experiment
 from bearingcore.files.floor import read_floor
 from bearingcore.signals.indicators import severity_zone
 from bearingcore.signals.spectrograms import order_map, spectrogram
-from tests.helpers.reading import read_in_this_process
 
 NAN, INF = math.nan, math.inf
 DRAWN, RIG, LIEW_LIM = (core.presets[name] for name in ("6205", "fan-rig", "liew-lim"))
@@ -218,10 +217,8 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         for number, case in enumerate(cases)
     ],
 )
-def test_what_cannot_be_is_refused(
-    ask: Callable[[], object], words: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    read_in_this_process(monkeypatch)
+@pytest.mark.usefixtures("files_read_here")
+def test_what_cannot_be_is_refused(ask: Callable[[], object], words: str) -> None:
     with pytest.raises(FieldError, match=words) as refused:
         ask()
     assert refused.value.field

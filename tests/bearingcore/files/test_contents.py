@@ -10,15 +10,10 @@ from scipy.io import savemat
 
 from bearingcore import read_table
 from bearingcore.files import facts
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 def matlab(**variables: object) -> bytes:

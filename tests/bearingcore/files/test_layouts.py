@@ -16,19 +16,14 @@ from scipy.io import savemat
 from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 N, RATE = 2000, 8000.0
 SIGNAL = np.random.default_rng(11).standard_normal((N, 2)).round(4)
 TIME = np.arange(N) / RATE
 DATES = pd.date_range("2024-01-01", periods=N, freq="125us")
 FRAME = pd.DataFrame({"time": TIME, "acc": SIGNAL[:, 0]})
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 def rows(*columns: Any, heading: str = "", delimiter: str = ",", digits: int = 6) -> bytes:

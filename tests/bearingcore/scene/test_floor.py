@@ -8,18 +8,13 @@ import pytest
 from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
 from bearingcore.files.floor import read_floor
 from bearingcore.scene.defect import drop_into
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 BEARING = presets["fan-rig"].bearing
 ANGLES = np.linspace(-0.4, 0.5, 3001)
 # a tabulated path cuts the corner where the ball reaches the floor by at most this much [m]
 TABLE_ERROR = 3e-8
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 @pytest.mark.parametrize("race", RACES)

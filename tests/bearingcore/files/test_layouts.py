@@ -477,6 +477,7 @@ def test_signals_that_have_names_of_places_are_asked_about(variables: dict) -> N
     choice = read(matlab(**variables), "a.mat").contents.choice
     assert not choice.columns
     assert choice.options == (0, 1)
+    assert ("several places" in choice.question) == ("a" not in variables)
 
 
 def octave(*parts: tuple[str, str, str]) -> str:
@@ -988,9 +989,3 @@ def test_files_that_do_not_belong_together_are_not_joined(monkeypatch) -> None:
     ):
         with pytest.raises(ValueError, match=told):
             join_tables(other)
-
-
-def test_a_file_that_is_too_large_says_how_to_go_on(monkeypatch) -> None:
-    monkeypatch.setattr(table, "MOST_BYTES", 2**20)
-    with pytest.raises(ValueError, match=r"at most 1 MB: split it by rows .* join"):
-        read(bytes(2**21))

@@ -113,14 +113,3 @@ def test_motion() -> None:
     assert [p.method for p in experiment.points if p.in_use] == ["RK4"]
     assert experiment.order("RK4", "series L2") > 2.0
     assert len(experiment.references[""].families) == 2 + bool(cvode)
-
-
-def test_refusals() -> None:
-    with pytest.raises(ValueError, match="method is 'Euler'"):
-        motion_experiment(FAN_RIG, methods=("Euler",))
-    with pytest.raises(ValueError, match="shaft_speed is 0"):
-        motion_experiment(FAN_RIG.replace(shaft_speed=0.0))
-    with pytest.raises(ValueError, match="static state"):
-        motion_problem(FAN_RIG.replace(fy=0.0))
-    with pytest.raises(ValueError, match="static state"):
-        statics_experiment(FAN_RIG.replace(fy=0.0))

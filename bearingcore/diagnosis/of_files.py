@@ -166,7 +166,7 @@ def _of_file(
     if (size := path.stat().st_size) > MOST_BYTES:
         most = f"at most {MOST_BYTES // 2**20} MB: split it, or export less of it"
         raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
-    table = read_table(path)
+    table = read_table(path.name, path.read_bytes())
     says = table.contents
     named = says.bearing or _known(says.designation)
     if bearing is None and named is not None and named.taken:
@@ -205,11 +205,24 @@ def _recording(
     says = table.contents
     if isinstance(columns, (int, str)):
         columns = (columns,)
-    picked = says.choice.columns.values() if columns is None else map(table.index_of, columns)
-    units = [says.columns[index].unit for index in picked]
-    if unit is None and not all(units):
+    if columns is None:
+        chosen = says.choice.columns
+        if not chosen:
+            names = [table.names[i] for i in says.choice.options or range(len(table.names))]
+            why = says.choice.question or says.choice.reason or "Which column is the signal?"
+            raise ValueError(
+                f"{table.name}: {why} Say it with columns=[...], one or two of {', '.join(names)}."
+            )
+        directions, columns = directions or tuple(chosen), tuple(chosen.values())
+    if directions is None:
+        directions = ("x", "y")[-len(columns) :]
+    units: dict[int | str, str | None] = {one.name: one.unit for one in says.columns}
+    units |= {number: one.unit for number, one in enumerate(says.columns)}
+    if unit is None and not all(units.get(column) for column in columns):
         unit = says.unit.value if says.unit.taken else "m/s²"
-    if sensitivity is None and "voltage" in {kind_of(unit or one or "") for one in units}:
+    if sensitivity is None and "voltage" in {
+        kind_of(one) for one in [unit or units.get(column) for column in columns] if one
+    }:
         unit = "m/s²"  # without the sensor's sensitivity, as they are
     rate = says.sample_rate
     if sample_rate is None and rate is not None and rate.taken:

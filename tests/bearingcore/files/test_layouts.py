@@ -14,7 +14,7 @@ import pandas as pd
 import pytest
 from scipy.io import savemat
 
-from bearingcore import join_tables, read_table
+from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
 
@@ -115,7 +115,9 @@ def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -
     assert f"if it is in {unit};" in rate.reason
     with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         made.recording([1], ["y"], "g")
-    by_hand = made.with_columns({0: Column("", "time", unit)}).recording(unit="g")
+    by_hand = read_recording(
+        "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
+    )
     assert by_hand.sample_rate == pytest.approx(RATE)
 
 
@@ -591,11 +593,11 @@ def test_a_column_with_one_number_is_a_fact() -> None:
 @pytest.mark.parametrize("words", ["Sensitivity: 100 mV/g", "Sensor: 100 mV/g, S/N 1234"])
 def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
     volts = f"# {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
-    got = read_table("a.csv", volts).recording().acceleration[:, 0]
+    got = read_recording("a.csv", volts).acceleration[:, 0]
     np.testing.assert_allclose(got, SIGNAL[:, 0] * 0.0980665, atol=1e-9)
     two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
     with pytest.raises(ValueError, match="sensitivity"):
-        read_table("a.csv", two).recording()
+        read_recording("a.csv", two)
 
 
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
@@ -615,68 +617,70 @@ def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
 THREE = rows(TIME * 1e3, SIGNAL, heading="a,b,c")
 
 
-def test_everything_can_be_said_by_hand() -> None:
-    table = read_table("x.csv", THREE)
-    said = table.with_columns({"a": Column("", "time", "ms")})
-    got = said.recording([1, 2], "xy", "g", shaft_speed=188.0)
+def test_everything_can_be_said_by_hand_in_one_call() -> None:
+    got = read_recording(
+        "x.csv", THREE, columns={"time": "a", "signal": [1, 2]}, directions="xy", time_unit="ms",
+        unit="g", shaft_speed=188.0,
+    )  # fmt: skip
     np.testing.assert_allclose(got.acceleration, SIGNAL * 9.80665, atol=1e-5)
     assert (got.sample_rate, got.directions, got.shaft_speed) == (
         pytest.approx(RATE),
         ("x", "y"),
         188.0,
     )
-    untimed = table.with_columns({0: Column("", "other")})
-    rate = untimed.recording([2], unit="mV", sample_rate=9000.0, sensitivity=0.01)
+    rate = read_recording("x.csv", THREE, columns={"time": None, "signal": 2}, unit="mV",
+                          sensitivity=0.01, sample_rate=9000.0)  # fmt: skip
     assert rate.sample_rate == 9000.0
     np.testing.assert_allclose(rate.acceleration[:, 0], SIGNAL[:, 1] * 0.1, atol=1e-5)
     speed = rows(SIGNAL[:, 0], np.full(N, 25.0), heading="p,q")
-    turning = read_table("x.csv", speed).with_columns({1: Column("", "speed", "Hz")})
-    got = turning.recording([0], unit="g", sample_rate=RATE)
+    got = read_recording("x.csv", speed, columns={"signal": 0, "speed": 1}, unit="g",
+                         speed_unit="Hz", sample_rate=RATE)  # fmt: skip
     assert got.shaft_speed == pytest.approx(50.0 * math.pi)
 
 
 def test_the_hand_wins_over_what_headings_say() -> None:
     content = rows(TIME, SIGNAL, heading="DE [Hz],NDE [°C],time [s]")
-    signals = {1: Column("", "signal"), 2: Column("", "signal")}
-    table = read_table("x.csv", content).with_columns({0: Column("", "time", "s"), **signals})
-    got = table.recording([1, 2], "yx", "m/s²")
+    got = read_recording("x.csv", content, columns={"time": 0, "signal": [1, 2]}, time_unit="s",
+                         unit="m/s²", directions=("y", "x"))  # fmt: skip
     np.testing.assert_allclose(got.acceleration, SIGNAL)
     assert got.sample_rate == pytest.approx(RATE)
-    slow = table.with_columns({0: Column("", "time", "h")}).recording([1], unit="g")
+    slow = read_recording(
+        "x.csv", content, columns={"time": 0, "signal": 1}, time_unit="h", unit="g"
+    )
     assert slow.sample_rate == pytest.approx(RATE / 3600.0)  # whatever is likely
 
 
 def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
     (tmp_path / "rig.zip").write_bytes(zipped(run_csv=FRAME.to_csv().encode(), b_csv=b"1"))
-    got = read_table(tmp_path / "rig.zip" / "run.csv").recording(unit="g")
+    got = read_recording(tmp_path / "rig.zip" / "run.csv", unit="g")
     assert got.sample_rate == pytest.approx(RATE)
 
 
 def test_a_typed_rate_that_nothing_shows_is_said() -> None:
     alone = rows(SIGNAL[:, 0])
-    got = read_table("x.csv", alone).recording(unit="g", sample_rate=RATE)
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
     assert "Nothing in the file shows whether it was" in got.notes[0]
-    likely = read_table("12k.csv", alone).recording(unit="g", sample_rate=RATE)
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
     assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
     timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
-    assert read_table("x.csv", timed).recording(unit="g", sample_rate=RATE).notes == ()
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
 
 
 @pytest.mark.parametrize(
-    ("roles", "columns", "told"),
+    ("given", "told"),
     [
-        ({}, None, r"Which is at this bearing.*Say it with columns=\[...\], one or two of b, c"),
-        ({}, [1], r"unit is missing: pass unit="),
-        ({1: "tim"}, None, "signal, time, speed"),
-        ({}, ["d"], "one of a, b, c"),
-        ({0: "time Hz"}, None, "unit is 'Hz'; allowed: s, ms"),
-        ({0: "time s", 1: "time s"}, None, "one column of times"),
+        ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
+        ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
+        ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
+        ({"columns": {"signal": "d"}}, "one of a, b, c"),
+        ({"columns": {"speed": 1}}, "speed_unit is missing"),
+        ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
+        ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],
 )
-def test_what_is_still_to_be_said_is_asked_for(roles: dict, columns: list, told: str) -> None:
-    table, given = read_table("x.csv", THREE), {i: Column("", *r.split()) for i, r in roles.items()}
+def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        table.with_columns(given).recording(columns)
+        read_recording("x.csv", THREE, **given)
 
 
 def test_roles_over_the_columns_are_data_for_a_form() -> None:
@@ -696,13 +700,13 @@ def test_roles_over_the_columns_are_data_for_a_form() -> None:
 def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
     path = tmp_path / "run_1797rpm.csv"
     path.write_text(FRAME.to_csv())
-    got = read_table(path).recording(unit="g")
+    got = read_recording(path, unit="g")
     assert got.shaft_speed is None  # a name suggests it; it does not give it
-    suggested = read_table(path).contents.shaft_speed
+    suggested = read_table(path.name, path.read_bytes()).contents.shaft_speed
     assert suggested.value == pytest.approx(1797.0 * math.pi / 30.0)
     assert (suggested.stated, suggested.taken) == (False, True)
     with pytest.raises(ValueError, match="No such file"):
-        read_table(tmp_path / "none.csv")
+        read_recording(tmp_path / "none.csv")
 
 
 # -- one signal in several files -------------------------------------------------------------------

@@ -21,6 +21,7 @@ from bearingcore.scene import DOF_SYMBOLS
 _THIS_SCENE = "this scene"
 _UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
 """Unit of the displacement along each direction, and what one of SI is in it."""
+_FACTORS = np.array([factor for _, factor in _UNITS])
 _WAYS = (("to the left", "to the right"), ("down", "up"), ("back along z", "along z"))
 _WHEN = ("at this cage angle", "least", "mean", "greatest")
 
@@ -68,7 +69,7 @@ class Displacement(View):
     def sentence(self, results: Results) -> str:
         if not results.now.converged[0]:
             return f"No displacement: {results.now.reason(0)}."
-        now = displacements(results)[0]
+        now = results.now.displacement[0] * _FACTORS
         moved = [
             f"{style.number(abs(value))} µm {way[value > 0.0]}"
             for value, way in zip(now[:3].tolist(), _WAYS, strict=True)
@@ -158,7 +159,7 @@ def displacements(results: Results) -> np.ndarray:
     """(4, 5) [µm, mrad] at this cage angle; least, mean and greatest over all positions."""
     over = results.ranges.state.displacement_table().named()
     rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
-    return _without_noise(np.array(rows, dtype=float) * [factor for _, factor in _UNITS])
+    return _without_noise(np.array(rows, dtype=float) * _FACTORS)
 
 
 def _scenes(results: Results) -> Iterable[tuple[str, Results]]:

@@ -148,6 +148,7 @@ class View(Generic[C]):
     def __init__(self, packed: PackedSource) -> None:
         self._results: C | None = None
         self._has_drawn = False
+        self._looks: tuple[bool, bool] | None = None  # as `say` had it last
         #: of the scene, and of the last picture
         self._bearing: object = None
         self._drawn_bearing: object = None
@@ -264,13 +265,15 @@ class View(Generic[C]):
             self._has_drawn, self._results = False, None
         if self._has_drawn:
             self.bring()
-        if self._pictures:
+        looks = self._has_drawn, results is not None
+        if self._pictures and looks != self._looks:  # Panel takes a twentieth of a step for these
+            self._looks = looks
             for picture in self._pictures:
                 picture.visible = self._has_drawn
                 own = {name: value for name, value in picture.styles.items() if name not in FADED}
                 picture.styles = own if results is not None else own | FADED
-            looks = self.sentence_looks if self._has_drawn else ()
-            self._sentence.css_classes = ["sentence", *looks]
+            classes = self.sentence_looks if self._has_drawn else ()
+            self._sentence.css_classes = ["sentence", *classes]
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)

@@ -10,7 +10,8 @@ from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.kit.widgets.limits import judged, rows_of
 
-from bearingcore import presets
+import bearingcore
+from bearingcore import presets, simulate
 
 
 def test_the_status_line_says_what_happened() -> None:
@@ -47,8 +48,10 @@ def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words:
     assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
 
 
-def test_a_motion_that_breaks_off_is_not_converged() -> None:
-    by_hand = Results(presets["fan-rig"], settings=Settings(step_rate=1024.0, duration=0.2))
-    line = status_of(by_hand, 0.0, frozenset({"motion"}))
+def test_a_motion_that_breaks_off_is_not_converged(monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = simulate(presets["fan-rig"], 0.2, step_rate=1024.0)
+    monkeypatch.setattr(bearingcore, "simulate", lambda *_, **__: broken)
+    results = Results(presets["fan-rig"], settings=Settings(duration=0.2))
+    line = status_of(results, 0.0, frozenset({"motion"}))
     assert line["mood"] == "bad"
     assert "diverged after" in line["words"]

@@ -126,6 +126,45 @@ def test_points_of_the_motion_charts(preset: str) -> None:
 
 
 @witness(
+    "function: simulate",
+    by="the polynomial of RK4 at the eigenvalues of K, M and C of `elements.py`",
+    compared="the step rate below which a motion diverges, of six presets",
+    within=0.05,
+)  # fmt: skip
+@pytest.mark.parametrize("preset", ["fan-rig", "liew-lim", "6205", "7208-15deg", "6203", "3208"])
+def test_motions_diverge_where_linear_theory_says(preset: str) -> None:
+    one, scene = problem(preset), presets[preset]
+    free, n = list(one.free), len(one.free)
+    cage = np.linspace(0.0, 2.0 * math.pi / one.rows.count, 31)
+    q, loads, stiffness = one.rows.states(one.force, cage, free)
+    _, directions = one.rows.contacts(q[:, :, None], cage[:, None])
+    pressed = np.where(loads > 0.0, directions, 0.0)
+    dampers = one.c * np.einsum("imj,kmj->mik", pressed, pressed)
+    limit = 0.0
+    for k, c in zip(stiffness[:, free][:, :, free], dampers[:, free][:, :, free], strict=True):
+        K, D = (
+            np.block([[b, -b], [-b, b + np.diag(ground)]]) / np.tile(one.mass, 2)[:, None]
+            for b, ground in ((k, one.stiffness), (c, one.damping))
+        )
+        whole = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)], [-K, -D]])
+        limit = max(limit, least_rate(np.linalg.eigvals(whole)))
+    for off in (-0.05, 0.05):
+        rate = (1.0 + off) * limit
+        assert simulate(scene, 0.1, rate, step_rate=rate).completed == (off > 0.0)
+
+
+def least_rate(values: np.ndarray) -> float:
+    """The least step rate [Hz] at which RK4 lets no motion with these eigenvalues [1/s] grow."""
+    low, high = 1e2, 1e7
+    while high / low > 1.0001:
+        rate = math.sqrt(low * high)
+        z = values / rate
+        grows = np.abs(1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0).max() > 1.0
+        low, high = (rate, high) if grows else (low, rate)
+    return high
+
+
+@witness(
     "chart: statics", "function: equilibrium",
     by="SciPy's solvers on the forces of `elements.py`, against Newton's method on them",
     compared="17 presets: errors of hybr and least squares at three tolerances from 1e-2 on; loads "

@@ -166,7 +166,7 @@ class Jobs:
     async def _run(self, job: _Job, before: _Job | None) -> None:
         try:
             await self._follow(job, before)
-        except Exception:  # of what takes results and states: nobody waits for this task
+        except Exception:  # of what takes results and states; this task has no other listener
             log.exception("a job could not be followed")
             job.work.stop()
             await self._report(job, _FAILED)

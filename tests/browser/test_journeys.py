@@ -863,6 +863,8 @@ def test_a_report_is_saved_and_read(desk: Visitor, browser: BrowserContext, tmp_
 def test_figures_are_taken_along(desk: Visitor) -> None:
     """That the lines of Python run, `test_exported_python.py` shows."""
     desk.begin("Load")
+    name, _ = desk.download(lambda: desk.export("PNG"))
+    assert name.startswith("bearing-Fan-rig")
     for tab, card in (("Load", 1), ("Stiffness", 0)):
         desk.go_to(tab)
         name, picture = desk.download(lambda card=card: desk.export("PNG", card))  # type: ignore[misc]

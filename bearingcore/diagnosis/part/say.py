@@ -77,16 +77,22 @@ def other_unit(speed: float, other: float) -> str:
 def damaged(own: PartEvidence) -> str:
     """A part is named."""
     shown = int((own.harmonics > own.noise).sum())
+    broad = own.part == BALL and own.deviations >= DEVIATIONS
     clear = (
         f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
-        if own.part == BALL and own.deviations >= DEVIATIONS
+        if broad
         else f"{decibels(own.level)} above local noise, {shown} of {len(own.harmonics)} "
         "harmonics clear"
+    )
+    alike = (
+        " They show no sidebands of the cage: blows of another source that wander around this "
+        "frequency look alike."
     )
     return (
         f"Damage on the {own.part}: impacts at {number(own.frequency, 4)} Hz "
         f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), {clear}, "
         f"demodulation band {span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
+        f"{alike if broad and not own.modulated else ''}"
     )
 
 

@@ -101,7 +101,7 @@ def _spread(dropped: NDArray[np.bool_]) -> float:
 
 
 def _fewest(chance: float) -> int:
-    """How often in a row a thing of that chance happens in fewer than BY_CHANCE of all places."""
+    """Length of a run that events of that chance make at fewer than BY_CHANCE of all places."""
     return LEAST_RUN if chance >= 0.5 else max(1, math.ceil(math.log(BY_CHANCE) / math.log(chance)))
 
 

@@ -28,8 +28,7 @@ import psutil
 from playwright.sync_api import Error, sync_playwright
 
 from tests.benchmarks.latency import WATCH, move_to_and_fro, slider_of
-from tests.benchmarks.machine import Pace, pace
-from tests.benchmarks.processor import worked
+from tests.benchmarks.machine import Pace, pace, worked
 from tests.browser.helpers import chromium, explorer_server, serving
 from tests.helpers.page_client import PageClient
 

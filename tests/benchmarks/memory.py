@@ -12,8 +12,7 @@ import time
 
 import numpy as np
 
-from tests.benchmarks.machine import pace
-from tests.benchmarks.processor import resident
+from tests.benchmarks.machine import pace, resident
 from tests.browser.helpers import explorer_server, serving
 from tests.helpers.page_client import PageClient
 

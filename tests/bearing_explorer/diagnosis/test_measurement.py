@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form, with_role
-from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
+from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
@@ -32,19 +32,14 @@ from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
 
-from bearingcore import Scene, catalogue, presets, read_table
+from bearingcore import Scene, catalogue, presets
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files are read in this process; that of their own has its tests with the core."""
-    read_in_this_process(monkeypatch)
 
 
 def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
@@ -205,18 +200,6 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
     assert made.measured is before is not None
     assert made.state.bad
     assert any(told in sentence for sentence in made.state.refused.values())
-
-
-@pytest.mark.parametrize(
-    ("text", "hertz"),
-    [("25,5 Hz", 25.5), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
-)
-def test_shaft_speeds_are_read_with_their_units(text, hertz):
-    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
-    asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
-    assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-    with pytest.raises(FormError, match="Which column is the signal"):
-        read_form(table, {**guess(table), "columns": "time;;"}, Machine())
 
 
 def test_more_numbers_than_a_session_keeps_are_left_out():

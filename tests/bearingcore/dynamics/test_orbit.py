@@ -133,10 +133,3 @@ def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
     assert common_ball_passes(unlike) is None
     assert orbit(unlike).status == OrbitStatus.NO_PERIOD
     assert math.isnan(orbit(unlike).largest_multiplier)
-
-
-def test_balls_with_mass_and_a_shaft_that_stands_still_are_refused() -> None:
-    with pytest.raises(ValueError, match="massless"):
-        orbit(RIG.replace(balls="with mass"))
-    with pytest.raises(ValueError, match="shaft_speed"):
-        orbit(RIG.replace(shaft_speed=0.0))

@@ -10,15 +10,10 @@ from scipy.io import savemat
 
 from bearingcore import read_table
 from bearingcore.files import facts
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 def matlab(**variables: object) -> bytes:
@@ -207,29 +202,6 @@ def test_two_signals_are_two_directions_only_where_something_says_so(names) -> N
     for axes in ("acc x,acc y", "horizontal,vertical", "DE H,DE V"):
         table = read_table("a.csv", f"time,{axes}\n".encode() + lines(rows))
         assert table.contents.choice.columns == {"x": 1, "y": 2}
-
-
-def test_a_heading_of_comments_that_no_row_has_leaves_the_others() -> None:
-    """As LabVIEW writes it: a column of words is named, and empty."""
-    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
-    text = b"X_Value\tAccel DE\tAccel NDE\tComment\n" + lines(rows, delimiter="\t")
-    found: Any = read_table("de_nde.lvm", text).contents
-    assert [column.role for column in found.columns] == ["time", "signal", "signal"]
-    assert [column.place for column in found.columns[1:]] == ["drive end", "non-drive end"]
-    assert "several places" in found.choice.question
-    assert found.sample_rate.value == pytest.approx(8000.0, rel=1e-3)
-
-
-def test_names_in_structs_say_the_place_of_the_signal_next_to_them() -> None:
-    cells = np.empty(2, dtype=object)
-    for index, name in enumerate(("DE", "FE")):
-        cells[index] = {"name": name, "signal": NOISE[:600, index], "fs": 8000.0}
-    file = io.BytesIO()
-    savemat(file, {"data": cells})
-    contents = read_table("a.mat", file.getvalue()).contents
-    assert [column.place for column in contents.columns] == ["drive end", "fan end"]
-    assert not contents.choice.columns
-    assert contents.choice.options == (0, 1)
 
 
 def test_lines_above_the_numbers_are_listened_to() -> None:

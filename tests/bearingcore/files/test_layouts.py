@@ -5,6 +5,7 @@ import io
 import json
 import math
 import zipfile
+from collections.abc import Callable
 from typing import Any
 
 import h5py
@@ -16,19 +17,17 @@ from scipy.io import savemat
 from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 N, RATE = 2000, 8000.0
 SIGNAL = np.random.default_rng(11).standard_normal((N, 2)).round(4)
 TIME = np.arange(N) / RATE
 DATES = pd.date_range("2024-01-01", periods=N, freq="125us")
 FRAME = pd.DataFrame({"time": TIME, "acc": SIGNAL[:, 0]})
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
+XY = {"x": 0, "y": 1}
+REMARKS = ("Sample Rate\t8000", '"Sample rate","8000 Hz"', "fs 8000", "fs = 8000", "Fs,8000,8000",
+           "Sample interval 1.25E-4 s", "# fs = 8000\n# block 0", "fs,8000\nunit,g")  # fmt: skip
 
 
 def rows(*columns: Any, heading: str = "", delimiter: str = ",", digits: int = 6) -> bytes:
@@ -50,58 +49,6 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
     found = contents.sample_rate
     assert (found is None) if rate is None else found.stated
     assert rate is None or found.value == pytest.approx(rate, rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("remark", "rate", "turns", "unit"),
-    [
-        ("# fs = 12000 Hz", 12e3, None, None),
-        ("# fs=12000,rpm=1797", 12e3, 1797, None),
-        ("# sampling rate 25.6 kHz, speed 1500 rpm", 25.6e3, 1500, None),
-        ("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz", 12e3, 1797, None),
-        ("rpm = 1797", None, 1797, None),
-        ("data_rate = 4000.0 Hz", 4e3, None, None),
-        ("# unit: g\n# fs [kHz] = 12", 12e3, None, "g"),
-        ("# acc [g]\n# fs = 12000 Hz", 12e3, None, "g"),
-        ("# load = 500 N", None, None, None),
-        ("# duration = 0.5 s", None, None, None),
-        ("# time resolution 1.25e-4 s", RATE, None, None),
-        ("# Δt = 125 µs", RATE, None, None),
-        ("# sample_rate_Hz 12000", 12e3, None, None),
-        ("Fs [Hz];12000", 12e3, None, None),
-        ("# level 1797 today", None, None, None),
-        ("# temperature: 45 °C", None, None, None),
-        ("# samples = 2000", None, None, None),
-        ("Recorded on Monday beside the temperature sensor", None, None, None),
-    ],
-)
-def test_remarks_above_one_column_are_no_names_of_it(remark, rate, turns, unit) -> None:
-    made = read(remark.encode() + b"\n" + rows(SIGNAL[:, 0]))
-    check_one_signal(made, rate)
-    speed = made.contents.shaft_speed
-    assert (speed and round(speed.value * 30.0 / math.pi)) == turns
-    assert (made.contents.unit.value if made.contents.unit.stated else None) == unit
-
-
-@pytest.mark.parametrize(
-    ("remark", "likely"),
-    [
-        ("# fs = 12.000 Hz", 12e3),
-        ("# fs: 64.0 Hz", 64.0),
-        ("# 12 kHz", 12e3),
-        ("# recorded at 12 kHz", 12e3),
-    ],
-)
-def test_a_rate_that_is_not_sure_is_asked_about(remark: str, likely: float) -> None:
-    rate = read(remark.encode() + b"\n" + rows(SIGNAL[:, 0])).contents.sample_rate
-    assert (rate.value, rate.stated) == (likely, False)
-
-
-def test_two_rates_that_disagree_are_asked_about() -> None:
-    text = b"# fs = 12000 Hz\n" + rows(TIME, SIGNAL[:, 0], heading="time,acc")
-    rate = read(text).contents.sample_rate
-    assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
-    assert "“fs” in the file is 12000 Hz" in rate.reason
 
 
 @pytest.mark.parametrize(
@@ -189,31 +136,6 @@ def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None
     assert f"in {unit} since 1970" in made.contents.sample_rate.reason
 
 
-def test_a_row_of_units_may_name_a_speed() -> None:
-    turning = np.full(len(TIME), 1480.0)
-    made = read(rows(TIME, SIGNAL[:, 0], turning, heading="Zeit,Beschl,Drehzahl\ns,g,1/min"))
-    assert made.names == ("Zeit [s]", "Beschl [g]", "Drehzahl [1/min]")
-    assert made.contents.shaft_speed.value == pytest.approx(1480.0 * math.pi / 30.0)
-
-
-@pytest.mark.parametrize(
-    ("heading", "names"),
-    [
-        ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
-        ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
-        ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
-        ("time;acc de;acc nde;Inspector;Shift", ("time", "acc de", "acc nde")),
-        ("time;acc;acc", ("time", "acc, column 2", "acc, column 3")),
-        ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")),  # which one is missing?
-    ],
-)
-def test_rows_of_units_and_more_headings_than_columns(heading: str, names: tuple) -> None:
-    made = read(rows(TIME, SIGNAL, heading=heading, delimiter=";"))
-    assert made.names == names
-    assert made.contents.sample_rate.value == pytest.approx(RATE)
-    assert made.contents.choice.question
-
-
 @pytest.mark.parametrize("where", [[0], [700], range(N)])
 def test_a_column_of_words_is_left_out_whichever_rows_have_one(where) -> None:
     lines = [f"{t:.6f}\t{a:.4f}" + "\tok" * (i in where) for i, (t, a) in enumerate(zip(
@@ -221,30 +143,6 @@ def test_a_column_of_words_is_left_out_whichever_rows_have_one(where) -> None:
     made = read("time\tacc\tComment\n" + "\n".join(lines))
     assert made.names == ("time", "acc")
     check_one_signal(made)
-
-
-def test_an_oscilloscope_writes_its_settings_beside_the_numbers() -> None:
-    settings = ["Sample Interval,1.25e-04,", "Source,CH1,", "Vertical Units,V,"]
-    lines = [f"{t - 0.1:.6f},{a:.4f}," for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
-    beside = [*settings, *[",,"] * (N - len(settings))]
-    made = read("\n".join(f"{a},{b}" for a, b in zip(beside, lines, strict=True)))
-    assert [column.role for column in made.contents.columns] == ["time", "signal"]
-    assert made.contents.sample_rate.value == pytest.approx(RATE)
-    assert (made.contents.unit.value, made.contents.unit.stated) == ("V", True)
-
-
-def test_the_head_of_labview_says_step_and_units() -> None:
-    head = (
-        "LabVIEW Measurement\t\nChannels\t2\t\nSamples\t2000\t2000\t\nDelta_X\t1.25E-4\t1.25E-4\t"
-    )
-    units = "\nY_Unit_Label\tg\tV\t\n***End_of_Header***\t\t\t\n"
-    text = (head + units).encode()
-    made = read(text + rows(SIGNAL, heading="DE\tNDE\tComment", delimiter="\t"), "a.lvm")
-    assert [column.unit for column in made.contents.columns] == ["g", "V"]
-    assert made.contents.sample_rate.value == RATE
-    assert "several places" in made.contents.choice.question
-    same = read(text.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), "a.lvm")
-    assert (same.contents.unit.value, same.contents.unit.stated) == ("g", True)
 
 
 @pytest.mark.parametrize("delimiter", [",", ";", " "])
@@ -293,30 +191,6 @@ def test_words_in_many_lines_are_still_refused_with_the_first() -> None:
         read("\n".join(lines))
 
 
-LVM = """LabVIEW Measurement\t
-Separator\tTab
-X_Columns\tNo
-Date\t2024/01/01
-Time\t10:00:00,45
-***End_of_Header***\t
-
-Channels\t2\t\t
-Samples\t2000\t2000\t
-Delta_X\t1,25E-4\t1,25E-4\t
-Y_Unit_Label\tg\tg\t
-***End_of_Header***\t\t\t
-X_Value\tDE\tNDE\tComment
-"""
-
-
-def test_a_first_column_that_is_empty_and_decimal_commas() -> None:
-    lines = [f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL]
-    made = read(LVM + "\n".join(lines), "a.lvm")
-    assert made.names == ("DE", "NDE")
-    assert made.contents.sample_rate.value == RATE
-    assert made.contents.unit.value == "g"
-
-
 @pytest.mark.parametrize(
     "when",
     [
@@ -330,12 +204,6 @@ def test_a_first_column_that_is_empty_and_decimal_commas() -> None:
 def test_dates_and_durations_as_programs_write_them(when) -> None:
     check_one_signal(read("Time,acc\n" + "\n".join(
         f"{when(i)},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0]))))  # fmt: skip
-
-
-def test_days_are_a_question() -> None:
-    lines = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
-    rate = read("Time,acc\n" + "\n".join(lines)).contents.sample_rate
-    assert (rate.value, rate.stated) == (pytest.approx(RATE, rel=1e-4), False)
 
 
 @pytest.mark.parametrize(
@@ -482,6 +350,7 @@ def test_signals_that_have_names_of_places_are_asked_about(variables: dict) -> N
     choice = read(matlab(**variables), "a.mat").contents.choice
     assert not choice.columns
     assert choice.options == (0, 1)
+    assert ("several places" in choice.question) == ("a" not in variables)
 
 
 def octave(*parts: tuple[str, str, str]) -> str:
@@ -510,18 +379,6 @@ def test_the_text_of_octave_is_read(name: str) -> None:
     assert (made.contents.unit.value, made.contents.unit.stated) == ("g", True)
     with pytest.raises(ValueError, match="damaged"):
         read(flat[: len(flat) // 2], name)
-
-
-def test_what_hdf5_says_beside_each_data_set_is_its_own() -> None:
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        for name, unit, signal in zip(("DE", "NDE"), ("g", "V"), SIGNAL.T, strict=True):
-            data = file.create_dataset(f"rig/{name}", data=signal)
-            data.attrs["wf_increment"], data.attrs["unit_string"] = 1.0 / RATE, unit
-    contents = read(buffer.getvalue(), "a.h5").contents
-    assert [column.unit for column in contents.columns] == ["g", "V"]
-    assert contents.sample_rate.value == pytest.approx(RATE)
-    assert contents.choice.options == (0, 1)
 
 
 def tdms() -> bytes:
@@ -715,69 +572,11 @@ def test_words_in_place_of_numbers_are_missing_numbers(share: float) -> None:
         read("\n".join(coded))
 
 
-@pytest.mark.parametrize(
-    "remark",
-    ["Sample Rate\t8000", '"Sample rate","8000 Hz"', "fs 8000", "fs = 8000", "Fs,8000,8000",
-     "Sample interval 1.25E-4 s", "# fs = 8000\n# block 0", "fs,8000\nunit,g"],
-)  # fmt: skip
-def test_a_remark_above_two_columns_names_none_of_them(remark: str) -> None:
-    made = read(f"{remark}\n".encode() + rows(SIGNAL, heading="x,y"))
-    assert made.contents.choice.columns == {"x": 0, "y": 1}
-    assert (made.contents.sample_rate.value, made.contents.sample_rate.stated) == (RATE, True)
-    bare = read(f"{remark}\n".encode() + rows(SIGNAL))
-    assert bare.names == ("column 1", "column 2")
-    assert "Which is at this bearing?" in bare.contents.choice.question
-
-
-@pytest.mark.parametrize(
-    ("remark", "turns"),
-    [("rotational speed 185.6 rad/s", 1772.3), ("Running speed: 1772 CPM", 1772.0),
-     ("Nominal speed 1800 rpm", None), ("# Fmax: 20000 Hz", None)],
-)  # fmt: skip
-def test_speeds_and_frequencies_in_remarks(remark: str, turns: float | None) -> None:
-    contents = read(f"{remark}\n".encode() + rows(SIGNAL[:, 0])).contents
-    assert contents.sample_rate is None
-    speed = contents.shaft_speed
-    assert (
-        speed is None if turns is None else speed.value == pytest.approx(turns * math.pi / 30, 1e-4)
-    )
-
-
-@pytest.mark.parametrize(
-    ("column", "heading", "told"),
-    [
-        (np.arange(N) * 4.0, "Frequency [Hz],Amplitude [g]", "spectrum"),
-        (np.arange(N) * 4.0, "f,Amplitude [g]", "spectrum"),
-        (TIME, "Frequency [Hz],t1 [s],acc [g]", ""),
-    ],
-)
-def test_a_spectrum_is_no_signal_over_time(column: Any, heading: str, told: str) -> None:
-    several = [np.full(N, 50.0), column] if "t1" in heading else [column]
-    contents = read(rows(*several, SIGNAL[:, 0], heading=heading)).contents
-    assert told in contents.choice.question
-    assert contents.shaft_speed is None  # nor is that of a converter the shaft's
-    assert bool(contents.choice.columns) != bool(told)
-
-
-def test_a_trend_of_single_values_has_no_sample_rate() -> None:
-    days = "\n".join(f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
-        pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True))  # fmt: skip
-    contents = read("Date,RMS [mm/s]\n" + days).contents
-    assert contents.sample_rate is None
-    assert "a trend" in contents.sampling.trouble
-
-
 def test_rows_of_several_sensors_are_not_one_signal() -> None:
     mixed = "\n".join(f"{i // 2 / RATE:.6f},{'DE' if i % 2 else 'FE'},{a:.4f}" for i, a in
                       enumerate(SIGNAL.ravel()))  # fmt: skip
     with pytest.raises(ValueError, match=r"row to row \(FE, DE\).*columns or files of their own"):
         read("t,place,acc\n" + mixed)
-
-
-def test_two_columns_of_times_that_differ_are_asked_about() -> None:
-    made = read(rows(TIME, SIGNAL[:, 0], 2.0 * TIME, SIGNAL[:, 1], heading="t1 [s],a,t2 [s],b"))
-    assert not made.contents.sample_rate.stated
-    assert "“t2 [s]” says 4000 Hz" in made.contents.sample_rate.reason
 
 
 def test_a_column_with_one_number_is_a_fact() -> None:
@@ -791,20 +590,6 @@ def test_a_column_with_one_number_is_a_fact() -> None:
     assert ramp.shaft_speed is None  # thirty is how many, not how fast
 
 
-@pytest.mark.parametrize(
-    ("heading", "found"),
-    [
-        ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
-        ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
-        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}),
-    ],
-)  # fmt: skip
-def test_directions_and_places_in_headings(heading: str, found: dict) -> None:
-    contents = read(rows(TIME, SIGNAL, heading=heading)).contents
-    assert contents.choice.columns == found
-    assert not contents.unit.stated  # V is no volt there
-
-
 @pytest.mark.parametrize("words", ["Sensitivity: 100 mV/g", "Sensor: 100 mV/g, S/N 1234"])
 def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
     volts = f"# {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
@@ -813,31 +598,6 @@ def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
     two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
     with pytest.raises(ValueError, match="sensitivity"):
         read_recording("a.csv", two)
-
-
-@pytest.mark.parametrize(
-    ("line", "designation"),
-    [
-        ("# Bearing: 6205", "6205"), ("Bearing:;SKF 6205-2RS C3;", "SKF 6205-2RS C3"),
-        ("# speed: 1770 rpm, bearing 7208 BECBP", "7208 BECBP"),
-        ("# Lager NJ 2210", "NJ 2210"), ("# bearing load 1200 N", None),
-        ("# Bearing: 6205, bearing: 6203", None), ("# bearing temperature: 620 K", None),
-    ],
-)  # fmt: skip
-def test_the_bearing_that_a_file_names(line: str, designation: str | None) -> None:
-    found = read(f"{line}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]"))
-    named = found.contents.designation
-    assert (named and named.value) == designation
-
-
-@pytest.mark.parametrize("words", ["1750-1790 rpm", "1750 - 1790 rpm", "1750 to 1790 1/min"])
-def test_a_range_of_speeds_is_a_guess_at_its_middle(words: str) -> None:
-    found = read(f"# speed: {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]"))
-    speed = found.contents.shaft_speed
-    assert speed.value == pytest.approx(1770.0 * math.pi / 30.0)
-    assert speed.taken
-    assert not speed.stated
-    assert "middle of 1750 to 1790" in speed.reason
 
 
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
@@ -850,18 +610,6 @@ def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
         check_one_signal(read(content))
     made = read(matlab(acc=SIGNAL.T[:, None, :], fs=RATE), "a.mat")
     np.testing.assert_array_equal(made.columns, SIGNAL)
-
-
-def test_what_hdf5_says_of_times_and_places() -> None:
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file["time"], file["ch1"], file["ch2"] = 1e3 * TIME, SIGNAL[:, 0], SIGNAL[:, 1]
-        for name, word, said in (("time", "units", "ms"), ("ch1", "location", "DE"),
-                                 ("ch2", "location", "FE")):  # fmt: skip
-            file[name].attrs[word] = said
-    contents = read(buffer.getvalue(), "a.h5").contents
-    assert (contents.sample_rate.value, contents.sample_rate.stated) == (pytest.approx(RATE), True)
-    assert (contents.choice.options, contents.unit.stated) == ((0, 1), False)
 
 
 # -- said by hand ----------------------------------------------------------------------------------
@@ -995,7 +743,178 @@ def test_files_that_do_not_belong_together_are_not_joined(monkeypatch) -> None:
             join_tables(other)
 
 
-def test_a_file_that_is_too_large_says_how_to_go_on(monkeypatch) -> None:
-    monkeypatch.setattr(table, "MOST_BYTES", 2**20)
-    with pytest.raises(ValueError, match=r"at most 1 MB: split it by rows .* join"):
-        read(bytes(2**21))
+# -- what is said, a file a line -------------------------------------------------------------------
+
+#: a fact of a table by its name here; words are looked for in what is said
+FACTS: dict[str, Callable[[Any], Any]] = {
+    "names": lambda made: made.names,
+    "roles": lambda made: [column.role for column in made.contents.columns],
+    "units": lambda made: [column.unit for column in made.contents.columns],
+    "columns": lambda made: made.contents.choice.columns,
+    "options": lambda made: made.contents.choice.options,
+    "question": lambda made: made.contents.choice.question,
+    "rate": lambda made: stated(made.contents.sample_rate),
+    "likely": lambda made: stated(made.contents.sample_rate, False),
+    "no rate": lambda made: made.contents.sample_rate,
+    "reason": lambda made: made.contents.sample_rate.reason,
+    "trouble": lambda made: made.contents.sampling.trouble,
+    "unit": lambda made: stated(made.contents.unit),
+    "rpm": lambda made: in_rpm(made.contents.shaft_speed),
+    "guessed": lambda made: in_rpm(made.contents.shaft_speed, False),
+    "why": lambda made: made.contents.shaft_speed.reason,
+    "bearing": lambda made: stated(made.contents.designation),
+}
+
+
+def stated(fact: Any, sure: bool = True) -> Any:
+    """The value of a fact that the file states, or of one that is only likely."""
+    return fact.value if fact is not None and fact.stated == sure else None
+
+
+def in_rpm(fact: Any, sure: bool = True) -> float | None:
+    speed = stated(fact, sure)
+    return speed if speed is None else round(speed * 30.0 / math.pi, 1)
+
+
+def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
+    """Data sets, each with what stands beside it."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, (data, beside) in sets.items():
+            made = file.create_dataset(name.replace("__", "/"), data=data)
+            made.attrs.update(beside)
+    return buffer.getvalue()
+
+
+def one(remark: str) -> bytes:
+    """A remark above one signal."""
+    return remark.encode() + b"\n" + rows(SIGNAL[:, 0])
+
+
+def timed(remark: str) -> bytes:
+    """A remark above times and a signal."""
+    return f"{remark}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]")
+
+
+def two(heading: str) -> bytes:
+    """Times and two signals under a heading."""
+    return rows(TIME, SIGNAL, heading=heading)
+
+
+LABVIEW = "LabVIEW Measurement\t\n{}Channels\t2\t\nSamples\t2000\t2000\t\nDelta_X\t{}\t{}\t\n"
+LABVIEW += "Y_Unit_Label\tg\t{}\t\n***End_of_Header***\t\t\t\n"
+VOLTS = LABVIEW.format("", "1.25E-4", "1.25E-4", "V").encode()
+COMMAS = LABVIEW.format("Time\t10:00:00,45\n***End_of_Header***\t\n\n", "1,25E-4", "1,25E-4", "g")
+COMMAS += "X_Value\tDE\tNDE\tComment\n"
+BESIDE = ["Sample Interval,1.25e-04,", "Source,CH1,", "Vertical Units,V,", *[",,"] * (N - 3)]
+DAYS = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
+    pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
+LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
+STEP = {"wf_increment": 1.0 / RATE}
+
+FILES: list[tuple[bytes | str, dict[str, Any]]] = [
+    # remarks above one column are no names of it
+    (one("# fs = 12000 Hz"), {"rate": 12e3, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (one("# fs=12000,rpm=1797"), {"rate": 12e3, "rpm": 1797.0}),
+    (one("# sampling rate 25.6 kHz, speed 1500 rpm"), {"rate": 25.6e3, "rpm": 1500.0}),
+    (one("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz"), {"rate": 12e3, "rpm": 1797.0}),
+    (one("rpm = 1797"), {"no rate": None, "rpm": 1797.0}),
+    (one("data_rate = 4000.0 Hz"), {"rate": 4e3}),
+    (one("# unit: g\n# fs [kHz] = 12"), {"rate": 12e3, "unit": "g"}),
+    (one("# acc [g]\n# fs = 12000 Hz"), {"rate": 12e3, "unit": "g"}),
+    (one("# load = 500 N"), {"no rate": None, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (one("# duration = 0.5 s"), {"no rate": None, "columns": {"y": 0}}),
+    (one("# time resolution 1.25e-4 s"), {"rate": RATE}),
+    (one("# Δt = 125 µs"), {"rate": RATE}),
+    (one("# sample_rate_Hz 12000"), {"rate": 12e3}),
+    (one("Fs [Hz];12000"), {"rate": 12e3}),
+    (one("# level 1797 today"), {"no rate": None, "rpm": None, "columns": {"y": 0}}),
+    (one("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
+    (one("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
+    (one("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
+    # rates that are not sure, or disagree
+    (one("# fs = 12.000 Hz"), {"likely": 12e3}),
+    (one("# fs: 64.0 Hz"), {"likely": 64.0}),
+    (one("# 12 kHz"), {"likely": 12e3}),
+    (one("# recorded at 12 kHz"), {"likely": 12e3}),
+    (timed("# fs = 12000 Hz"), {"likely": RATE, "reason": "“fs” in the file is 12000 Hz"}),
+    (rows(TIME, SIGNAL[:, 0], 2.0 * TIME, SIGNAL[:, 1], heading="t1 [s],a,t2 [s],b"),
+     {"rate": None, "reason": "“t2 [s]” says 4000 Hz"}),
+    ("Time,acc\n" + "\n".join(DAYS), {"likely": RATE}),
+    ("Date,RMS [mm/s]\n" + "\n".join(QUARTERS), {"no rate": None, "trouble": "a trend"}),
+    # speeds, of the shaft and of nothing
+    (one("rotational speed 185.6 rad/s"), {"no rate": None, "rpm": 1772.3}),
+    (one("Running speed: 1772 CPM"), {"no rate": None, "rpm": 1772.0}),
+    (one("Nominal speed 1800 rpm"), {"rpm": None, "guessed": None}),
+    (one("# Fmax: 20000 Hz"), {"no rate": None, "rpm": None}),
+    *((timed(f"# speed: {words}"), {"guessed": 1770.0, "why": "middle of 1750 to 1790"})
+      for words in ("1750-1790 rpm", "1750 - 1790 rpm", "1750 to 1790 1/min")),
+    (rows(TIME, SIGNAL[:, 0], np.full(N, 1480.0), heading="Zeit,Beschl,Drehzahl\ns,g,1/min"),
+     {"names": ("Zeit [s]", "Beschl [g]", "Drehzahl [1/min]"), "rpm": 1480.0}),
+    # bearings
+    *((timed(line), {"bearing": name}) for line, name in (
+        ("# Bearing: 6205", "6205"), ("Bearing:;SKF 6205-2RS C3;", "SKF 6205-2RS C3"),
+        ("# speed: 1770 rpm, bearing 7208 BECBP", "7208 BECBP"), ("# Lager NJ 2210", "NJ 2210"),
+        ("# bearing load 1200 N", None), ("# Bearing: 6205, bearing: 6203", None),
+        ("# bearing temperature: 620 K", None))),
+    # a remark above two columns names none of them
+    *((remark.encode() + b"\n" + rows(SIGNAL, heading="x,y"), {"rate": RATE, "columns": XY})
+      for remark in REMARKS),
+    *((remark.encode() + b"\n" + rows(SIGNAL),
+       {"names": ("column 1", "column 2"), "question": "Which is at this bearing?"})
+      for remark in REMARKS),
+    # directions and places in headings; V is no volt there
+    *((two(heading), {"columns": found, "unit": None}) for heading, found in (
+        ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
+        ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
+        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}))),
+    # rows of units, and more headings than columns
+    *((rows(TIME, SIGNAL, heading=heading, delimiter=";"),
+       {"names": names, "rate": RATE, "question": "?"})
+      for heading, names in (
+          ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
+          ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
+          ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
+          ("time;acc de;acc nde;Inspector;Shift", ("time", "acc de", "acc nde")),
+          ("time;acc;acc", ("time", "acc, column 2", "acc, column 3")),
+          ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")))),  # which is missing?
+    # spectra are no signals over time, and the speed of a converter is not the shaft's
+    (rows(LINES, SIGNAL[:, 0], heading="Frequency [Hz],Amplitude [g]"),
+     {"question": "spectrum", "columns": {}, "rpm": None, "guessed": None}),
+    (rows(LINES, SIGNAL[:, 0], heading="f,Amplitude [g]"), {"question": "spectrum", "columns": {}}),
+    (rows(FIFTY, TIME, SIGNAL[:, 0], heading="Frequency [Hz],t1 [s],acc [g]"),
+     {"columns": {"y": 2}, "rpm": None, "guessed": None}),
+    # an oscilloscope writes its settings beside the numbers
+    ("\n".join(f"{a},{t - 0.1:.6f},{v:.4f}," for a, t, v in zip(
+        BESIDE, TIME, SIGNAL[:, 0], strict=True)),
+     {"roles": ["time", "signal"], "rate": RATE, "unit": "V"}),
+    # LabVIEW says step and units in its head; a first column may be empty, with decimal commas
+    (VOLTS + rows(SIGNAL, heading="DE\tNDE\tComment", delimiter="\t"),
+     {"units": ["g", "V"], "rate": RATE, "question": "several places"}),
+    (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
+    (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
+     {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
+    # HDF5, beside each data set
+    (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
+          rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
+     {"units": ["g", "V"], "rate": RATE, "options": (0, 1)}),
+    (hdf5(time=(1e3 * TIME, {"units": "ms"}), ch1=(SIGNAL[:, 0], {"location": "DE"}),
+          ch2=(SIGNAL[:, 1], {"location": "FE"})), {"rate": RATE, "options": (0, 1), "unit": None}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("content", "said"), FILES)
+def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
+    made = read(content, "a.h5" if content[:4] == b"\x89HDF" else "a.csv")
+    missing = N - len(made.columns)  # the rows in which an oscilloscope has its settings
+    assert missing in (0, 3)
+    assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
+    for name, expected in said.items():
+        found = FACTS[name](made)
+        if name in ("question", "reason", "trouble", "why"):
+            assert expected in found, name
+        elif isinstance(expected, float):
+            assert found == pytest.approx(expected, rel=1e-4), name
+        else:
+            assert found == expected, name

@@ -188,20 +188,6 @@ def test_a_state_at_hand_gives_the_same() -> None:
         limits(scene, equilibrium(scene.healthy()))
 
 
-@pytest.mark.parametrize(
-    ("choices", "said"),
-    [
-        ({"shoulder_height": 0.0}, "shoulder_height is 0; "),
-        ({"shoulder_height": 0.6}, "shoulder_height is 0.6; "),
-        ({"step_rate": 0.0}, "step_rate is 0; "),
-        ({"step_rate": math.nan}, "step_rate is nan; "),
-    ],
-)
-def test_impossible_choices_are_refused(choices: dict[str, float], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
-        limits(HEALTHY_6205, **choices)  # type: ignore[arg-type]
-
-
 def test_limits_in_a_line_say_what_is_unchecked_and_why() -> None:
     def one(value: float, why: str = "") -> Limit:
         return unknown("film", 1.0, "", why) if why else upper_limit("film", value, 1.0, "", *"abc")

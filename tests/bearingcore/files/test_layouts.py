@@ -688,7 +688,9 @@ FACTS: dict[str, Callable[[Any], Any]] = {
     "names": lambda made: made.names,
     "roles": lambda made: [column.role for column in made.contents.columns],
     "units": lambda made: [column.unit for column in made.contents.columns],
+    "places": lambda made: [column.place for column in made.contents.columns],
     "columns": lambda made: made.contents.choice.columns,
+    "choice": lambda made: made.contents.choice.reason,
     "options": lambda made: made.contents.choice.options,
     "question": lambda made: made.contents.choice.question,
     "rate": lambda made: stated(made.contents.sample_rate),
@@ -750,6 +752,7 @@ QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
     pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
 LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
 STEP = {"wf_increment": 1.0 / RATE}
+CWRU = {f"X097_{side}_time": SIGNAL[:, :1] for side in ("DE", "FE")}
 
 FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     # remarks above one column are no names of it
@@ -836,6 +839,24 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
     (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
      {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
+    # collections: how the number of a Case Western file says it was sampled, and a file's name;
+    # tables of the IMS without headings or extension
+    (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
+    (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
+                      "columns": {"y": 0}, "choice": "name says drive end"}),
+    # a displacement or a temperature is no signal
+    (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
+     {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),
+    # two signals are two directions only where something says so
+    *((two(f"time,{names}"), {"file": file, "columns": {}, "options": (1, 2)})
+      for file in ("a.csv", "pump_de_nde_fe.csv")
+      for names in ("Accel DE,Accel NDE", "DE,FE", "Acc 1,Acc 2", "inboard,outboard",
+                    "drive end,opposite drive end", "ch DE,ch 2")),
+    *((two(f"time,{names}"), {"columns": {"x": 1, "y": 2}})
+      for names in ("acc x,acc y", "horizontal,vertical")),
+    *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
+       {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
+      for count in (2, 3)),
     # HDF5, beside each data set
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
@@ -847,13 +868,14 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("content", "said"), FILES)
 def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
-    made = read(content, "a.h5" if content[:4] == b"\x89HDF" else "a.csv")
+    said = {"file": "a.csv", **said}
+    made = read(content, said.pop("file"))
     missing = N - len(made.columns)  # the rows in which an oscilloscope has its settings
     assert missing in (0, 3)
     assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
     for name, expected in said.items():
         found = FACTS[name](made)
-        if name in ("question", "reason", "trouble", "why"):
+        if name in ("question", "choice", "reason", "trouble", "why"):
             assert expected in found, name
         elif isinstance(expected, float):
             assert found == pytest.approx(expected, rel=1e-4), name

@@ -186,16 +186,6 @@ class Motion:
         full[:, : place.shape[1]] = place
         return full
 
-    @cached_property
-    def ball_load_inner(self) -> Array:
-        """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
-        return self.race_loads()[0]
-
-    @cached_property
-    def ball_load_outer(self) -> Array:
-        """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
-        return self.race_loads()[1]
-
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
@@ -212,7 +202,10 @@ class Motion:
         return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
-        """The same motion with the loads of its balls."""
+        """The same motion with the loads of its balls; NaN of one without a step."""
+        if not self.right_hand_side_calls:
+            nothing = np.full((len(self.time), packed.contacts.angle.size), math.nan)
+            return replace(self, ball_load=nothing)
         return replace(self, ball_load=self._loads(packed, 0, None)[1])
 
     def _loads(
@@ -351,34 +344,44 @@ def simulate(
             f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
             f"of {highest:.0f} Hz",
         )
-    rest = equilibrium_of(packed, [0.0])
-    with_mass = scene.balls == WITH_MASS
-    if step_rate is None:
-        step_rate = step_rate_of(packed, sample_rate)
-        if not with_mass and scene.contact_law != CONTACT_LAWS[0]:
-
-            def at(rate: float) -> Motion:
-                return simulate(
-                    scene, duration, sample_rate, ball_loads=ball_loads, step_rate=rate,
-                    most_steps=most_steps,
-                )  # fmt: skip
-
-            a_sample = step_rate / sample_rate
-            half = sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * step_rate
-            return _with_enough_steps(at, half, step_rate)
-    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
-    if with_mass and a_step > 1:
-        raise checks.refuse(
-            "step_rate",
-            step_rate,
-            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
-        )
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
             "duration",
             duration,
             f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
+        )
+    rest = equilibrium_of(packed, [0.0])
+
+    def at(rate: float) -> Motion:
+        return _marched(packed, rest, duration, sample_rate, rate, most_steps)
+
+    if step_rate is not None:
+        motion = at(step_rate)
+    else:
+        rate = step_rate_of(packed, sample_rate)
+        lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
+        motion = _with_enough_steps(at, rate, sample_rate) if lets_go else at(rate)
+    return motion.with_ball_loads(packed) if ball_loads else motion
+
+
+def _marched(
+    packed: PackedMotion,
+    rest: Equilibrium,
+    duration: float,
+    sample_rate: float,
+    step_rate: float,
+    most_steps: int,
+) -> Motion:
+    """Motion at one step rate [Hz], without loads of its balls; `rest`: state at cage angle 0."""
+    scene, dofs = packed.scene, packed.dofs
+    with_mass = scene.balls == WITH_MASS
+    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+    if with_mass and a_step > 1:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
     n = max(round(duration * sample_rate), 1)
     # balls with mass take many steps a sample, of which accelerations do not need every one
@@ -409,8 +412,7 @@ def simulate(
             )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
         return Motion(
-            scene, dofs, sample_rate, step_rate, status, 0, time,
-            np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
+            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing,
             nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
@@ -437,7 +439,7 @@ def simulate(
         both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
         filtered, place = np.stack(both), place[:n]
         history = history[::kept][:n].copy()
-    motion = Motion(
+    return Motion(
         scene=scene,
         dofs=dofs,
         sample_rate=sample_rate,
@@ -451,15 +453,15 @@ def simulate(
         detail=detail,
         filtered=filtered,
     )
-    return motion.with_ball_loads(packed) if ball_loads else motion
 
 
-def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: float) -> Motion:
+def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
     """Motion of contacts that let go: steps are doubled until half as many make no difference.
 
     Where they touch and leave their load jumps, so that errors fall with the step itself.
     """
-    before = _level(at(coarser))
+    a_sample = rate / sample_rate
+    before = _level(at(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
     for _ in range(MOST_DOUBLINGS + 1):
         motion = at(rate)
         level = _level(motion)
@@ -473,7 +475,6 @@ def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: floa
         detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
         "the vibration by more than a tenth",
         history=np.full_like(motion.history, math.nan),
-        ball_load=None if motion.ball_load is None else np.full_like(motion.ball_load, math.nan),
     )
 
 

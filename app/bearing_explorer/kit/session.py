@@ -27,7 +27,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.widgets.form import stack
-from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
+from bearing_explorer.kit.widgets.limits import LimitsStrip, judged, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
 from bearingcore.statics import summary
 
@@ -394,9 +394,10 @@ class Session:
             for drawing in picture.drawings:
                 drawing.view.put_head(picture.content)
                 drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
-            self.status.put(line={**picture.status, "tab": self.tabs.active})
             if picture.limits is not None:
                 self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
+            line = judged(picture.status, self.limits.rows)
+            self.status.put(line={**line, "tab": self.tabs.active})
 
         await self._send(change)
 

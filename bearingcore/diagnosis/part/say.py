@@ -23,8 +23,16 @@ from bearingcore.diagnosis.part.status import DiagnosisStatus
 def dropout_message(share: float) -> str:
     """Status where a `share` of the samples dropped out, too many to analyse the rest."""
     return (
-        f"{percent(share, 2)} of the signal is the same number throughout, as if the "
-        "sensor had dropped out."
+        f"{percent(share, 2)} of the signal are gaps, or too near to one: held numbers, straight "
+        "lines or repeats, as where a sensor dropped out."
+    )
+
+
+def left_out(share: float) -> str:
+    """A `share` of the samples dropped out, and the rest was analysed."""
+    return (
+        f" {percent(share, 2)} of the samples were not measured but held, drawn as a straight line "
+        "or repeated; they do not count."
     )
 
 

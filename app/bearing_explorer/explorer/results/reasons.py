@@ -250,18 +250,27 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     )
 
 
+STIFF_WHERE_HELD = "Directions that are held have a stiffness as well."
+"""Why terms of directions that cannot move have values: they are the bearing's."""
+
+
 def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     """Directions in which the rings are held in a scene, and why; empty where all are free."""
     held = [dof for dof in DOF_NAMES if dof not in scene.active_dofs]
     if not held:
         return ""
+    words = _why_held(scene, held, briefly)
+    return words if briefly else f"{words} {STIFF_WHERE_HELD}"
+
+
+def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
     if scene.holds_tilt_unasked:
         return f"{names} are held, as by the shaft's other bearing."
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:
-        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)}."
+        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)} (in all fifteen)."
     kind = scene.bearing.kind
     why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
     if scene.active_dofs != kind.needed_directions:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Bearing
 
@@ -45,14 +47,21 @@ class VibrationInTime(PassageView):
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
     about = (
-        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
-        "or leave the defect; thin: their static loads."
+        "Above: acceleration of the housing, blue x, orange y; of compared scenes x is thin. "
+        "Below: load of the balls that enter or leave the defect; thin: their static loads."
     )
     needs = frozenset({"excerpt"})
     prefix = "vibration"
 
+    def build(self, packed: PackedSource) -> Any:
+        upper, lower = super().build(packed)
+        upper.tags = [compared_curves.THIN]
+        return [upper, lower]
+
     def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
-        compared = compared_curves.curves("vibration_motion", "time", *SHOWN, width=1.1)
+        compared = compared_curves.curves(
+            "vibration_motion", "time", *SHOWN[::-1], width=1.4, thin="x"
+        )
         return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:

@@ -1,6 +1,5 @@
 """Every preset: what its note says is so, and it can be computed through and through."""
 
-
 import numpy as np
 import pytest
 

@@ -544,6 +544,10 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("The inner race is damaged"))
+    visitor.steady()
+    before = visitor.figures()
+    visitor.choose("Zoom to", "inner race, 2×")
+    visitor.wait(lambda: visitor.figures() != before)
     visitor.open("?v=1&preset=6205&extent_deg=0&tab=diagnosis")
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("No damage seen"))

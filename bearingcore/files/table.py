@@ -344,8 +344,8 @@ def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet and Feather; also a zip or gzip of one of them. What it is shows in its first
-    bytes. It is read in a process of its own with limits of time and memory: see
+    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. What it is
+    shows in its first bytes. It is read in a process of its own with limits of time and memory: see
     `bearingcore.files.child`.
 
     Parameters

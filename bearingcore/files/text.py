@@ -49,7 +49,7 @@ SAMPLE = 30
 
 READABLE = (
     "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
-    "Parquet, or a zip of one of these; export it as CSV where it is none of them"
+    "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
 
@@ -208,10 +208,10 @@ def are_sensors(names: NDArray[Any]) -> bool:
     blocks of one length.
     """
     found, counts = np.unique(names, return_counts=True)
-    if not 1 < len(found) <= MOST_SIGNALS_MIXED or counts.min() < FEWEST_SAMPLES:
+    if not 1 < len(found) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
         return False
     changes = float((names[1:] != names[:-1]).mean())
-    return changes > MOST_CHANGES or counts.min() == counts.max()
+    return changes > MOST_CHANGES or counts.min() == counts.max() >= FEWEST_SAMPLES
 
 
 def _side_by_side(

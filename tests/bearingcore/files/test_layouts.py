@@ -632,6 +632,7 @@ def matlab_table() -> bytes:
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
         (b"Octave-1-L\x00", "save -v7"),
         (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
+        (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
     ],
@@ -647,9 +648,22 @@ def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
         (b"TDSm", "npTDMS"),
         (b"PAR1", "pyarrow"),
         (b"    -1\n    58\n", "pyuff"),
+        (zipped(**{"xl/workbook.xml": b""}), "openpyxl"),
     ):
         with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
-            read(mark + bytes(100))
+            read(mark if package == "openpyxl" else mark + bytes(100))
+
+
+def test_the_longest_sheet_of_excel_is_read() -> None:
+    pytest.importorskip("openpyxl")
+    made = io.BytesIO()
+    with pd.ExcelWriter(made, engine="openpyxl") as book:
+        pd.DataFrame({"Machine": ["pump"], "rpm": [1490]}).to_excel(book, sheet_name="Info")
+        FRAME[:500].to_excel(book, sheet_name="Data", index=False, startrow=2)
+    table = read(made.getvalue(), "a.xlsx")
+    np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
+    assert table.contents.sample_rate.value == pytest.approx(RATE)
+    assert table.notes == ("Read is its longest sheet, “Data”.",)
 
 
 # -- habits that were read wrongly ----------------------------------------------------------------

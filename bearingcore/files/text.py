@@ -123,7 +123,7 @@ def read_text(
     found = _numbers(body, style, most_rows)
     if found is None:
         above = content.count(b"\n", 0, begin) + 1
-        body, more, said = _mended(name, body, style, above)
+        body, more, said = _mended(name, body, style, above, remarks)
         notes += more
         found = _numbers(body, style, most_rows)
         if found is None:
@@ -846,7 +846,7 @@ def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
 
 
 def _mended(
-    name: str, body: bytes, style: _Style, above: int
+    name: str, body: bytes, style: _Style, above: int, remarks: Sequence[str]
 ) -> tuple[bytes, list[str], list[str]]:
     """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
@@ -880,6 +880,8 @@ def _mended(
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
         lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
         lines[index] += b"\n"
+    again = {line[:40] for line in remarks}  # headings of a second recording are no news
+    wrong = [one for one in wrong if one[1] not in again]
     if not wrong:
         return b"".join(lines), [], []
     index, text, _ = wrong[0]

@@ -15,7 +15,6 @@ from bearingcore.bearings.designation import series_words as series_words
 from bearingcore.bearings.drawing import BALL_MATERIAL as BALL_MATERIAL
 from bearingcore.bearings.drawing import OPTIONAL_FIELDS as OPTIONAL_FIELDS
 from bearingcore.bearings.drawing import center_distance as center_distance
-from bearingcore.bearings.drawing import faults as faults
 from bearingcore.bearings.frequencies import FREQUENCIES as FREQUENCIES
 from bearingcore.bearings.frequencies import bearing_of_frequencies as bearing_of_frequencies
 from bearingcore.bearings.kinds import KINDS as KINDS

@@ -134,8 +134,7 @@ class Bearing(InRows):
         checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
         least = -self.ball_radius  # more than any contact could be compressed
         checks.keep_number(self, "radial_clearance", at_least=least, unit="m")
-        for fault in drawing.faults(vars(self)):
-            raise fault
+        drawing.check_fit(vars(self))
         checks.keep(self, **drawing.checked(vars(self)))
         rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
         checks.keep(self, rows=tuple(rows))

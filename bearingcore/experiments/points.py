@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-import re
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from bearingcore.common.numbers import scientific
-from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
-from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 T = TypeVar("T")
-
-ShowExperiment = Callable[["Experiment"], object]
-"""Called with what there is of an experiment, after each point."""
 
 RIGHT = "right"
 
@@ -107,7 +101,6 @@ class Reference:
         return f"{text}. {self.note}" if self.note else text
 
 
-@shown_as_table
 @dataclass(frozen=True)
 class Experiment:
     """Points of several methods on one problem.
@@ -126,8 +119,6 @@ class Experiment:
         in the order measured.
     left_out
         which methods are not among them, and why.
-    completed
-        False where it was cancelled.
     """
 
     name: str
@@ -136,7 +127,6 @@ class Experiment:
     references: Mapping[str, Reference]
     points: tuple[Point, ...]
     left_out: str = ""
-    completed: bool = True
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -191,83 +181,8 @@ class Experiment:
         """Unit of an error: "dB", or "1" for a ratio."""
         return "dB" if "[dB]" in self.errors[error] else "1"
 
-    @staticmethod
-    def _unbounded(point: Point) -> str:
-        """End of the status where an error is infinite."""
-        endless = not point.failed and math.inf in point.errors.values()
-        return "; without vibration, so no error in dB" if endless else ""
-
-    def table(self) -> ResultTable:
-        """A row a point: method, setting, errors, cost and status.
-
-        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
-        """
-        points = self.points
-        return table_of(
-            ("method", "", "method"),
-            ("setting", "", "setting"),
-            *(
-                (
-                    re.sub(r"\W+", "_", name).lower() + "_error",
-                    self.unit(name),
-                    [e if math.isfinite(e := p.errors.get(name, nan)) else nan for p in points],
-                    meaning,
-                )
-                for name, meaning in self.errors.items()
-            ),
-            ("time", "s", "seconds"),
-            ("evaluations", "", "evaluations", self.evaluations),
-            ("status", "", [p.status + self._unbounded(p) for p in points]),
-            ("reference", "", "against"),
-            of=points,
-        )
-
 
 nan = math.nan
-
-
-@dataclass(frozen=True)
-class Watch:
-    """Callables by which an experiment reports, and by which it can be ended.
-
-    Attributes
-    ----------
-    progress
-        called with the part done, 0 to 1, and what is being done.
-    cancelled
-        called before each point; True ends with the points that are there. Called within
-        references too, where True raises CancelledError.
-    shown
-        called with the experiment as far as it is, after each point.
-    """
-
-    progress: Progress | None = None
-    cancelled: Cancelled | None = None
-    shown: ShowExperiment | None = None
-
-    def show(self, experiment: Experiment) -> None:
-        """Show what there is."""
-        if self.shown is not None:
-            self.shown(experiment)
-
-    def within(self, begin: float, end: float) -> Callable[[float], object]:
-        """Progress of references, which are the part from `begin` to `end` of the work.
-
-        What it returns raises CancelledError where the work is cancelled: an experiment without
-        its references has no points.
-        """
-
-        def report(part: float) -> None:
-            if self.cancelled is not None and self.cancelled():
-                raise CancelledError
-            if self.progress is not None:
-                self.progress(begin + (end - begin) * part, "references")
-
-        return report
-
-
-NOT_WATCHED = Watch()
-"""Neither reports nor ends early."""
 
 
 def failed(
@@ -275,27 +190,6 @@ def failed(
 ) -> Point:
     """A point that says that a method did not get there."""
     return Point(method, setting, value, {}, seconds, evaluations, f"failed: {why}")
-
-
-def measured_in_turn(
-    experiment: Experiment,
-    tasks: Sequence[T],
-    name: Callable[[T], str],
-    measure: Callable[[T], Point],
-    watch: Watch,
-    *,
-    begin: float,
-) -> Experiment:
-    """The experiment with a point for each task, shown after each; ends early when cancelled.
-
-    `begin` is the part of the work that its references were.
-    """
-    for task in in_turn(tasks, name, watch.progress, watch.cancelled, begin=begin):
-        experiment = replace(
-            experiment, points=(*experiment.points, measure(task)), completed=False
-        )
-        watch.show(experiment)
-    return replace(experiment, completed=len(experiment.points) == len(tasks))
 
 
 def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> tuple[T, float]:

@@ -91,24 +91,17 @@ def motion_errors(
 
 
 def motion_reference(
-    problem: MotionProblem,
-    duration: float,
-    sample_rate: float,
-    band: float,
-    report: Callable[[float], object] = lambda part: None,
+    problem: MotionProblem, duration: float, sample_rate: float, band: float
 ) -> MotionReference:
-    """The motion by all families at a tolerance of 1e-13, and how far they are apart.
-
-    `report` is called with the part done, 0 to 1.
-    """
+    """The motion by all families at a tolerance of 1e-13, and how far they are apart."""
     time = instants(sample_rate, duration)
     families = FAMILIES if HAS_CVODE else FAMILIES[:2]
 
-    def history(k: int, states: Callable[[Rates, Array], Array]) -> Array:
-        rates = Rates(problem, lambda t: report((k + t / duration) / len(families)))
+    def history(states: Callable[[Rates, Array], Array]) -> Array:
+        rates = Rates(problem)
         return rates.history(time, states(rates, time))
 
-    histories = [history(k, states) for k, (_, states) in enumerate(families)]
+    histories = [history(states) for _, states in families]
     first = histories[0]
     apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
     agreement = apart[0]

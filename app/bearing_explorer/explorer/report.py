@@ -30,9 +30,10 @@ from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text, sentence_html
-from bearing_explorer.kit.widgets.limits import rows_of
+from bearing_explorer.kit.widgets.limits import judged, rows_of
 from bearingcore import Scene
 from bearingcore.fields import Field
+from bearingcore.scene import DOF_SYMBOLS
 
 log = logging.getLogger(__name__)
 
@@ -80,8 +81,8 @@ def report(
 def page(results: Results, about: About, parts: Iterable[str]) -> str:
     """The whole page with its `parts`, each a section of HTML."""
     scene = results.scene
-    said = results.status(0.0)
     limits = rows_of(results.limits)
+    said = judged(results.status(0.0), limits)
     crossed = [row for row in limits if row["state"] == "crossed"]
     title = about.title.strip() or "Bearing report"
     body = [
@@ -153,7 +154,7 @@ def _changes(scene: Scene, about: About) -> str:
         f"<p>Bearing: {html_text(about.bearing)}. {html_text(about.note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
         + f"<p>{html_text(''.join(chosen))}Directions that can move: "
-        f"{html_text(', '.join(scene.active_dofs))}.</p>"
+        f"{html_text(', '.join(DOF_SYMBOLS[dof] for dof in scene.active_dofs))}.</p>"
     )
 
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form, with_role
-from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
+from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
@@ -33,19 +33,14 @@ from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
 
-from bearingcore import Scene, catalogue, presets, read_table
+from bearingcore import Scene, catalogue, presets
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files are read in this process; that of their own has its tests with the core."""
-    read_in_this_process(monkeypatch)
 
 
 def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
@@ -209,18 +204,6 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
     assert any(told in sentence for sentence in made.state.refused.values())
 
 
-@pytest.mark.parametrize(
-    ("text", "hertz"),
-    [("25,5 Hz", 25.5), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
-)
-def test_shaft_speeds_are_read_with_their_units(text, hertz):
-    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
-    asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
-    assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-    with pytest.raises(FormError, match="Which column is the signal"):
-        read_form(table, {**guess(table), "columns": "time;;"}, Machine())
-
-
 def test_more_numbers_than_a_session_keeps_are_left_out():
     rows = MOST_NUMBERS // 2 + 1000
     content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
@@ -263,25 +246,13 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
     )
     assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
+    assert made.state.columns.places == ["drive end", "fan end", "base"]
     answer(made, sample_rate="48000", unit="m/s²", bearing="scene")
     assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
     answer(made, columns="y;x;")  # the hand wins, and a note says what speaks against it
     assert "two places (drive end and fan end)" in made.state.remarks
-
-
-def test_sensors_at_several_places_are_asked_about_and_never_mixed():
-    sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
-    made = brought("12k_105.mat", mat_of(**sides))
-    assert made.measured is None
-    assert set(made.state.open) == {"columns", "unit"}
-    assert "several places (base, drive end, fan end)" in made.state.reasons["columns"]
-    assert made.state.columns.places == ["drive end", "fan end", "base"]
-    answer(made, columns="y;;")
-    assert made.measured is not None
-    assert made.measured.recording.sample_rate == 12_000.0
-    assert "12 kHz?" in made.state.line
 
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():

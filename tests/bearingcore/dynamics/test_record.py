@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bearingcore import diagnose, presets, scene_of, simulated_record
+from bearingcore import diagnose, scene_of, simulated_record
 from bearingcore.dynamics.record import PathEffects
 from bearingcore.sweep import sweep
 from bearingcore.sweep.outputs import OUTPUTS, Settings, chosen_outputs
@@ -79,8 +79,3 @@ def test_a_sweep_keeps_records_with_their_times(tmp_path: Path) -> None:
 def test_records_are_no_part_of_all_outputs_unless_they_are_asked_for() -> None:
     assert not any(OUTPUTS[name].per_sample for name in chosen_outputs("*"))
     assert chosen_outputs("record_*") == ("record_x", "record_y")
-
-
-def test_a_motion_that_cannot_be_is_refused_in_a_sentence() -> None:
-    with pytest.raises(ValueError, match="shaft_speed is 0"):
-        simulated_record(presets["6205"].replace(shaft_speed=0.0))

@@ -383,8 +383,7 @@ class Results(Content):
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
-        how = self.settings.marching
-        return self.moving and how.step_rate is None and motions.is_costly(scene, how)
+        return self.moving and motions.is_costly(scene, self.settings.marching)
 
     def _marching_of(self, *scenes: Scene) -> Marching:
         """Settings of motions: coarse where one of them takes too long while a slider moves."""
@@ -479,12 +478,10 @@ class Results(Content):
         The same whatever is on screen: looked at over cage angles of its own, and with the motion
         that any view has had simulated.
         """
-        step_rate = self.settings.step_rate
-        if step_rate is None:
-            try:
-                step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
-            except ValueError:
-                step_rate = None  # no motion, no steps
+        try:
+            step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
+        except ValueError:
+            step_rate = None  # no motion, no steps
         return endurance.limits(self.scene, step_rate, self.load_in_motion, self.life_inputs)
 
     @property

@@ -215,7 +215,9 @@ def holds_scene(text: str) -> bool:
 def place_of(editor: SceneEditor, tab: str = "") -> Place:
     """The place that the editor shows."""
     angle = editor.values[CAGE_ANGLE]
-    return Place(editor.scene, editor.preset, editor.selected, angle, tab, name=editor.own_name)
+    return Place(
+        editor.scene, editor.preset, editor.selected, angle, tab, name=editor.name_in_links
+    )
 
 
 # Writing

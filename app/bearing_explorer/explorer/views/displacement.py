@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.side_by_side import (
     THIS_SCENE,
@@ -25,6 +26,7 @@ from bearingcore.scene import DOF_SYMBOLS
 
 _UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
 """Unit of the displacement along each direction, and what one of SI is in it."""
+_FACTORS = np.array([factor for _, factor in _UNITS])
 _WAYS = (("to the left", "to the right"), ("down", "up"), ("back along z", "along z"))
 _WHEN = ("at this cage angle", "least", "mean", "greatest")
 
@@ -69,16 +71,18 @@ class Displacement(View):
             "",
             *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
         )
+        moved = displacements(results)
+        shown = [_without_noise(part, 5e-5) for part in (moved[:, :3], moved[:, 3:])]
         rows = (
             (html_text(when), *(_digits(value) for value in line))
-            for when, line in zip(_WHEN, displacements(results).tolist(), strict=True)
+            for when, line in zip(_WHEN, np.hstack(shown).tolist(), strict=True)
         )
         return html_table(heads, rows, named=True)
 
     def sentence(self, results: Results) -> str:
         if not results.now.converged[0]:
             return f"No displacement: {results.now.reason(0)}."
-        now = displacements(results)[0]
+        now = results.now.displacement[0] * _FACTORS
         moved = [
             f"{style.number(abs(value))} µm {way[value > 0.0]}"
             for value, way in zip(now[:3].tolist(), _WAYS, strict=True)
@@ -116,7 +120,8 @@ class OperatingPoint(Displacement):
     about = (
         "Displacement, and stiffness to copy, in N, m and rad. A row is a load on the inner ring, "
         "a column the displacement that it resists: at this cage angle, and the mean in time over "
-        "a period, as rotor programs want it. Directions that are held have a stiffness as well."
+        "a period, as rotor programs want it. "
+        f"{reasons.STIFF_WHERE_HELD}"
     )
 
     @staticmethod
@@ -172,17 +177,17 @@ def _stiffness_html(when: str, table: ResultTable) -> str:
     return f"<h3>Stiffness {when}</h3>{html_table(('', *per), rows, named=True)}"
 
 
-def _without_noise(values: np.ndarray) -> np.ndarray:
-    """Numbers that are rounding noise of the largest ones beside them as zero."""
+def _without_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
+    """Numbers below `least` of the largest one, noise or beyond its digits, as zero."""
     largest = np.nanmax(np.abs(values), initial=0.0)
-    return np.where(np.abs(values) < 1e-9 * largest, 0.0, values)
+    return np.where(np.abs(values) < least * largest, 0.0, values)
 
 
 def displacements(results: Results) -> np.ndarray:
     """(4, 5) [µm, mrad] at this cage angle; least, mean and greatest over all positions."""
     over = results.ranges.state.displacement_table().named()
     rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
-    return _without_noise(np.array(rows, dtype=float) * [factor for _, factor in _UNITS])
+    return _without_noise(np.array(rows, dtype=float) * _FACTORS)
 
 
 def _digits(value: float, digits: int = 4) -> str:

@@ -125,7 +125,9 @@ class LifeOfBearing(View):
         self._fields.put(self._values())
         self._answers = LiveFacts(styles={"flex": "2 1 340px"})
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
-        return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
+        # on a phone the answers are above what they are asked with
+        ways = {"flex-wrap": "wrap-reverse", "align-items": "flex-end", "gap": "10px 34px"}
+        return row(form, self._answers, styles=ways)
 
     def take(self, name: str) -> None:
         """Take a number that was typed; a refused one changes nothing and gets a sentence."""

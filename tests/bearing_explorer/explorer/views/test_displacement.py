@@ -41,6 +41,9 @@ def test_displacement_and_stiffness_are_those_of_the_force_balance() -> None:
     assert moved["y_um"][1] <= moved["y_um"][2] <= moved["y_um"][3]
     found = OperatingPoint(PackedSource()).table(results)
     now = (found["when"] == "at this cage angle") & (found["load"] == "fy [N]")
+    shown = Displacement(PackedSource()).html(("", results))
+    assert shown.count(">0<") >= 12
+    assert "·10" not in shown, "beyond the digits of the largest"
     slope = 0.02 / (drop(100.01) - drop(99.99))
     assert found["per_m_y"][now] == pytest.approx(slope, rel=1e-4)
     assert found["displacement_in_si"][now] == pytest.approx(-drop(100.0), rel=1e-6)

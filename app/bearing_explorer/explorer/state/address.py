@@ -547,6 +547,13 @@ def _numbers_of(part: str) -> list[Entry]:
     ]
 
 
+def _rating(text: str) -> float:
+    try:
+        return real_number("rating", float(text))
+    except ValueError:
+        return real_number("rating", text)  # type: ignore[arg-type]  # which is refused
+
+
 def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
     return [
         Entry(choice.name, choice.field, partial(_option_text, choice), partial(_option, choice))
@@ -558,7 +565,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(real_number, "rating")),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, _rating),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

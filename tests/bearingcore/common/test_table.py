@@ -15,6 +15,7 @@ import pytest
 import bearingcore
 from bearingcore import (
     STIFFNESS_TERMS,
+    contact_pressures,
     equilibrium,
     kurtogram,
     life,

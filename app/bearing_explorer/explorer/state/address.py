@@ -63,7 +63,6 @@ from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
-from bearingcore.common import real_number
 from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
@@ -547,13 +546,6 @@ def _numbers_of(part: str) -> list[Entry]:
     ]
 
 
-def _rating(text: str) -> float:
-    try:
-        return real_number("rating", float(text))
-    except ValueError:
-        return real_number("rating", text)  # type: ignore[arg-type]  # which is refused
-
-
 def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
     return [
         Entry(choice.name, choice.field, partial(_option_text, choice), partial(_option, choice))
@@ -565,7 +557,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, _rating),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, lambda text: _parsed(text, "rating")[0]),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

@@ -44,7 +44,7 @@ KEPT = (
 
 
 def kept_html(state: MeasurementState) -> str:
-    """What is kept from the file before, and what this one has to say against it."""
+    """Answers that are kept from the file before, and a guess of this file beside them."""
     if not state.kept_from:
         return ""
     own = dict(state.speeds).get(FILE, "")

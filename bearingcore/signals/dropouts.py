@@ -22,9 +22,9 @@ BY_CHANCE = 1e-5
 """Share of the samples at which numbers as coarse as a signal's may look held, on a straight line
 or repeated. A recorder that loses samples fills the gaps with such, often at a steady rate."""
 
-MOST_LOST = 0.5
-"""Share of a signal without samples of its own from which short fillings are no gaps: the whole of
-it was made so, by resampling it or by computing a period."""
+THROUGHOUT = 0.95
+"""Share of a signal that is filled, or next to what is, from which the whole of it was resampled
+and these are no gaps."""
 
 LOST_REACH = 8
 """Samples over which the edge of a gap rings in the widest band, see `squared_envelopes`."""
@@ -91,9 +91,12 @@ def signal_faults(samples: Array) -> SignalFaults:
             clipped += end - begin + 1
         elif end - begin + 1 >= short:
             held[begin : end + 1] = True
-    for filled in (held, _drawn(steps, step, high - low), _repeated(samples, steps, times)):
-        if _spread(filled) <= MOST_LOST:
+    for filled in (held, _drawn(steps, step, high - low)):
+        if _spread(filled) < THROUGHOUT:
             dropped |= filled
+    repeated = _repeated(samples, steps, times)
+    if repeated.mean() < 0.5:  # more repeats where a signal was computed, with a period
+        dropped |= repeated
     return SignalFaults(dropped, float(dropped.mean()), clipped / len(samples))
 
 

@@ -345,7 +345,7 @@ _BODIES = (
 )
 
 _CONTACT_DAMPING = (
-    Field("contact_damping", "scene", "Contact damping", "c", "N·s/m", "Contact of a moving ball",
+    Field("contact_damping", "scene", "Contact damping", "c", "N·s/m", "Contacts in motion",
           _near,
           "Viscous damping of each loaded contact. Left empty it follows from the stiffness of the "
           "healthy bearing: 10 µs times its radial stiffness a ball.", optional=True),

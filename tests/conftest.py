@@ -15,6 +15,14 @@ for _library in ("OPENBLAS", "MKL", "OMP"):
 pytest.register_assert_rewrite("tests.helpers", "tests.browser.explorer_page")
 
 
+@pytest.fixture
+def files_read_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files are read in this process, which is quick; that of their own has tests of its own."""
+    from tests.helpers.reading import read_in_this_process
+
+    read_in_this_process(monkeypatch)
+
+
 def pytest_xdist_auto_num_workers() -> int:
     """As many as there are processors that this process may use, real or not."""
     may_use = getattr(os, "sched_getaffinity", None)

@@ -36,14 +36,10 @@ export function render({ model }) {
   const called = element("input", { type: "text", id: "bearing-name", maxlength: "60",
     autocomplete: "off", spellcheck: "false" })
   called.addEventListener("change", () => panel.send({ choose: { name: called.value } }))
-  // Dimensions that wait until they fit together.
-  const words = element("p")
-  const waits = element("div", { class: "waits", role: "status", hidden: "" }, words,
-    button("Discard them", () => panel.send({ choose: { draft: "discard" } })))
   const boxes = model.spec.groups.map((group) => panel.group_box(group))
   const fields = panel.form({ class: "fields", "aria-label": "Dimensions of the bearing" },
     element("div", { class: "called" }, element("label", { for: "bearing-name" }, "Name"), called),
-    panel.choice("kind"), panel.choice("numbers"), panel.choice("ball_material"), waits, ...boxes)
+    panel.choice("kind"), panel.choice("numbers"), panel.choice("ball_material"), ...boxes)
   // A table of bearings, which the search in the side panel then finds too.
   const { file: name_of_file, template, needed } = model.spec.table
   const upload = element("div", { class: "upload own-table" })
@@ -73,10 +69,6 @@ export function render({ model }) {
       if (called.getRootNode().activeElement !== called) called.value = own
     }
     if (state.table) write_table(state.table.words, state.table.bad)
-    if (state.draft) {
-      waits.hidden = !state.draft.words
-      words.textContent = state.draft.words
-    }
     for (const box of boxes)
       box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
   }

@@ -195,11 +195,11 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   // A text that was refused does not stay as if it were the value; its sentence does, until the
   // next change.
   const forget_refused = () => {
-    for (const name of Object.keys(rows)) if (!drafted.includes(name)) refuse(name, "")
+    for (const name of Object.keys(rows)) refuse(name, "")
   }
   const restore = (name) => {
     const row = rows[name]
-    if (row && row.number.getAttribute("aria-invalid") === "true" && !drafted.includes(name))
+    if (row && row.number.getAttribute("aria-invalid") === "true")
       write_in(row.number, format(read(name, values[name]) ?? null, limits[name].step))
   }
   const move = (name, value) => move_all({ [name]: value })
@@ -332,22 +332,11 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
       selects[name].show(value, state.effects?.[name])
     }
     if (state.second_units) for (const name of Object.keys(rows)) show_second(name)
-    if (state.draft) show_draft(state.draft)
     if (state.hidden)
       for (const [name, { root }] of [...Object.entries(rows), ...Object.entries(selects)])
         root.hidden = state.hidden.includes(name)
   }
 
-  // Numbers that wait until all dimensions fit together, each with its fault.
-  let drafted = []
-  const show_draft = ({ waiting, faults }) => {
-    for (const name of drafted)
-      if (rows[name] && !(name in faults)) refuse(name, "")
-    drafted = [...waiting, ...Object.keys(faults)]
-    for (const name of Object.keys(rows))
-      rows[name].root.classList.toggle("drafted", waiting.includes(name))
-    for (const [name, sentence] of Object.entries(faults)) refuse(name, sentence)
-  }
   const listen = (takes = take) => model.on("msg:custom", (message) => {
     if (message.state) takes(message.state)
     for (const [name, sentence] of Object.entries(message.refused ?? {})) {

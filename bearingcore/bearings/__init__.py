@@ -15,12 +15,12 @@ from bearingcore.bearings.designation import series_words as series_words
 from bearingcore.bearings.drawing import BALL_MATERIAL as BALL_MATERIAL
 from bearingcore.bearings.drawing import OPTIONAL_FIELDS as OPTIONAL_FIELDS
 from bearingcore.bearings.drawing import center_distance as center_distance
-from bearingcore.bearings.drawing import faults as faults
 from bearingcore.bearings.frequencies import FREQUENCIES as FREQUENCIES
 from bearingcore.bearings.frequencies import bearing_of_frequencies as bearing_of_frequencies
 from bearingcore.bearings.kinds import KINDS as KINDS
 from bearingcore.bearings.line_contact import STEEL_MODULUS as STEEL_MODULUS
 from bearingcore.bearings.line_contact import STEEL_POISSON as STEEL_POISSON
 from bearingcore.bearings.material import BALL_MATERIALS as BALL_MATERIALS
+from bearingcore.bearings.named import name_of as name_of
 from bearingcore.bearings.nearest import nearest_known as nearest_known
 from bearingcore.bearings.rows import Row as Row

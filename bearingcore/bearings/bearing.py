@@ -134,14 +134,14 @@ class Bearing(InRows):
         checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
         least = -self.ball_radius  # more than any contact could be compressed
         checks.keep_number(self, "radial_clearance", at_least=least, unit="m")
-        for fault in drawing.faults(vars(self)):
-            raise fault
+        drawing.check_fit(vars(self))
         checks.keep(self, **drawing.checked(vars(self)))
         rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
         checks.keep(self, rows=tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
-        for name in self.estimated:
+        names: object = self.estimated
+        for name in names if isinstance(names, tuple | list) else (names,):
             checks.choice("estimated", name, ESTIMATES)
         checks.keep(self, estimated=tuple(self.estimated))
         checks.keep(self, kind=kind_of(self))

@@ -12,7 +12,8 @@ A table has a line of headings and a line for each bearing. Columns, in any orde
 
 Columns are parted by semicolons, commas or tabs; decimals may have a comma where columns do not.
 Empty lines and lines that begin with # are passed over. What was assumed for an empty cell is said
-with each bearing. A table with faults is refused as a whole, each fault named by line and column.
+with each bearing. A table with a fault is refused as a whole, the first one named by line and
+column.
 """
 
 from __future__ import annotations
@@ -49,9 +50,6 @@ USUAL_CLEARANCE_UM = 10.0
 MOST_BYTES = 2**20
 MOST_BEARINGS = 2000
 LONGEST_NAME, LONGEST_NOTE = 80, 2000
-
-LONGEST_REFUSAL = 500
-"""Characters up to which faults are listed at once; the others are counted."""
 
 _SEPARATORS = (";", "\t", ",")
 """Of columns; the most frequent one in the headings is taken."""
@@ -98,7 +96,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     Raises
     ------
     ValueError
-        that names each fault by line and column, with the text found and what is allowed.
+        that names the first fault by line and column, with the text found and what is allowed.
     """
     lines = _lines(_text(table))
     if not lines:
@@ -111,35 +109,15 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
             "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
         )
     found: dict[str, CatalogueBearing] = {}
-    first_line: dict[str, int] = {}
-    faults: list[str] = []
     for number, cells in rows[1:]:
-        here: list[str] = []
-        entry = _bearing(number, headings, cells, separator, here)
-        if entry is not None and entry.name in found:
-            here.append(
-                f"line {number}, column name: {entry.name!r} is in line "
-                f"{first_line[entry.name]} already; allowed: a name of its own for each bearing"
-            )
-        elif entry is not None:
-            found[entry.name] = entry
-            first_line[entry.name] = number
-        faults += here
-    if faults:
-        raise ValueError("table of bearings: " + _together(faults))
+        at = f"table of bearings: line {number}"
+        entry = _bearing(at, _by_heading(at, headings, cells, separator), separator != ",")
+        if entry.name in found:
+            raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
+        found[entry.name] = entry
     if not found:
         raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
     return found
-
-
-def _together(faults: list[str]) -> str:
-    """The first faults as a sentence, at least one, and how many more there are."""
-    words = faults[0]
-    for count, fault in enumerate(faults[1:], start=1):
-        if len(words) + len(fault) > LONGEST_REFUSAL:
-            return f"{words}; and {len(faults) - count} more"
-        words += f"; {fault}"
-    return words
 
 
 def _text(table: str | bytes) -> str:
@@ -194,68 +172,88 @@ def _headings(number: int, cells: list[str]) -> list[str]:
     return names
 
 
-def _bearing(
-    number: int, headings: list[str], cells: list[str], separator: str, faults: list[str]
-) -> CatalogueBearing | None:
-    """The bearing of a line; None, and what is wrong added to `faults`, where it is none."""
+def _by_heading(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
+    """The cells of a line by their headings; those at its end may be missing."""
     while len(cells) > len(headings) and not cells[-1]:
         cells.pop()
     if len(cells) > len(headings):
         hint = "; numbers with a decimal comma need semicolons between columns"
-        faults.append(
-            f"line {number} has {len(cells)} cells; allowed: {len(headings)}, as headings"
-            + (hint if separator == "," else "")
+        raise checks.refuse(
+            f"number of cells in {at}",
+            len(cells),
+            f"{len(headings)}, as headings{hint if separator == ',' else ''}",
         )
-        return None
-    texts = dict(zip(headings, cells + [""] * (len(headings) - len(cells)), strict=True))
-    line = _Line(number, texts, faults, decimal_comma=separator != ",")
-    before = len(faults)
-    name = texts["name"]
+    return dict(zip(headings, cells + [""] * (len(headings) - len(cells)), strict=True))
+
+
+def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> CatalogueBearing:
+    """The bearing of a line, whose cells are given by column; `at` is its place in words."""
+    assumed: list[str] = []
+
+    def refused(column: str, allowed: str) -> FieldError:
+        return checks.refuse(f"{at}, column {column}", texts.get(column, ""), allowed)
+
+    def number(column: str) -> float | None:
+        """The number in a column; None where it is empty and may be."""
+        text, needed = texts.get(column, ""), column in NEEDED_COLUMNS
+        if not text and not needed:
+            return None
+        plain = text.replace(",", ".") if decimal_comma else text
+        try:
+            value = float(plain) if "_" not in plain else math.nan
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise refused(column, "a number" if needed else "a number, or nothing")
+        return value
+
+    def groove(race: str) -> float:
+        """Groove radius [mm] of a race, by its radius or its ratio, or as it is usual."""
+        names = f"{race}_groove_radius_mm", f"{race}_groove_ratio"
+        radius, ratio = map(number, names)
+        if radius is not None and ratio is not None:
+            raise refused(names[1], f"nothing where {names[0]} is given")
+        if radius is not None:
+            return radius
+        if ratio is None:
+            ratio = USUAL_GROOVES[race]
+            assumed.append(f"an {race} groove of {ratio:g} ball diameters")
+        return ratio * ball
+
+    name, note = texts["name"], texts.get("note", "")
     if not name or len(name) > LONGEST_NAME:
-        line.fault("name", f"a name of 1 to {LONGEST_NAME} characters")
-    note = texts.get("note", "")
+        raise refused("name", f"a name of 1 to {LONGEST_NAME} characters")
     if len(note) > LONGEST_NOTE:
-        line.fault("note", f"at most {LONGEST_NOTE} characters")
-    balls = line.number("balls", needed=True)
-    ball = line.number("ball_diameter_mm", needed=True)
-    pitch = line.number("pitch_diameter_mm", needed=True)
-    grooves = {
-        race: _groove(line, race, math.nan if ball is None else ball) for race in USUAL_GROOVES
-    }
-    angle = line.number("contact_angle_deg")
-    clearance = line.number("diametral_clearance_um")
-    rating = line.number("dynamic_load_rating_kn")
+        raise refused("note", f"at most {LONGEST_NOTE} characters")
+    balls, ball, pitch = (number(column) or 0.0 for column in NEEDED_COLUMNS[1:])
+    inner, outer = map(groove, USUAL_GROOVES)
+    angle, clearance, rating = map(
+        number, ("contact_angle_deg", "diametral_clearance_um", "dynamic_load_rating_kn")
+    )
     if rating is not None and not rating > 0.0:
-        line.fault("dynamic_load_rating_kn", "a number above 0 [kN], or nothing")
-    if len(faults) > before or balls is None or ball is None or pitch is None:
-        return None
+        raise refused("dynamic_load_rating_kn", "a number above 0 [kN], or nothing")
     if angle is None:
         angle = 0.0
-        line.assumed.append("a contact angle of 0°")
+        assumed.append("a contact angle of 0°")
     if clearance is None:
         clearance = 0.0 if angle else USUAL_CLEARANCE_UM
-        line.assumed.append(f"a diametral clearance of {clearance:g} µm")
+        assumed.append(f"a diametral clearance of {clearance:g} µm")
+    given = None if rating is None else rating * 1e3
     try:
         bearing = Bearing.from_drawing(
             balls,  # type: ignore[arg-type]  # it refuses what is no whole number
             ball / 1e3,
             pitch / 1e3,
-            grooves["inner"] / 1e3,
-            grooves["outer"] / 1e3,
+            inner / 1e3,
+            outer / 1e3,
             contact_angle=math.radians(angle),
             diametral_clearance=clearance / 1e6,
-        ).replace(dynamic_load_rating=None if rating is None else rating * 1e3)
+        ).replace(dynamic_load_rating=given)
     except FieldError as error:
-        column = _COLUMN_OF_FIELD.get(error.field, error.field)
-        faults.append(f"line {number}, column {column}: {error}")
-        return None
-    return CatalogueBearing(
-        name=name,
-        bearing=bearing,
-        dynamic_load_rating=None if rating is None else rating * 1e3,
-        note=note,
-        assumed=tuple(line.assumed),
-    )
+        raise error.inside(
+            f"{at}, column {_COLUMN_OF_FIELD.get(error.field, error.field)}"
+        ) from None
+    return CatalogueBearing(name, bearing, given, note, tuple(assumed))
 
 
 _COLUMN_OF_FIELD = {
@@ -267,48 +265,3 @@ _COLUMN_OF_FIELD = {
     "contact_angle": "contact_angle_deg",
     "diametral_clearance": "diametral_clearance_um",
 }
-
-
-def _groove(line: _Line, race: str, ball: float) -> float:
-    """Groove radius [mm] of a race, from its radius or its ratio."""
-    radius = line.number(f"{race}_groove_radius_mm")
-    ratio = line.number(f"{race}_groove_ratio")
-    if radius is not None and ratio is not None:
-        line.fault(f"{race}_groove_ratio", f"nothing where {race}_groove_radius_mm is given")
-    if radius is not None:
-        return radius
-    if ratio is None:
-        ratio = USUAL_GROOVES[race]
-        line.assumed.append(f"an {race} groove of {ratio:g} ball diameters")
-    return ratio * ball
-
-
-class _Line:
-    """The cells of a line, and what is found wrong or left open in them."""
-
-    def __init__(
-        self, number: int, texts: Mapping[str, str], faults: list[str], decimal_comma: bool
-    ) -> None:
-        self.line, self.texts, self.faults = number, texts, faults
-        self.decimal_comma = decimal_comma
-        self.assumed: list[str] = []
-
-    def fault(self, column: str, allowed: str) -> None:
-        """Note that a column does not hold what is allowed."""
-        found = checks.refuse(column, self.texts.get(column, ""), allowed)
-        self.faults.append(f"line {self.line}, column {found}")
-
-    def number(self, column: str, *, needed: bool = False) -> float | None:
-        """The number in a column, or None where it is empty or is none."""
-        text = self.texts.get(column, "")
-        if not text and not needed:
-            return None
-        plain = text.replace(",", ".") if self.decimal_comma else text
-        try:
-            value = float(plain) if "_" not in plain else math.nan
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            self.fault(column, "a number" if needed else "a number, or nothing")
-            return None
-        return value

@@ -22,13 +22,12 @@ sideways instead, it moves A0 (1 − cos α0) + r_L either way.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from bearingcore.bearings.hertz import in_series, race_contact
 from bearingcore.bearings.kinematics import GREATEST_CONTACT_ANGLE
 from bearingcore.common import checks
-from bearingcore.errors import FieldError
 from bearingcore.fields import WIDEST_CONFORMITY
 
 GROOVES = ("inner_groove_radius", "outer_groove_radius")
@@ -99,45 +98,35 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
-def faults(values: Mapping[str, float | None]) -> Iterator[FieldError]:
-    """Each way in which dimensions do not fit together, as what a `Bearing` is refused with.
+def check_fit(values: Mapping[str, Any]) -> None:
+    """FieldError where dimensions of a `Bearing` [SI] do not fit together.
 
-    `values` are in SI, by the names of the fields; what is None or not there is passed over. The
-    `numbers` of a fault name the other fields that it is about.
+    Its `numbers` name the other fields that it is about.
     """
-    ball, pitch, count = (values.get(n) for n in ("ball_diameter", "pitch_diameter", "n_balls"))
-    if count is not None and count != int(count):
-        yield checks.refuse("n_balls", count, "a whole number")
-    if ball is not None and pitch is not None:
-        if not 0.0 < ball < pitch:
-            yield checks.refuse(
-                "ball_diameter",
-                ball,
-                "above 0 and below the {pitch_diameter} of {pitch_diameter:m}",
-                "m",
-                pitch_diameter=pitch,
-            )
-        elif count is not None and count > 1 and pitch * math.sin(math.pi / count) < ball:
-            most = math.floor(math.pi / math.asin(ball / pitch) + 1e-9)
-            yield checks.refuse(
-                "n_balls",
-                count,
-                "so few that balls of {ball_diameter:m} do not overlap on a circle of "
-                f"{{pitch_diameter:m}}, here at most {most}",
-                ball_diameter=ball,
-                pitch_diameter=pitch,
-            )
-    for race in ("outer", "inner"):
-        radius = values.get(f"{race}_groove_radius")
-        if ball is not None and radius is not None:
-            try:
-                check_groove(race, radius, ball)
-            except FieldError as fault:
-                fault.numbers["ball_diameter"] = ball
-                yield fault
-    inner, outer = values.get("inner_raceway_radius"), values.get("outer_raceway_radius")
-    if inner is not None and outer is not None and not inner < outer:
-        yield checks.refuse(
+    ball, pitch, count = (values[name] for name in ("ball_diameter", "pitch_diameter", "n_balls"))
+    if count != int(count):
+        raise checks.refuse("n_balls", count, "a whole number")
+    if not 0.0 < ball < pitch:
+        raise checks.refuse(
+            "ball_diameter",
+            ball,
+            "above 0 and below the {pitch_diameter} of {pitch_diameter:m}",
+            "m",
+            pitch_diameter=pitch,
+        )
+    if count > 1 and pitch * math.sin(math.pi / count) < ball:
+        most = math.floor(math.pi / math.asin(ball / pitch) + 1e-9)
+        raise checks.refuse(
+            "n_balls",
+            count,
+            "so few that balls of {ball_diameter:m} do not overlap on a circle of "
+            f"{{pitch_diameter:m}}, here at most {most}",
+            ball_diameter=ball,
+            pitch_diameter=pitch,
+        )
+    inner, outer = values["inner_raceway_radius"], values["outer_raceway_radius"]
+    if not inner < outer:
+        raise checks.refuse(
             "inner_raceway_radius",
             inner,
             "below the {outer_raceway_radius} of {outer_raceway_radius:m}",

@@ -233,7 +233,7 @@ def short_repr(value: Any) -> str:
     fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
     names = [field.name for field in fields if field.repr] or value._fields
     parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
-    return _cut(f"{type(value).__name__}({', '.join(parts)})")
+    return _cut(f"{type(value).__name__}({', '.join(parts or names)})")
 
 
 def _short(value: Any) -> str:
@@ -244,7 +244,8 @@ def _short(value: Any) -> str:
         return ""
     if isinstance(value, str | tuple):
         text = repr(value)
-        return f"={text}" if len(text) <= 40 else ""
+        long = f" ({len(value)},)" if isinstance(value, tuple) else ""
+        return f"={text}" if len(text) <= 40 else long
     return f"={_digits(value)}" if np.ndim(value) == 0 and np.isreal(value) is True else ""
 
 

@@ -12,7 +12,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.common.numbers import decibels, number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
     least_step_rate,
@@ -46,6 +46,9 @@ minutes of marching in two directions, hours in five."""
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
+SAME_BANDS = 1.0
+"""[dB] up to which two motions have the same spectrum in bands of a third of an octave."""
+
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
 """Doublings of the steps a second where contacts let go, at most; the part of a level up to which
 two motions are alike; and the level [m/s] below which nothing counts."""
@@ -66,7 +69,8 @@ class Motion:
     status
         how it ended. A motion that is not completed is NaN from where it broke off.
     detail
-        numbers of a status that has some, in words that follow it.
+        numbers of a status that has some, in words that follow it. Of a completed motion whose
+        contacts let go, how well bands of its spectrum are known where that is not within 1 dB.
     right_hand_side_calls
         how often the accelerations were evaluated.
     time : (n,) [s]
@@ -186,16 +190,6 @@ class Motion:
         full[:, : place.shape[1]] = place
         return full
 
-    @cached_property
-    def ball_load_inner(self) -> Array:
-        """(n, N_b) [N] elastic loads at the inner race; see `race_loads`."""
-        return self.race_loads()[0]
-
-    @cached_property
-    def ball_load_outer(self) -> Array:
-        """(n, N_b) [N] elastic loads at the outer race; see `race_loads`."""
-        return self.race_loads()[1]
-
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
@@ -212,7 +206,10 @@ class Motion:
         return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
-        """The same motion with the loads of its balls."""
+        """The same motion with the loads of its balls; NaN of one without a step."""
+        if not self.right_hand_side_calls:
+            nothing = np.full((len(self.time), packed.contacts.angle.size), math.nan)
+            return replace(self, ball_load=nothing)
         return replace(self, ball_load=self._loads(packed, 0, None)[1])
 
     def _loads(
@@ -351,34 +348,44 @@ def simulate(
             f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
             f"of {highest:.0f} Hz",
         )
-    rest = equilibrium_of(packed, [0.0])
-    with_mass = scene.balls == WITH_MASS
-    if step_rate is None:
-        step_rate = step_rate_of(packed, sample_rate)
-        if not with_mass and scene.contact_law != CONTACT_LAWS[0]:
-
-            def at(rate: float) -> Motion:
-                return simulate(
-                    scene, duration, sample_rate, ball_loads=ball_loads, step_rate=rate,
-                    most_steps=most_steps,
-                )  # fmt: skip
-
-            a_sample = step_rate / sample_rate
-            half = sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * step_rate
-            return _with_enough_steps(at, half, step_rate)
-    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
-    if with_mass and a_step > 1:
-        raise checks.refuse(
-            "step_rate",
-            step_rate,
-            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
-        )
     most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
     if duration * sample_rate > MOST_SAMPLES:
         raise checks.refuse(
             "duration",
             duration,
             f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
+        )
+    rest = equilibrium_of(packed, [0.0])
+
+    def at(rate: float) -> Motion:
+        return _marched(packed, rest, duration, sample_rate, rate, most_steps)
+
+    if step_rate is not None:
+        motion = at(step_rate)
+    else:
+        rate = step_rate_of(packed, sample_rate)
+        lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
+        motion = _with_enough_steps(at, rate, sample_rate) if lets_go else at(rate)
+    return motion.with_ball_loads(packed) if ball_loads else motion
+
+
+def _marched(
+    packed: PackedMotion,
+    rest: Equilibrium,
+    duration: float,
+    sample_rate: float,
+    step_rate: float,
+    most_steps: int,
+) -> Motion:
+    """Motion at one step rate [Hz], without loads of its balls; `rest`: state at cage angle 0."""
+    scene, dofs = packed.scene, packed.dofs
+    with_mass = scene.balls == WITH_MASS
+    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+    if with_mass and a_step > 1:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
         )
     n = max(round(duration * sample_rate), 1)
     # balls with mass take many steps a sample, of which accelerations do not need every one
@@ -409,8 +416,7 @@ def simulate(
             )
         nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
         return Motion(
-            scene, dofs, sample_rate, step_rate, status, 0, time,
-            np.full((n, n_balls), math.nan) if ball_loads else None, nothing,
+            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing,
             nowhere if with_mass else None, detail,
         )  # fmt: skip
     h = 1.0 / step_rate
@@ -437,7 +443,7 @@ def simulate(
         both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
         filtered, place = np.stack(both), place[:n]
         history = history[::kept][:n].copy()
-    motion = Motion(
+    return Motion(
         scene=scene,
         dofs=dofs,
         sample_rate=sample_rate,
@@ -451,19 +457,21 @@ def simulate(
         detail=detail,
         filtered=filtered,
     )
-    return motion.with_ball_loads(packed) if ball_loads else motion
 
 
-def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: float) -> Motion:
+def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
     """Motion of contacts that let go: steps are doubled until half as many make no difference.
 
     Where they touch and leave their load jumps, so that errors fall with the step itself.
     """
-    before = _level(at(coarser))
+    a_sample = rate / sample_rate
+    before = _level(at(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
     for _ in range(MOST_DOUBLINGS + 1):
         motion = at(rate)
         level = _level(motion)
         alike = abs(level - before) <= SAME_LEVEL * max(level, QUIET)
+        if alike and motion.completed and level > QUIET:
+            return replace(motion, detail=_bands_apart(motion, at(2.0 * rate)))
         if alike or not motion.completed:
             return motion
         before, rate = level, 2.0 * rate
@@ -473,8 +481,28 @@ def _with_enough_steps(at: Callable[[float], Motion], coarser: float, rate: floa
         detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
         "the vibration by more than a tenth",
         history=np.full_like(motion.history, math.nan),
-        ball_load=None if motion.ball_load is None else np.full_like(motion.ball_load, math.nan),
     )
+
+
+def _bands_apart(motion: Motion, finer: Motion) -> str:
+    """Changes of a spectrum by twice the steps, in words; "" where that is little.
+
+    Compared are bands of a third of an octave that hold a part in 10,000 of the power or more, once
+    the motion has settled. Where contacts let go it may be chaotic: then no steps are enough.
+    """
+    if not finer.completed:
+        return "; its spectrum is not checked with twice the steps, which are too many"
+    since = 0.5 * float(motion.time[-1])
+    edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
+    power = []
+    for one in (motion, finer):
+        found = one.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+        power.append(np.add.reduceat(found.density, np.searchsorted(found.frequency, edges)[:-1]))
+    loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
+    apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
+    if apart <= SAME_BANDS:
+        return ""
+    return f"; its contacts let go, and bands of its spectrum are known to {decibels(apart)} only"
 
 
 def _level(motion: Motion) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
-from bearingcore.common.progress import Cancelled, Progress, in_turn
+from bearingcore.common.progress import Cancelled, Progress
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.low_pass import PASSED
 from bearingcore.dynamics.modes import frequency_bands
@@ -175,15 +175,14 @@ def speed_run(
     nearby: Orbit | None = None
     refusals: dict[int, ValueError] = {}
     done, left = 0, most_steps_in_all
-    for i in in_turn(
-        range(speeds.size),
-        lambda i: f"{speeds[i] / (2 * math.pi):.1f} Hz",
-        progress,
-        cancelled,
-    ):
+    for i, speed in enumerate(speeds.tolist()):
+        if cancelled is not None and cancelled():
+            break
+        if progress is not None:
+            progress(i / speeds.size, f"{speed / (2 * math.pi):.1f} Hz")
         done += 1
         try:
-            at = scene.replace(shaft_speed=float(speeds[i]))
+            at = scene.replace(shaft_speed=speed)
             if left < 1:
                 raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
             found = None

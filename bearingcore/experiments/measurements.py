@@ -21,7 +21,7 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
-from bearingcore.experiments.points import RIGHT, Experiment, Watch
+from bearingcore.experiments.points import RIGHT, Experiment, Point, Watch
 from bearingcore.experiments.stability import StabilityChart, stability_chart
 from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
@@ -127,7 +127,15 @@ class Measurements:
         return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
-        """A row for each point of the experiments: errors under their names, NaN for the others."""
+        """A row for each point of the experiments: errors under their names, NaN for the others.
+
+        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
+        """
+
+        def known(point: Point, name: str) -> float:
+            error = point.errors.get(name, math.nan)
+            return error if math.isfinite(error) else math.nan
+
         points = [(name, p) for name, one in self.experiments.items() for p in one.points]
         units = {e: one.unit(e) for one in self.experiments.values() for e in one.errors}
         return table_of(
@@ -136,7 +144,7 @@ class Measurements:
             ("method", "", [p.method for _, p in points]),
             ("setting", "", [p.setting for _, p in points]),
             *(
-                (f"{name}_error", unit, [p.errors.get(name, math.nan) for _, p in points])
+                (f"{name.replace(' ', '_')}_error", unit, [known(p, name) for _, p in points])
                 for name, unit in units.items()
             ),
             ("time", "s", [p.seconds for _, p in points]),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +12,6 @@ import numpy as np
 
 from bearingcore.common.numbers import scientific
 from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
-from bearingcore.common.table import ResultTable, shown_as_table, table_of
 
 T = TypeVar("T")
 
@@ -107,7 +105,6 @@ class Reference:
         return f"{text}. {self.note}" if self.note else text
 
 
-@shown_as_table
 @dataclass(frozen=True)
 class Experiment:
     """Points of several methods on one problem.
@@ -190,37 +187,6 @@ class Experiment:
     def unit(self, error: str) -> str:
         """Unit of an error: "dB", or "1" for a ratio."""
         return "dB" if "[dB]" in self.errors[error] else "1"
-
-    @staticmethod
-    def _unbounded(point: Point) -> str:
-        """End of the status where an error is infinite."""
-        endless = not point.failed and math.inf in point.errors.values()
-        return "; without vibration, so no error in dB" if endless else ""
-
-    def table(self) -> ResultTable:
-        """A row a point: method, setting, errors, cost and status.
-
-        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
-        """
-        points = self.points
-        return table_of(
-            ("method", "", "method"),
-            ("setting", "", "setting"),
-            *(
-                (
-                    re.sub(r"\W+", "_", name).lower() + "_error",
-                    self.unit(name),
-                    [e if math.isfinite(e := p.errors.get(name, nan)) else nan for p in points],
-                    meaning,
-                )
-                for name, meaning in self.errors.items()
-            ),
-            ("time", "s", "seconds"),
-            ("evaluations", "", "evaluations", self.evaluations),
-            ("status", "", [p.status + self._unbounded(p) for p in points]),
-            ("reference", "", "against"),
-            of=points,
-        )
 
 
 nan = math.nan

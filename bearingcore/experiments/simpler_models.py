@@ -67,8 +67,7 @@ class Alternative:
     note
         what else there is to know, or why there is no error.
     changes
-        what takes it: fields of `Scene.replace`, or `step_rate` [Hz] of `simulate`; none for what
-        neither of them does.
+        what takes it: fields of `Scene.replace`; none for what these do not change.
     """
 
     name: str
@@ -98,14 +97,11 @@ class Alternatives:
         the other models.
     right_hand_side_calls
         evaluations of all contacts in all motions, which say what it cost on any machine.
-    seconds
-        [s] that the comparison took in all.
     """
 
     scene: Scene
     rows: tuple[Alternative, ...]
     right_hand_side_calls: int
-    seconds: float
 
     def table(self) -> ResultTable:
         """A row a model: its error in the spectrum or in the curves, and the time of both."""
@@ -139,14 +135,13 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
     cancelled
         called before each row; True ends with those that are there.
     """
-    began = time.thread_time()
     measure = _Measure(scene)
     rows: list[Alternative] = []
     for row in measure.rows():
         rows.append(row)
         if cancelled is not None and cancelled():
             break
-    return Alternatives(scene, tuple(rows), measure.calls, time.thread_time() - began)
+    return Alternatives(scene, tuple(rows), measure.calls)
 
 
 class _Measure:
@@ -176,9 +171,7 @@ class _Measure:
             yield replace(row, changes={"dofs": dofs})
         yield from self._edges()
         for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
-            rate = factor * self.own.step_rate
-            row = self._other_march(words, self.scene, rate)
-            yield replace(row, changes={"step_rate": rate})
+            yield self._other_march(words, self.scene, factor * self.own.step_rate)
         other = MASSLESS if self.scene.balls == WITH_MASS else WITH_MASS
         yield replace(self._balls(), changes={"balls": other})
         if self.scene.balls == MASSLESS:

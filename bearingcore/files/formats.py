@@ -25,7 +25,7 @@ from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
 from bearingcore.files.facts import is_steady
-from bearingcore.files.text import read_text
+from bearingcore.files.text import are_sensors, read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 DEEPEST = 8
@@ -55,6 +55,11 @@ def read(
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
+        if libraries.is_workbook(content):
+            _need("openpyxl", name, "Excel file")
+            sheet, notes = libraries.longest_sheet(name, content)
+            about, columns = read_text(name, sheet, most_numbers, most_columns)
+            return about | {"notes": notes + about.get("notes", [])}, columns
         names, content = libraries.unzipped(name, content)
         if len(names) > 1:
             return {"inside": names}, np.empty((0, 0))
@@ -97,20 +102,28 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
     """
     for mark, kind, walk, package in _FORMATS:
         if re.match(mark, content, re.DOTALL):
-            if package and importlib.util.find_spec(package.lower()) is None:
-                raise checks.refuse(
-                    "file",
-                    name,
-                    f"a {kind} only where the package {package} is installed (pip install "
-                    f"{package}); else export it as CSV from the program that wrote it",
-                )
+            _need(package, name, kind)
             return kind, walk
+    if content[:4] == b"\xd0\xcf\x11\xe0":
+        raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
     if content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
     return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
+
+
+def _need(package: str, name: str, kind: str) -> None:
+    """Refuse a file whose package is not installed."""
+    if package and importlib.util.find_spec(package.lower()) is None:
+        raise checks.refuse(
+            "file",
+            name,
+            f"{'an' if kind[0] in 'AEIOU' else 'a'} {kind} only where the package {package} is "
+            f"installed (pip install {package}); else export it as CSV from the program that "
+            "wrote it",
+        )
 
 
 def _unzipped_alone(name: str, content: bytes) -> bytes:
@@ -140,8 +153,16 @@ def _json(content: bytes) -> Any:
 def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
     """Lists of numbers, and lists of records by the records' names."""
     _check_depth(depth)
+    if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
+        value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
         records = [one for one in value if isinstance(one, dict)]
+        if sensor := _name_of_sensor(records):
+            several: dict[str, list[Any]] = {}
+            for one in records:
+                several.setdefault(one.pop(sensor), []).append(one)
+            _walk_json(several, path, found, depth + 1)
+            return
         value = {name: [one.get(name) for one in records] for name in records[0]}
     if isinstance(value, dict):
         for name, inside in value.items():
@@ -151,6 +172,15 @@ def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
         found.add(path or "array", np.array(value, dtype=float))
     except (TypeError, ValueError):
         found.add(path or "array", np.asarray(value, dtype=object))
+
+
+def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
+    """The name under which records of several sensors say of which they are; else empty."""
+    for name, first in records[0].items():
+        words = [one.get(name) for one in records] if isinstance(first, str) else [None]
+        if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
+            return name
+    return ""
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:

@@ -28,8 +28,7 @@ import psutil
 from playwright.sync_api import Error, sync_playwright
 
 from tests.benchmarks.latency import WATCH, move_to_and_fro, slider_of
-from tests.benchmarks.machine import Pace, pace
-from tests.benchmarks.processor import worked
+from tests.benchmarks.machine import Pace, pace, worked
 from tests.browser.helpers import chromium, explorer_server, serving
 from tests.helpers.page_client import PageClient
 
@@ -81,11 +80,11 @@ class Person:
     async def come(self) -> None:
         """Open the page, wait for the first picture, and make the scene."""
         began = time.perf_counter()
-        status = await self._client.open_page()
-        if status != 200:
-            self.notes.troubles.append(f"the page answered {status}")
+        try:
+            await self._client.connect()
+        except ConnectionError as error:
+            self.notes.troubles.append(str(error))
             return
-        await self._client.connect()
         if not await self._client.until_drawn(seconds=120.0):
             self.notes.troubles.append("no first picture")
         self.notes.first_picture = time.perf_counter() - began

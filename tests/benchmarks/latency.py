@@ -23,8 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from playwright.sync_api import Locator, Page, sync_playwright
 
-from tests.benchmarks.machine import pace
-from tests.benchmarks.processor import worked_by_kind
+from tests.benchmarks.machine import pace, worked_by_kind
 from tests.browser.helpers import choose_tab, chromium, explorer_server, serving, unfold
 
 STATIC, MOVING = 50.0, 100.0

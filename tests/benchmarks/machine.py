@@ -1,7 +1,8 @@
 """How fast the machine is at this minute: milliseconds of the plain C loops, and ratios to them.
 
 A time alone says little: the same machine takes twice as long with a neighbour on its cores. So
-beside every time that is printed stands what the C loops take in the same minute.
+beside every time that is printed stands what the C loops take in the same minute. And a clock
+counts what neighbours take as well; the system counts what each process has worked.
 """
 
 import math
@@ -11,6 +12,8 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+
+import psutil
 
 from bearingcore import contact_damping, presets
 from tests.benchmarks.yardstick import CMotion, CStatics, compiler, start_state
@@ -72,6 +75,36 @@ def _median(loop: Callable[[], object]) -> float:
         loop()
         times.append(time.perf_counter() - begun)
     return statistics.median(times)
+
+
+def worked(process: int) -> float:
+    """What a process has worked so far, all of its threads [s]; 0 where it is gone."""
+    try:
+        times = psutil.Process(process).cpu_times()
+    except psutil.NoSuchProcess:
+        return 0.0
+    return float(times.user + times.system)
+
+
+def resident(process: int) -> float:
+    """The memory that a process holds [MB]."""
+    return float(psutil.Process(process).memory_info().rss) / 1e6
+
+
+def worked_by_kind(server: int) -> dict[str, float]:
+    """What this process and all that it started have worked [s].
+
+    Of the "server", the "browser" and the "hand" that moves the mouse, which no page has to carry.
+    """
+    found = {"hand": worked(psutil.Process().pid), "server": 0.0, "browser": 0.0}
+    for process in psutil.Process().children(recursive=True):
+        try:
+            browser = "chrom" in process.exe()
+        except psutil.Error:
+            continue
+        kind = "server" if process.pid == server else "browser" if browser else "hand"
+        found[kind] += worked(process.pid)
+    return found
 
 
 if __name__ == "__main__":

@@ -12,8 +12,7 @@ import time
 
 import numpy as np
 
-from tests.benchmarks.machine import pace
-from tests.benchmarks.processor import resident
+from tests.benchmarks.machine import pace, resident
 from tests.browser.helpers import explorer_server, serving
 from tests.helpers.page_client import PageClient
 
@@ -27,7 +26,6 @@ MAY_GROW = 1.15
 async def person(url: str, number: int) -> float:
     """Come, drag on each tab, and leave; return the time until the first picture [s]."""
     client, began = PageClient(url), time.perf_counter()
-    await client.open_page()
     await client.connect()
     await client.until_drawn(seconds=120.0)
     first = time.perf_counter() - began

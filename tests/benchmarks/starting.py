@@ -22,8 +22,7 @@ from pathlib import Path
 from playwright.sync_api import BrowserContext, sync_playwright
 
 from tests.benchmarks.latency import slider_of
-from tests.benchmarks.machine import Pace, pace
-from tests.benchmarks.processor import worked, worked_by_kind
+from tests.benchmarks.machine import Pace, pace, worked, worked_by_kind
 from tests.browser.explorer_page import settle
 from tests.browser.helpers import Server, chromium, drag, explorer_server
 

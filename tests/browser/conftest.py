@@ -42,6 +42,8 @@ def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
     report = outcome.get_result()  # type: ignore[attr-defined]
     if report.when == "call" and report.failed:
         item.stash[_FAILED] = True
+        for server in _servers(item):
+            report.sections.append(("end of the server's log", server.log[-3000:]))
 
 
 _FAILED = pytest.StashKey[bool]()
@@ -110,12 +112,21 @@ def desk(_desk: Visitor, request: pytest.FixtureRequest) -> Iterator[Visitor]:
         _desk.open(FAN_RIG + "load")
 
 
+def _servers(item: pytest.Item) -> list[Server]:
+    """The servers that a test has used."""
+    used = item.funcargs.values()  # type: ignore[attr-defined]
+    return [
+        value.server if isinstance(value, Visitor) else value
+        for value in used
+        if isinstance(value, Visitor | Server)
+    ]
+
+
 def _keep(request: pytest.FixtureRequest, page: Page, watching: Watch) -> None:
     FAILURES.mkdir(exist_ok=True)
     name = slug(request.node.name)
     page.screenshot(path=FAILURES / f"{name}.png", full_page=True)
-    servers = [value for value in request.node.funcargs.values() if isinstance(value, Server)]
-    log = "\n".join(server.log for server in servers)
+    log = "\n".join(server.log for server in _servers(request.node))
     (FAILURES / f"{name}.log").write_text(
         "\n".join([*watching.errors, *watching.strangers, "", log]), encoding="utf-8"
     )

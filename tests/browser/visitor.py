@@ -40,7 +40,7 @@ class Visitor:
 
     def __init__(self, page: Page, server: Server) -> None:
         self.page = page
-        self._url = server.url
+        self.server = server
         self.main = page.get_by_role("main")
         self.views = page.get_by_role("navigation", name="Views")
         self.scene = page.get_by_role("complementary", name="Scene")
@@ -49,7 +49,7 @@ class Visitor:
 
     def open(self, address: str = "") -> None:
         """Open an address of the page and wait until it shows something."""
-        self.page.goto(self._url + address)
+        self.page.goto(self.server.url + address)
         expect(self.page.get_by_role("tab", selected=True)).to_be_visible()
         self.wait(lambda: any(self.sentences()))
         unfold(self.page)

@@ -170,7 +170,7 @@ def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
     "function: measure_extent",
     by="a motion by SciPy's solve_ivp over a defect of 47.3°, with no code of the program",
     compared="extent, but for ball spacings and for which peak is the entry",
-    within="its interval of 95 %",
+    within="the interval that is stated",
 )  # fmt: skip
 @pytest.mark.proof
 def test_an_extent_of_a_motion_by_scipy() -> None:

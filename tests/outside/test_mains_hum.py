@@ -49,7 +49,7 @@ def check_pair(rpm: float, mains: float, seed: int) -> None:
     "function: diagnose",
     by="closed form signals of motors",
     compared="part and speed",
-    within="the part right, speed to 1 %",
+    within="the part right, speed to 0.1 %",
 )
 @pytest.mark.parametrize(("rpm", "mains"), [(2955.0, 50.0), (1478.0, 50.0), (3546.0, 60.0)])
 def test_hum_changes_neither_part_nor_speed(rpm, mains):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -99,11 +98,6 @@ class Explorer(Requests):
         kinds = [view for section in self.sections for view in section.views]
         found = {v.name: v.found for v in self.page.views_made() if v.found is not None}
         return results, kinds, found
-
-    def take_steps(self, step_rate: float | None) -> None:
-        """March motions with steps [Hz] set by hand, or None: with the program's own."""
-        self._settings = dataclasses.replace(self._settings, step_rate=step_rate)
-        self.draw()
 
     def set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""

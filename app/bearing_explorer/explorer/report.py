@@ -19,6 +19,9 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.explorer.views.bearing_editor import facts_of
+from bearing_explorer.explorer.views.displacement import Displacement
+from bearing_explorer.explorer.views.life import facts_of as facts_of_life
+from bearing_explorer.explorer.views.side_by_side import side_by_side_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import extent_words, row_words, with_elements_of
@@ -27,9 +30,10 @@ from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text, sentence_html
-from bearing_explorer.kit.widgets.limits import rows_of
+from bearing_explorer.kit.widgets.limits import judged, rows_of
 from bearingcore import Scene
 from bearingcore.fields import Field
+from bearingcore.scene import DOF_SYMBOLS
 
 log = logging.getLogger(__name__)
 
@@ -77,8 +81,8 @@ def report(
 def page(results: Results, about: About, parts: Iterable[str]) -> str:
     """The whole page with its `parts`, each a section of HTML."""
     scene = results.scene
-    said = results.status(0.0)
     limits = rows_of(results.limits)
+    said = judged(results.status(0.0), limits)
     crossed = [row for row in limits if row["state"] == "crossed"]
     title = about.title.strip() or "Bearing report"
     body = [
@@ -89,6 +93,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"{html_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{html_text(said['words'])}; "
         f"{html_text('; '.join(said['details'][:-1]))}.</p></section>",
+        _side_by_side(results),
         "<section><h2>Warnings</h2>",
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is exceeded.</p>",
         html_table(
@@ -124,6 +129,14 @@ def _compared(results: Results) -> str:
     return html_text(f"Also drawn: {names}. ") if names else ""
 
 
+def _side_by_side(results: Results) -> str:
+    """Given numbers that differ, life, pressure, film and displacement of compared scenes."""
+    if not results.compared:
+        return ""
+    table = side_by_side_html(results, facts_of_life, Displacement.rows)
+    return f"<section><h2>Side by side</h2>{table}</section>"
+
+
 def _changes(scene: Scene, about: About) -> str:
     several = defects_of(scene)
     sentences = [
@@ -141,7 +154,7 @@ def _changes(scene: Scene, about: About) -> str:
         f"<p>Bearing: {html_text(about.bearing)}. {html_text(about.note)}</p>"
         + (_list(sentences) if sentences else "<p>There is no defect.</p>")
         + f"<p>{html_text(''.join(chosen))}Directions that can move: "
-        f"{html_text(', '.join(scene.active_dofs))}.</p>"
+        f"{html_text(', '.join(DOF_SYMBOLS[dof] for dof in scene.active_dofs))}.</p>"
     )
 
 

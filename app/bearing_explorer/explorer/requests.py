@@ -142,15 +142,14 @@ class Requests(Half):
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
         editor = self.editor
-        was_changed, waited, had_effects = editor.changed, bool(editor.draft), editor.effects
+        was_changed, had_effects = editor.changed, editor.effects
         refused, changed = editor.set(given)
         names = [name for name in changed if name not in given]
-        names += [name for name in editor.draft if name not in names]
         if confirm:
             names += [name for name in given if name in editor.values and name not in refused]
         if had_effects and not editor.effects:
             self.show_controls(state=editor.state())
-        elif names or waited or was_changed != editor.changed:
+        elif names or was_changed != editor.changed:
             self.show_controls(state=editor.state(names))
         if refused:
             self.show_controls(refused=refused)

@@ -27,7 +27,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.widgets.form import stack
-from bearing_explorer.kit.widgets.limits import LimitsStrip, rows_of
+from bearing_explorer.kit.widgets.limits import LimitsStrip, judged, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
 from bearingcore.statics import summary
 
@@ -122,6 +122,7 @@ class Session:
         self._drawn_mark = 0
         self._slow_cost = self._quick_cost = math.inf
         self._slow_at = self._limits_at = self._moved_at = -math.inf
+        self._limit_rows: list[dict[str, Any]] = []
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
@@ -394,9 +395,11 @@ class Session:
             for drawing in picture.drawings:
                 drawing.view.put_head(picture.content)
                 drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
-            self.status.put(line={**picture.status, "tab": self.tabs.active})
             if picture.limits is not None:
-                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
+                self._limit_rows = rows_of(picture.limits)
+                self.limits.put(rows=self._limit_rows, summary=summary(picture.limits))
+            line = judged(picture.status, self._limit_rows)
+            self.status.put(line={**line, "tab": self.tabs.active})
 
         await self._send(change)
 

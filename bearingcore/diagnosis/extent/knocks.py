@@ -281,7 +281,7 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
         recording.directions, recording.acceleration[:kept].T, strict=True
     ):
         faults = signal_faults(samples)
-        if faults.dropped_share > MOST_DROPPED:
+        if faults.lost_share > MOST_DROPPED:
             continue
         dropped = faults.dropped
         left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)

@@ -46,6 +46,9 @@ called healthy then. Noise whose power swings by more than six tenths of its mea
 MUCH_DROPPED, MUCH_CLIPPED = 0.1, 0.02
 """Shares from which the absence of lines means nothing."""
 
+SOME_DROPPED = 1e-3
+"""Share from which it is said that samples do not count."""
+
 FAINT, FAINT_RACE = 2.5, 4.0
 """Deviations from which lines of a ball or a race, too faint to name it, forbid to call the bearing
 healthy."""
@@ -72,6 +75,8 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
     else:
         fault, probability = NONE_SEEN, (1.0 - SILENT) * (1.0 - judged.detectable)
         status, detail = DiagnosisStatus.NONE_SEEN, say.healthy(SURELY * judged.detectable)
+    if signal.dropped > SOME_DROPPED and status is not DiagnosisStatus.DROPPED_OUT:
+        detail += say.left_out(signal.dropped)
     return Diagnosis(
         fault=fault,
         probability=probability,

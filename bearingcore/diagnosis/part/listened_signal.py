@@ -43,7 +43,7 @@ class ListenedSignal:
         self.duration = recording.duration
         columns = recording.acceleration.T
         faults = [signal_faults(column) for column in columns]
-        usable = [index for index, one in enumerate(faults) if one.dropped_share <= MOST_DROPPED]
+        usable = [index for index, one in enumerate(faults) if one.lost_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
         self._measured = [np.asarray(columns[index]) for index in usable]
         self.columns = [_with_a_floor(samples) for samples in self._measured]
@@ -51,7 +51,7 @@ class ListenedSignal:
         self.whitening: float | None = WHITENING
         self.unusable: Reason | None = None
         if not usable:
-            share = min(one.dropped_share for one in faults)
+            share = min(one.lost_share for one in faults)
             self.unusable = DiagnosisStatus.DROPPED_OUT, say.dropout_message(share)
 
     def unwhitened(self) -> ListenedSignal:

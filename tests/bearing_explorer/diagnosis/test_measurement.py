@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, guess, read_form, with_role
-from bearing_explorer.diagnosis.machine import FormError, Machine
+from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
+from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import Measurement
@@ -29,22 +29,18 @@ from bearing_explorer.diagnosis.upload import (
 )
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
+from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import savemat, wavfile
 
-from bearingcore import Scene, catalogue, presets, read_table
+from bearingcore import Scene, catalogue, presets
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 RIG = presets["fan-rig"]
 NOISE = np.random.default_rng(2).standard_normal((2000, 2))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Files are read in this process; that of their own has its tests with the core."""
-    read_in_this_process(monkeypatch)
 
 
 def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> bytes:
@@ -142,14 +138,14 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
 
 def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
-    made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())
+    made = brought("a.csv", csv_of(0.1 * NOISE, "time,x,y"), signal())
     assert made.measured is not None
     assert not made.measured.in_si
     assert not made.state.bad
-    np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
+    np.testing.assert_allclose(made.measured.recording.acceleration, 0.1 * NOISE, rtol=1e-5)
     assert made.state.open == ["unit"]
     assert made.state.proposed == "g"
-    assert "g is likely: a root mean square of 0.3" in made.state.words
+    assert "g is likely: a root mean square of 0.1" in made.state.words
     answer(made, sure="yes")  # agreeing to guesses is no answer to this
     assert made.state.open == ["unit"]
     assert not made.measured.in_si
@@ -157,10 +153,11 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert made.measured.in_si
     assert not made.state.open
     np.testing.assert_allclose(
-        made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
+        made.measured.recording.acceleration, 0.1 * 9.80665 * NOISE, rtol=1e-5
     )
     answer(made, unit="")  # taken back
     assert not made.measured.in_si
+    assert brought("a.csv", csv_of(NOISE, "time,x,y")).state.proposed == "", "1 is usual in both"
     said = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))  # not asked where the file says it
     assert said.measured is not None
     assert said.measured.in_si
@@ -207,18 +204,6 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
     assert any(told in sentence for sentence in made.state.refused.values())
 
 
-@pytest.mark.parametrize(
-    ("text", "hertz"),
-    [("25,5 Hz", 25.5), ("1 797 1/min", 29.95), ("7.5hz", 7.5)],
-)
-def test_shaft_speeds_are_read_with_their_units(text, hertz):
-    table = read_table("a.csv", csv_of(NOISE, "time,x,y"))
-    asked = read_form(table, {**guess(table), "speed": "given", "shaft_speed": text}, Machine())
-    assert asked.machine.shaft_speed == pytest.approx(2.0 * math.pi * hertz)
-    with pytest.raises(FormError, match="Which column is the signal"):
-        read_form(table, {**guess(table), "columns": "time;;"}, Machine())
-
-
 def test_more_numbers_than_a_session_keeps_are_left_out():
     rows = MOST_NUMBERS // 2 + 1000
     content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
@@ -261,25 +246,13 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
     )
     assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
+    assert made.state.columns.places == ["drive end", "fan end", "base"]
     answer(made, sample_rate="48000", unit="m/s²", bearing="scene")
     assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
     answer(made, columns="y;x;")  # the hand wins, and a note says what speaks against it
     assert "two places (drive end and fan end)" in made.state.remarks
-
-
-def test_sensors_at_several_places_are_asked_about_and_never_mixed():
-    sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
-    made = brought("12k_105.mat", mat_of(**sides))
-    assert made.measured is None
-    assert set(made.state.open) == {"columns", "unit"}
-    assert "several places (base, drive end, fan end)" in made.state.reasons["columns"]
-    assert made.state.columns.places == ["drive end", "fan end", "base"]
-    answer(made, columns="y;;")
-    assert made.measured is not None
-    assert made.measured.recording.sample_rate == 12_000.0
-    assert "12 kHz?" in made.state.line
 
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
@@ -464,7 +437,15 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
         assert made.measured.machine.source_of("bearing") == "given"
-        await bring(made, "fourth.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        pulses = 5.0 * (np.arange(len(NOISE)) % 100 < 10)
+        two = np.column_stack([NOISE[:, 0], pulses])
+        await bring(made, "fourth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing"}, "the speed was the file's"
+        made.take_form({**made.state.values, "speed": "given", "shaft_speed": "1500 rpm"})
+        await settled(made)
+        await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing", "speed"}
+        assert "there is a guess from the file: " in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
@@ -481,10 +462,12 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     made = brought("two.csv", content)
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     assert "holds 2 recordings" in made.state.remarks
+    assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
     assert "“a z [g]” (along the shaft), “tacho [V]” (a guess at the shaft" in made.state.remarks
     assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)
+    assert made.state.words.startswith("two.csv, recording 2 of 2: ")
     assert "one_of_recordings(2)" in "\n".join(recording_lines(made.measured))
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     answer(made, part="3")

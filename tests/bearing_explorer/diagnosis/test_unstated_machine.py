@@ -3,7 +3,6 @@
 import asyncio
 import io
 import math
-from collections.abc import Iterator
 from datetime import UTC, datetime
 from functools import cache
 
@@ -35,20 +34,13 @@ from bearingcore import Diagnosis, presets
 from tests.bearing_explorer.diagnosis.test_measurement import answer, bring, brought
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 MOTOR, RIG = presets["6205"], presets["fan-rig"]
 MODEL = Model(RIG)
 NOW = datetime(2026, 11, 26, tzinfo=UTC)
 TURN = 2.0 * math.pi
-
-
-@pytest.fixture(autouse=True)
-def quick() -> Iterator[None]:
-    """Files are read in this process."""
-    with pytest.MonkeyPatch.context() as patched:
-        read_in_this_process(patched)
-        yield
 
 
 @cache

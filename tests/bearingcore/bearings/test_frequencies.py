@@ -27,19 +27,3 @@ def test_frequencies_lead_back_to_the_bearing(bearing: Bearing, known: str, scal
     doubled = bearing_of_frequencies({**given, "bsf": 2.0 * given["bsf"]}, bearing.pitch_diameter)
     assert orders(doubled) == pytest.approx(orders(bearing), rel=2e-3)
     assert "pitch_diameter" in found.estimated
-
-
-@pytest.mark.parametrize(
-    ("given", "allowed"),
-    [
-        ({"bpfo": 3.2}, "BPFO and BPFI"),
-        ({"bpfo": 3.2, "bpfi": 5.3}, "nearly a whole number"),
-        ({"bpfo": 4.8, "bpfi": 3.2}, "more than BPFO"),
-        ({"bpfo": 0.2, "bpfi": 0.4}, "nearly a whole number"),
-        ({"bpfo": math.nan, "bpfi": 4.8}, "finite"),
-        ({}, "BPFO and BPFI"),
-    ],
-)
-def test_frequencies_of_no_bearing_are_refused(given: dict[str, float], allowed: str) -> None:
-    with pytest.raises(ValueError, match=allowed):
-        bearing_of_frequencies(given, 0.04)

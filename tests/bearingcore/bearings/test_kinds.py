@@ -7,8 +7,6 @@ import pytest
 
 from bearingcore import presets
 from bearingcore.bearings import KINDS
-from bearingcore.bearings.kinds import kind_named
-from bearingcore.errors import FieldError
 
 every_preset = pytest.mark.parametrize("name", list(presets))
 
@@ -28,12 +26,3 @@ def test_each_variant_is_made_of_any_bearing(name: str) -> None:
             made = kind.nearest(presets[name].bearing, variant.name)
             assert made.kind is kind
             assert kind.variant(made) == variant.name
-
-
-def test_a_name_or_numbers_of_another_kind_are_refused() -> None:
-    with pytest.raises(FieldError, match="kind is 'thrust'"):
-        kind_named("thrust")
-    for name, field in (("rows", "rows"), ("self-aligning", "rows"), ("roller", "roller_length")):
-        with pytest.raises(FieldError) as refused:
-            dataclasses.replace(presets["6205"].bearing, kind=name)
-        assert refused.value.field == field

@@ -9,7 +9,6 @@ import pytest
 
 from bearingcore import Bearing, Scene, equilibrium, presets, simulate
 from bearingcore.bearings.hertz import spherical_contact
-from bearingcore.bearings.rows import Row
 from bearingcore.errors import FieldError
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]
@@ -68,19 +67,6 @@ def test_rollers_carry_radial_loads_only_and_say_so() -> None:
             ask(dofs=("x", "y", "z"))
         assert found.value.field == "dofs"
     assert Scene.from_toml(scene.to_toml()) == scene
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"facing": 0}, "facing of a row is 0; allowed: 1 or -1"),
-        ({"place": math.inf}, "place of a row"),
-        ({"clearance": 1.0}, "clearance of a row"),
-    ],
-)
-def test_rows_refuse_what_cannot_be(change: dict, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        Row(**change)
 
 
 @pytest.mark.parametrize("arrangement", ["back-to-back", "face-to-face", "tandem"])

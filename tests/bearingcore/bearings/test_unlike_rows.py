@@ -88,19 +88,6 @@ def test_a_row_of_other_balls_is_a_bearing_of_them() -> None:
     ), "a factor set apart from the drawing keeps its proportion in each row"
 
 
-@pytest.mark.parametrize(
-    ("row", "words"),
-    [
-        (Row(n_balls=40), "row 2: n_balls is 40"),
-        (Row(ball_diameter=70e-3), "row 2: ball_diameter is 0.07"),
-        (Row(inner_groove_radius=5e-3), "row 2: inner_groove_radius"),
-    ],
-)
-def test_rows_that_cannot_be_built_are_named(row: Row, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        with_rows(Row(), row)
-
-
 @pytest.mark.parametrize("balls", ["massless", "with mass"])
 def test_rows_with_every_number_of_their_own_are_the_bearing_of_those_numbers(balls: str) -> None:
     """At rest and in motion, although cages and tilts are counted in other units."""

@@ -22,7 +22,6 @@ from bearingcore import (
     modes,
     presets,
     simulate,
-    spectrum,
 )
 from tests.helpers.judge import verdict
 
@@ -182,21 +181,6 @@ def test_a_support_that_is_not_known_where_it_is_needed(
     assert "free directions" in refused(missing, "None", lambda: function(unknown))
     assert equilibrium(unknown).converged.all()
     function(unknown.replace(dofs=("x", "y")))
-
-
-@pytest.mark.parametrize(
-    ("signal", "rate", "resolution", "field"),
-    [
-        (np.zeros(100), 65536.0, 32.0, "signal"),
-        (np.full(4096, NAN), 65536.0, 32.0, "signal"),
-        (np.zeros(4096), NAN, 32.0, "sample_rate"),
-        (np.zeros(4096), 65536.0, 40e3, "resolution"),
-        (np.zeros(4096), 65536.0, NAN, "resolution"),
-    ],
-)
-def test_spectrum_refuses(signal: np.ndarray, rate: float, resolution: float, field: str) -> None:
-    with pytest.raises(ValueError, match=rf"^{field} is .*; allowed: "):
-        spectrum(signal, rate, resolution)
 
 
 @pytest.mark.parametrize(

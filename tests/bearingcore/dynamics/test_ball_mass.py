@@ -109,16 +109,16 @@ def test_loads_and_places_are_those_of_independent_sums(scene: Scene) -> None:
     for i in (0, 100, 400):
         full[0, index], full[1, index] = motion.inner_displacement[i], motion.outer_displacement[i]
         sums = TwoContacts(scene, motion.cage_angle[i], *full, motion.ball_position[i])
-        for race, load in enumerate((motion.ball_load_inner, motion.ball_load_outer)):
+        for race, load in enumerate(motion.race_loads()):
             assert load[i] == pytest.approx(sums.load[race], rel=1e-7, abs=1e-6)
     part = motion.race_loads(90, 110)
     assert np.array_equal(part[1], motion.ball_loads(90, 110))
-    assert part[0] == pytest.approx(motion.ball_load_inner[90:110], rel=1e-9, abs=1e-9)
+    assert part[0] == pytest.approx(motion.race_loads()[0, 90:110], rel=1e-9, abs=1e-9)
 
 
 def test_massless_motions_have_the_same_load_on_both_sides_and_no_places() -> None:
     motion = simulate(FAN_RIG.replace(balls="massless"), 0.002, RATE)
-    assert np.array_equal(motion.ball_load_inner, motion.ball_load_outer)
+    assert np.array_equal(*motion.race_loads())
     with pytest.raises(ValueError, match="with mass"):
         _ = motion.ball_position
 

@@ -27,8 +27,3 @@ def test_a_speed_run_takes_orbits_where_they_are_stable_and_marches_elsewhere() 
         assert np.abs(error).max() < 0.6  # lines beat otherwise from another phase
         assert np.sqrt(np.mean(error**2)) < 0.15
     assert run.ball_pass_frequency[0] == pytest.approx(40.289, abs=1e-3)
-
-
-def test_speeds_must_be_above_zero() -> None:
-    with pytest.raises(ValueError, match="shaft_speeds"):
-        speed_run(RIG, [0.0, 10.0])

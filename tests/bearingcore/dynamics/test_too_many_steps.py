@@ -94,17 +94,6 @@ def test_the_bound_in_all_is_an_argument_and_holds_while_steps_are_taken() -> No
         speed_run(rig, speeds, most_steps_in_all=0)
 
 
-@pytest.mark.parametrize(
-    ("what", "asked"), [("duration", 1e9), ("resolution", 1e-6), ("resolution", math.nan)]
-)
-def test_spectra_of_orbits_and_runs_hold_no_more_than_memory(what: str, asked: float) -> None:
-    rig = presets["fan-rig"]
-    with pytest.raises(ValueError, match=f"^{what} is"):
-        orbit(rig).spectrum(**{what: asked})
-    with pytest.raises(ValueError, match=f"^{what} is"):
-        speed_run(rig, [260.0], **{what: asked})
-
-
 def test_the_bound_is_an_argument() -> None:
     rig = presets["fan-rig"]
     steps = orbit(rig).right_hand_side_calls // 4

@@ -10,15 +10,10 @@ from scipy.io import savemat
 
 from bearingcore import read_table
 from bearingcore.files import facts
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 def matlab(**variables: object) -> bytes:
@@ -53,17 +48,6 @@ def test_case_western_variables_are_of_several_places() -> None:
         table.recording(["X130_DE_time"], ["y"], "g")
     got = table.recording(["X130_DE_time"], ["y"], "g", 12e3)
     assert got.shaft_speed == found.shaft_speed.value
-
-
-def test_the_number_of_a_case_western_file_says_how_it_was_sampled() -> None:
-    sides = {f"X097_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE")}
-    found: Any = read_table("a.mat", matlab(**sides)).contents
-    assert found.sample_rate.value == 48_000.0
-    named: Any = read_table("12k_Drive_End_1.mat", matlab(**sides)).contents
-    assert named.sample_rate.value == 12_000.0
-    assert "12k" in named.sample_rate.reason
-    assert named.choice.columns == {"y": 0}
-    assert "name says drive end" in named.choice.reason
 
 
 def test_mfpt_structs_tell_rate_speed_and_load() -> None:
@@ -181,57 +165,6 @@ def test_files_of_public_collections_are_recognised(
     assert (None if found.bearing is None else found.bearing.value) == bearing
 
 
-@pytest.mark.parametrize("count", [2, 3])
-def test_columns_without_a_name_are_asked_about(count: int) -> None:
-    choice = read_table("a.csv", lines(NOISE[:600, :count])).contents.choice
-    assert not choice.columns
-    assert choice.options == tuple(range(count))
-    assert choice.question == (
-        f"The file holds {count} signals, and nothing says where or in which direction they were "
-        "measured. Which is at this bearing?"
-    )
-
-
-@pytest.mark.parametrize(
-    "names",
-    [("Accel DE", "Accel NDE"), ("DE", "FE"), ("Acc 1", "Acc 2"), ("inboard", "outboard"),
-     ("drive end", "opposite drive end"), ("ch DE", "ch 2")],
-)  # fmt: skip
-def test_two_signals_are_two_directions_only_where_something_says_so(names) -> None:
-    text = "time," + ",".join(names) + "\n"
-    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
-    for file_name in ("a.csv", "pump_de_nde_fe.csv"):
-        choice = read_table(file_name, text.encode() + lines(rows)).contents.choice
-        assert not choice.columns
-        assert choice.options == (1, 2)
-    for axes in ("acc x,acc y", "horizontal,vertical", "DE H,DE V"):
-        table = read_table("a.csv", f"time,{axes}\n".encode() + lines(rows))
-        assert table.contents.choice.columns == {"x": 1, "y": 2}
-
-
-def test_a_heading_of_comments_that_no_row_has_leaves_the_others() -> None:
-    """As LabVIEW writes it: a column of words is named, and empty."""
-    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
-    text = b"X_Value\tAccel DE\tAccel NDE\tComment\n" + lines(rows, delimiter="\t")
-    found: Any = read_table("de_nde.lvm", text).contents
-    assert [column.role for column in found.columns] == ["time", "signal", "signal"]
-    assert [column.place for column in found.columns[1:]] == ["drive end", "non-drive end"]
-    assert "several places" in found.choice.question
-    assert found.sample_rate.value == pytest.approx(8000.0, rel=1e-3)
-
-
-def test_names_in_structs_say_the_place_of_the_signal_next_to_them() -> None:
-    cells = np.empty(2, dtype=object)
-    for index, name in enumerate(("DE", "FE")):
-        cells[index] = {"name": name, "signal": NOISE[:600, index], "fs": 8000.0}
-    file = io.BytesIO()
-    savemat(file, {"data": cells})
-    contents = read_table("a.mat", file.getvalue()).contents
-    assert [column.place for column in contents.columns] == ["drive end", "fan end"]
-    assert not contents.choice.columns
-    assert contents.choice.options == (0, 1)
-
-
 def test_lines_above_the_numbers_are_listened_to() -> None:
     heading = (
         "Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\nLoad; 2,5 kN\nUnit: m/s^2\n"
@@ -270,13 +203,6 @@ def test_a_velocity_is_differentiated_with_a_note() -> None:
     inside = slice(20, -20)
     np.testing.assert_allclose(got.acceleration[inside, 0], exact[inside], atol=0.5)
     assert "differentiated" in got.notes[0]
-
-
-def test_a_displacement_or_a_temperature_is_no_signal() -> None:
-    content = lines(NOISE[:600, :3], heading="gap [µm];temp [°C];acc [g]".replace(";", ","))
-    found: Any = read_table("a.csv", content).contents
-    assert [column.role for column in found.columns] == ["other", "other", "signal"]
-    assert found.choice.columns == {"y": 2}
 
 
 def test_a_column_of_speed_is_the_shafts() -> None:

@@ -8,18 +8,13 @@ import pytest
 from bearingcore import EDGES, RACES, Defect, MeasuredFloor, RoughFloor, equilibrium, presets
 from bearingcore.files.floor import read_floor
 from bearingcore.scene.defect import drop_into
-from tests.helpers.reading import read_in_this_process
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
 
 BEARING = presets["fan-rig"].bearing
 ANGLES = np.linspace(-0.4, 0.5, 3001)
 # a tabulated path cuts the corner where the ball reaches the floor by at most this much [m]
 TABLE_ERROR = 3e-8
-
-
-@pytest.fixture(autouse=True)
-def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How files are read in a process of their own is tested elsewhere."""
-    read_in_this_process(monkeypatch)
 
 
 @pytest.mark.parametrize("race", RACES)
@@ -75,28 +70,6 @@ def test_a_floor_is_read_from_two_columns(text: str) -> None:
     defect = Defect(extent, depth, center, floor=floor)
     assert float(defect.surface(math.radians(265.0), BEARING)) == pytest.approx(40e-6)
     assert float(defect.surface(math.radians(275.0), BEARING)) == pytest.approx(25e-6)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("1 2\n3 x\n", "line 2"),
-        ("1 2 3\n4 5 6\n", "number of columns in the floor is 3"),
-        ("1 2\n1 3\n", "different angles"),
-        ("1 -2\n2 3\n", "at least 0"),
-        ("1 0\n2 0\n", "not 0 everywhere"),
-        ("0 1\n400 1\n", "within one turn"),
-    ],
-)
-def test_an_unreadable_floor_is_refused_in_words(text: str, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        read_floor(text)
-
-
-def test_touching_defects_of_different_edges_are_refused() -> None:
-    pair = (Defect(0.2, 50e-6, 0.0), Defect(0.2, 50e-6, 0.1, edge="exact"))
-    with pytest.raises(ValueError, match="run into one another"):
-        presets["fan-rig"].replace(defect=pair)
 
 
 def test_a_race_worn_all_round_only_shifts_the_ring() -> None:

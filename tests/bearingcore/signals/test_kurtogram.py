@@ -40,20 +40,6 @@ def test_what_is_too_faint_is_not_chosen():
     assert low < 1000.0 < high
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ((np.zeros(100), RATE), r"signal is .*\(100,\)"),
-        ((np.zeros(4096), RATE), "same number throughout"),
-        ((np.zeros((4096, 2)), RATE), r"\(4096, 2\)"),
-        ((np.zeros(4096), 0.0), "sample_rate"),
-    ],
-)
-def test_what_cannot_be_is_refused(arguments, said):
-    with pytest.raises(ValueError, match=said):
-        kurtogram(*arguments)
-
-
 def test_a_single_mishap_does_not_decide():
     signal = knocking(3000.0)
     signal[9000] += 200.0

@@ -3,28 +3,18 @@
 import numpy as np
 import pytest
 
-from bearingcore import diagnose, envelope_spectrum, presets, spectrum
+from bearingcore import diagnose, presets
 from bearingcore.common.numbers import thousands
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.signals.recording import Recording
 
 RIG = presets["fan-rig"]
-#: of a length that would be gigabytes, and takes none
-ENDLESS = np.broadcast_to(np.float64(0.0), (200_000_000,))
 
 
 @pytest.fixture
 def signal() -> Recording:
     return Recording(np.random.default_rng(1).normal(size=(20_000, 2)), 20_000.0)
-
-
-def test_spectra_of_too_many_samples_are_refused_before_they_are_begun() -> None:
-    words = f"samples of the signal is 200000000; allowed: at most most_samples = {thousands(1e8)}"
-    for ask in (lambda: spectrum(ENDLESS, 65536.0),
-                lambda: envelope_spectrum(ENDLESS, 65536.0, (2000.0, 4000.0))):  # fmt: skip
-        with pytest.raises(ValueError, match=words):
-            ask()
 
 
 def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(

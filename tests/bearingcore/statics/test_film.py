@@ -5,9 +5,7 @@ import math
 import pytest
 
 from bearingcore import equilibrium, presets
-from bearingcore.statics.film import (
-    film,
-)
+from bearingcore.statics.film import film
 
 OIL = {"viscosity": 0.02, "pressure_viscosity": 2.0e-8}
 
@@ -40,24 +38,3 @@ def test_no_known_load_no_film(changes: dict[str, float], why: str) -> None:
     assert "not known" in found.sentence
     assert why in found.inner.sentence
     assert not found.limit.crossed
-
-
-@pytest.mark.parametrize(
-    ("changes", "name"),
-    [
-        ({"viscosity": 0.0}, "viscosity"),
-        ({"pressure_viscosity": -1.0}, "pressure_viscosity"),
-        ({"roughness_ball": math.nan}, "roughness_ball"),
-        ({"roughness_ball": 0.0, "roughness_inner": 0.0}, "roughness_inner"),
-    ],
-)
-def test_bad_input_is_named(changes: dict[str, float], name: str) -> None:
-    with pytest.raises(ValueError, match=name):
-        film(presets["6205"], **{**OIL, **changes})
-
-
-def test_a_bearing_without_drawing_is_refused() -> None:
-    with pytest.raises(ValueError, match="inner_groove_radius"):
-        film(presets["fan-rig"], **OIL)
-    with pytest.raises(ValueError, match="state"):
-        film(presets["6205"], **OIL, state=equilibrium(presets["6206"]))

@@ -51,7 +51,7 @@ def test_commercial_code(
     clearance: float, load: dict[str, float], printed: float, tolerance: float
 ) -> None:
     """Printed in GitHub, minzhun/ISO16281, `Test_BallBearing.py`: C_r 23,400 N."""
-    found = life(seven_balls(clearance, **load), RATING)
+    found = life(seven_balls(clearance, **load), RATING, positions="load line")
     assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
     assert found.known
 
@@ -107,7 +107,9 @@ def test_defects_of_both_races_by_counting() -> None:
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
     scene = presets["6205"].healthy()
-    inner, outer = life(scene, 14e3), life(scene, 14e3, turning_race="outer")
+    inner, outer = (
+        life(scene, 14e3, positions="load line", turning_race=race) for race in ("inner", "outer")
+    )
     Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
     cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
     assert (inner.inner_load, inner.outer_load) == pytest.approx((cubic, tenthirds), rel=1e-12)
@@ -117,6 +119,8 @@ def test_both_means_of_the_standard_change_places_with_the_turning_race() -> Non
 def test_hours() -> None:
     found = life(presets["6206"], 19_500.0)
     assert found.hours == pytest.approx(found.million_revolutions * 1e6 / (1470.0 * 60.0))
+    sound = life(presets["6206"].healthy(), 19_500.0)
+    assert sound.million_revolutions == found.healthy_million_revolutions, "the same cage angles"
     standing = life(presets["6206"].replace(shaft_speed=0.0), 19_500.0)
     assert math.isnan(standing.hours)
     assert standing.million_revolutions == found.million_revolutions
@@ -124,7 +128,8 @@ def test_hours() -> None:
 
 
 def test_a_heavy_load_is_beyond_the_standard() -> None:
-    assert "does not vouch" in life(presets["6205"].replace(fy=-9000.0), 14e3).sentence
+    hard = life(presets["6205"].replace(fy=-9000.0), 14e3).sentence
+    assert "above 50 % the standard does not vouch" in hard  # ISO 281
     assert "does not vouch" not in life(presets["6205"], 14e3).sentence
 
 
@@ -141,34 +146,12 @@ def test_no_equilibrium_no_life(race: str) -> None:
         assert "not known" in found.sentence
 
 
-def test_a_bearing_without_drawing_is_refused() -> None:
-    with pytest.raises(ValueError, match="inner_groove_radius"):
-        life(presets["liew-lim"], 36e3)
-
-
 def test_no_load_no_fatigue() -> None:
     found = life(presets["6205"].replace(fy=0.0), 14e3)
     assert math.isinf(found.million_revolutions)
     assert found.equivalent_load == 0.0
     assert found.share_of_healthy == 1.0
     assert "there is no fatigue" in found.sentence
-
-
-@pytest.mark.parametrize(
-    ("changes", "name"),
-    [
-        ({"dynamic_load_rating": 0.0}, "dynamic_load_rating"),
-        ({"dynamic_load_rating": math.inf}, "dynamic_load_rating"),
-        ({"positions": "load line"}, "positions"),
-        ({"positions": "some"}, "positions"),
-        ({"turning_race": "outer"}, "turning_race"),
-        ({"turning_race": "cage"}, "turning_race"),
-    ],
-)
-def test_bad_input_is_named(changes: dict[str, object], name: str) -> None:
-    arguments = {"dynamic_load_rating": 14e3, **changes}
-    with pytest.raises(ValueError, match=name):
-        life(presets["6206"], **arguments)  # type: ignore[arg-type]
 
 
 def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:

@@ -32,10 +32,3 @@ def test_nothing_carried_and_nothing_known() -> None:
     unknown = contact_pressures(two_balls, equilibrium(two_balls, [0.0]))
     table = unknown.table()
     assert all(np.isnan(table[name]).all() for name in table if table.unit(name))
-
-
-def test_refusals() -> None:
-    with pytest.raises(ValueError, match="inner_groove_radius"):
-        contact_pressures(presets["fan-rig"])
-    with pytest.raises(ValueError, match="state"):
-        contact_pressures(presets["6205"], equilibrium(presets["6206"]))

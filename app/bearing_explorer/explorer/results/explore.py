@@ -1,8 +1,8 @@
 """Maps of one output over the plane of two quantities: outputs, levels of refinement, progress.
 
 A map is refined by halving the distance of its points: each level holds the points of the level
-before, which are not computed again. How fine it gets is a matter of cost: the price of a scene is
-guessed first and measured then, and what would take too long is refused with a sentence.
+before, which are not computed again. A job that takes too long ends with the level that it has
+come to.
 
 What is not known has a reason instead of a number. Holds no Panel and draws nothing.
 """
@@ -53,9 +53,6 @@ STRIDES = (16, 8, 4, 2, 1)
 """Of the levels: every so many-th of the finest points."""
 SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
 """Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
-
-BUDGET = 120.0
-"""[s] that a map may take."""
 
 _QUICK = (STATICS, PRESSURE, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
@@ -231,23 +228,11 @@ class Survey:
         self._values = np.full(shape, math.nan)
         self._reasons = np.full(shape, NOT_COMPUTED, dtype=object)
         self._known = np.zeros(shape, dtype=bool)
-        self.spent = 0.0  # [s] so far
-        self._computed = 0
         if start is not None:
             columns, rows = question.level(start.stride)
             at = np.ix_(rows, columns)
             self._values[at], self._reasons[at] = start.values, start.reasons
             self._known[at] = start.reasons != NOT_COMPUTED
-
-    @property
-    def seconds(self) -> float:
-        """Cost of a scene [s]: measured where something was computed, or else guessed."""
-        guess = SECONDS[self.question.output.needs]
-        return self.spent / self._computed if self._computed >= 6 else guess
-
-    def affordable(self, stride: int) -> bool:
-        """Whether the map may be found on this level too."""
-        return self.spent + self.missing(stride) * self.seconds <= BUDGET
 
     def missing(self, stride: int) -> int:
         """Number of points of a level that are not known yet."""
@@ -261,20 +246,18 @@ class Survey:
         before, what is known so far is shown from time to time.
         """
         shown_at = time.perf_counter()
-        left = self.missing(stride if last is None else last)
-        whole = self._computed + left
+        last = stride if last is None else last
+        whole = self.question.count(last)
         for at in self._chunks(stride):
             if job is not None and job.cancelled():
                 return False
-            started = time.perf_counter()
             self._find(*at)
-            self.spent += time.perf_counter() - started
-            self._computed += at[0].size * at[1].size
             if job is None:
                 continue
-            job.progress(self._computed / whole)
-            if stride == self.question.first_stride and started - shown_at > _SHOW_EVERY:
-                shown_at = started
+            job.progress(1.0 - self.missing(last) / whole)
+            now = time.perf_counter()
+            if stride == self.question.first_stride and now - shown_at > _SHOW_EVERY:
+                shown_at = now
                 job.show(self.plane(stride))
         return True
 
@@ -289,12 +272,13 @@ class Survey:
         solved together, others short enough for a job to be cancelled soon.
         """
         columns, rows = self.question.level(stride)
+        few = max(1, int(_CHUNK / SECONDS[self.question.output.needs]))
         upright = self.question.y.field.name == "extent"
         for fixed in columns if upright else rows:
             line = rows if upright else columns
             known = self._known[line, fixed] if upright else self._known[fixed, line]
             left = line[~known]
-            most = left.size if self.question.grid.in_rows else max(1, int(_CHUNK / self.seconds))
+            most = left.size if self.question.grid.in_rows else few
             for start in range(0, left.size, max(most, 1)):
                 part, one = left[start : start + most], np.array([fixed])
                 yield (part, one) if upright else (one, part)
@@ -341,44 +325,20 @@ def coarse(question: Question) -> Plane:
 def refine(job: Work, question: Question, finest: int, start: Plane | None = None) -> str:
     """One level after another up to the stride `finest`, each shown; returns what to say of it.
 
-    Goes on from `start` where it is given. ValueError, with a sentence, where even the first level
-    takes too long, or no scene of the map can be.
+    Goes on from `start` where it is given. ValueError, with a sentence, where no scene of the map
+    can be.
     """
     survey = Survey(question, start)
     first = question.first_stride
-    if not survey.affordable(first):
-        raise ValueError(
-            f"Even {question.size_words(first)} would take {_duration(survey, first)}, more than "
-            f"the {BUDGET / 60.0:.0f} minutes allowed here: choose another output."
-        )
-    levels = [stride for stride in STRIDES if finest <= stride <= first]
     shown = start
-    for stride in levels:
-        if not survey.missing(stride):
+    for stride in STRIDES:
+        if not finest <= stride <= first or not survey.missing(stride):
             continue
-        if not survey.affordable(stride):
-            return (
-                f"{_found(shown, survey)} {question.size_words(stride)} would take "
-                f"{_duration(survey, stride)} more; a map may take {BUDGET / 60.0:.0f} minutes."
-            )
-        last = min(level for level in levels if survey.affordable(level))
-        if not survey.compute(stride, job, last):
+        if not survey.compute(stride, job, finest):
             break
         shown = survey.plane(stride)
         job.show(shown)
-    return _found(shown, survey)
-
-
-def _found(shown: Plane | None, survey: Survey) -> str:
-    question = survey.question
-    spent = f" after {survey.spent:.1f} s" if survey.spent else ""
     if shown is not None:
-        return f"{question.size_words(shown.stride)}{spent}."
-    first = question.first_stride
+        return f"{question.size_words(shown.stride)}."
     known = question.count(first) - survey.missing(first)
-    return f"{known} of {question.size_words(first)}{spent}."
-
-
-def _duration(survey: Survey, stride: int) -> str:
-    seconds = survey.missing(stride) * survey.seconds
-    return f"about {seconds:.0f} s" if seconds < 90.0 else f"about {seconds / 60.0:.0f} minutes"
+    return f"{known} of {question.size_words(first)}."

@@ -66,10 +66,14 @@ class SettledMotion(NamedTuple):
 
 
 class Ending(NamedTuple):
-    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled."""
+    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled.
+
+    `doubt`: how well bands of the spectrum of a completed motion are known, see `Motion.detail`.
+    """
 
     fault: str
     since: float
+    doubt: str
 
 
 # What a motion costs
@@ -118,7 +122,7 @@ def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> fl
     return min(how.duration, max(most / contacts, shortest))
 
 
-def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> float:
+def _affordable(scene: Scene, duration: float, rate: float) -> float:
     """`duration` [s], or as much of it as the steps that are allowed make."""
     with_mass = scene.balls == WITH_MASS
     most = MOST_STEPS_WITH_MASS if with_mass else MOST_STEPS
@@ -129,8 +133,8 @@ def _affordable(scene: Scene, duration: float, rate: float, by_hand: bool) -> fl
         if with_mass:
             why = "balls vibrate so fast between their races that"
         raise ValueError(
-            f"{'set by hand,' if by_hand else why} a motion takes {thousands(rate)} steps a "
-            f"second; allowed here: {thousands(most / SHORTEST)}"
+            f"{why} a motion takes {thousands(rate)} steps a second; allowed here: "
+            f"{thousands(most / SHORTEST)}"
         )
     return most / rate
 
@@ -146,15 +150,14 @@ def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
 def motion(scene: Scene, how: Marching) -> SettledMotion:
     """The motion from rest; its second half counts as settled. ValueError where there is none."""
     compiling.need(compiling.MOTION, scene)
-    by_hand = how.step_rate
-    rate = step_rate_of(scene, how.sample_rate) if by_hand is None else by_hand
-    if by_hand is None and how.coarse:
+    rate = how.step_rate or step_rate_of(scene, how.sample_rate)
+    if how.coarse:
         rate = _coarse_step_rate(scene, how.sample_rate)
     duration = quick_duration(scene, how)
     if rate is not None:
-        duration = _affordable(scene, duration, rate, by_hand is not None)
+        duration = _affordable(scene, duration, rate)
     # the default takes more steps where contacts that let go need them
-    chosen = rate if how.coarse or by_hand is not None else None
+    chosen = rate if how.coarse else how.step_rate
     found = core.simulate(
         scene, duration, how.sample_rate, step_rate=chosen, most_steps=MOST_STEPS_WITH_MASS
     )
@@ -166,7 +169,9 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
 def ending(scene: Scene, how: Marching) -> Ending:
     """The end of the motion."""
     found, since = motion(scene, how)
-    return Ending("" if found.completed else found.reason, since)
+    if found.completed:
+        return Ending("", since, found.detail)
+    return Ending(found.reason, since, "")
 
 
 @cached
@@ -201,7 +206,7 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
 
 def as_far_as_with_mass(light: Scene, how: Marching) -> Marching:
     """The same for massless balls, with which their motion is known as far as one with mass is."""
-    if how.coarse or how.step_rate is not None:
+    if how.coarse:
         return how
     return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))
 

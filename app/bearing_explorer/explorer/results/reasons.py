@@ -250,11 +250,20 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     )
 
 
+STIFF_WHERE_HELD = "Directions that are held have a stiffness as well."
+"""Why terms of directions that cannot move have values: they are the bearing's."""
+
+
 def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     """Directions in which the rings are held in a scene, and why; empty where all are free."""
     held = [dof for dof in DOF_NAMES if dof not in scene.active_dofs]
     if not held:
         return ""
+    words = _why_held(scene, held, briefly)
+    return words if briefly else f"{words} {STIFF_WHERE_HELD}"
+
+
+def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
     if scene.holds_tilt_unasked:
         return f"{names} are held, as by the shaft's other bearing."

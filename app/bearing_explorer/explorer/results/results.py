@@ -155,9 +155,16 @@ class Results(Content):
                 self.settings,
                 moving=self.moving,
                 give_up=self.give_up,
+                life_inputs=self._life_inputs_of(reference.scene),
                 like=None if own_period else self,
             )
         return self._against[key]
+
+    def _life_inputs_of(self, scene: Scene) -> LifeInputs:
+        """Of another scene: the same oil and surfaces; a rating is that of its own bearing."""
+        if scene.bearing == self.scene.bearing:
+            return self.life_inputs
+        return dataclasses.replace(self.life_inputs, dynamic_load_rating=None)
 
     @cached_property
     def editor(self) -> SceneEditor:
@@ -376,8 +383,7 @@ class Results(Content):
         return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
-        how = self.settings.marching
-        return self.moving and how.step_rate is None and motions.is_costly(scene, how)
+        return self.moving and motions.is_costly(scene, self.settings.marching)
 
     def _marching_of(self, *scenes: Scene) -> Marching:
         """Settings of motions: coarse where one of them takes too long while a slider moves."""
@@ -403,6 +409,11 @@ class Results(Content):
     def fault(self) -> str:
         """Why the motion ended early; empty where it did not."""
         return motions.ending(self.scene, self.marching).fault
+
+    @property
+    def doubt(self) -> str:
+        """Words on bands of the spectrum that are not known within 1 dB; or empty."""
+        return motions.ending(self.scene, self.marching).doubt
 
     @property
     def settled_since(self) -> float:
@@ -472,12 +483,10 @@ class Results(Content):
         The same whatever is on screen: looked at over cage angles of its own, and with the motion
         that any view has had simulated.
         """
-        step_rate = self.settings.step_rate
-        if step_rate is None:
-            try:
-                step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
-            except ValueError:
-                step_rate = None  # no motion, no steps
+        try:
+            step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
+        except ValueError:
+            step_rate = None  # no motion, no steps
         return endurance.limits(self.scene, step_rate, self.load_in_motion, self.life_inputs)
 
     @property

@@ -136,6 +136,5 @@ def status_of(
     details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):
         details.append(results.coarse_words(shown))
-    by_hand = results.settings.changed_by_hand()
-    details = [*by_hand, *details, f"{1e3 * seconds:.1f} ms of computing"]
+    details = [*details, f"{1e3 * seconds:.1f} ms of computing"]
     return {"mood": mood, "words": words, "details": details, "resting": not results.moving}

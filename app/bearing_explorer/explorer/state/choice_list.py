@@ -197,7 +197,7 @@ FLOOR = Choice(
 LAW = Choice(
     "law",
     "Contact law",
-    "Contact of a moving ball",
+    "Contacts in motion",
     (
         Option(
             "published",

@@ -26,7 +26,7 @@ CAGE_ANGLE = "cage_angle_deg"
 
 SCENE_GROUPS = ("Defect", "Turning", "Load")
 BEARING_GROUPS = ("Balls", "Rows", "Second row", "Drawing", "Contact", "Races")
-MODEL_GROUPS = ("Bodies", "Contact of a moving ball", "Support, stiffness", "Support, damping")
+MODEL_GROUPS = ("Bodies", "Contacts in motion", "Support, stiffness", "Support, damping")
 
 Values = dict[str, float]
 """A value for each key, in the shown unit of the field; NaN for an optional one left open."""
@@ -153,12 +153,11 @@ def check_values(values: Mapping[str, float], limits: Mapping[str, Range]) -> No
             read(key, repr(value), limits)
 
 
-def second_units(scene: Scene, selected: int, draft: Values) -> dict[str, dict[str, Any]]:
+def second_units(scene: Scene, selected: int) -> dict[str, dict[str, Any]]:
     """The second unit of quantities that have one, by name: its unit, words and factor.
 
     A groove is also a ratio to its ball, a clearance also diametral, a speed also in turns a
     minute, a defect also in millimetres along its race: each is the number times the factor.
-    `draft`: dimensions that wait; the ratio of a groove among them is to the ball among them.
     """
     defect = defects_of(scene)[selected]
     on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0
@@ -173,8 +172,7 @@ def second_units(scene: Scene, selected: int, draft: Values) -> dict[str, dict[s
         "radial_clearance_um": unit_of("µm dia.", "diametral clearance", 2.0),
     }
     for race in ("inner", "outer"):
-        name = f"{race}_groove_radius_mm"
-        own = draft.get("ball_diameter_mm", ball) if name in draft else ball
-        if own > 0.0:
-            units[name] = unit_of("× ball", "groove radius over ball diameter", 1.0 / own)
+        units[f"{race}_groove_radius_mm"] = unit_of(
+            "× ball", "groove radius over ball diameter", 1.0 / ball
+        )
     return units

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from bearing_explorer.explorer.state.bearing_draft import OF_BEARING, faults_of, words_of
 from bearing_explorer.explorer.state.bearing_kinds import (
     MOST_SHOWN_ROWS,
     as_kind,
@@ -152,9 +151,6 @@ class SceneEditor:
     """The entry of a list that the bearing was taken from."""
     begun: Scene = field(init=False)
     """The preset, or the usual scene of a listed bearing, from which changes began."""
-    draft: Values = field(init=False, default_factory=dict)
-    """Dimensions that were entered and wait until they fit together."""
-    faults: Refused = field(init=False, default_factory=dict)
     _effects: dict[str, str] = field(init=False, default_factory=dict)
     _scene_of_effects: Scene | None = field(init=False, default=None)
 
@@ -196,7 +192,6 @@ class SceneEditor:
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
-        self.drop_draft()
         self.floors = [_choice_of(defect) for defect in defects]
         self._begin_limits(limits)
         self.values = {}
@@ -210,7 +205,6 @@ class SceneEditor:
         """All as it was when the snapshot was taken."""
         for name, own in kept.held.items():
             setattr(self, name, own.copy() if isinstance(own, list | dict) else own)
-        self.drop_draft()
 
     @property
     def effects(self) -> Mapping[str, str]:
@@ -234,9 +228,14 @@ class SceneEditor:
     def name(self) -> str:
         """Name of the bearing: the one given, else that of the preset it began from."""
         label = preset_labels[self.preset]
-        changed = self.own_name == self._begun_from if self.own_name else self.changed
-        name = (self.own_name or label) + (", changed" if changed else "")
+        name = self.name_in_links or label + (", changed" if self.changed else "")
         return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
+
+    @property
+    def name_in_links(self) -> str:
+        """The name that was given, and whether the numbers that it names are changed; or empty."""
+        changed = bool(self.own_name) and self.own_name == self._begun_from
+        return self.own_name + (", changed" if changed else "")
 
     @property
     def note(self) -> str:
@@ -255,10 +254,6 @@ class SceneEditor:
         if self.origin is None or self.origin.bearing == self.scene.bearing:
             return ""
         return self.origin.name
-
-    def drop_draft(self) -> None:
-        """Forget the dimensions that wait."""
-        self.draft, self.faults = {}, {}
 
     def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
         """Put a bearing out of a list in the place of the one that is shown.
@@ -284,7 +279,6 @@ class SceneEditor:
         self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
-        self.drop_draft()
 
     @property
     def focus(self) -> int:
@@ -301,7 +295,7 @@ class SceneEditor:
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
         be refused.
         """
-        units = second_units(self.scene, self.selected, self.draft)
+        units = second_units(self.scene, self.selected)
 
         def in_own_unit(name: str, text: str) -> str:
             word, _, _ = units[name]["unit"].partition(" ")  # of "µm dia."; "× ball" is a ratio
@@ -327,21 +321,10 @@ class SceneEditor:
                 taken[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
                 refused[str(name)[:60]] = str(error)
-        whole = dict(taken)
-        if any(name in OF_BEARING for name in taken):
-            whole = {**{n: v for n, v in self.draft.items() if n not in taken}, **taken}
         try:
-            scene = self._scene_with(whole)
+            scene = self._scene_with(taken)
         except ValueError as error:
-            waiting = {n: v for n, v in whole.items() if n in OF_BEARING}
-            if not waiting:
-                return refused | {name: sentence_of(error) for name in taken}, {}
-            self.draft = waiting
-            self.faults = faults_of(self.scene.bearing, waiting, error)
-            return refused | self.faults, {}
-        if whole is not taken and any(name in OF_BEARING for name in taken):
-            taken = whole
-            self.drop_draft()
+            return refused | {name: sentence_of(error) for name in taken}, {}
         before = self.values
         self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
         self.values |= taken
@@ -444,8 +427,6 @@ class SceneEditor:
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
             self.own_name = one_line(choice["name"], LONGEST_NAME)
-        if choice.get("draft") == "discard":
-            self.drop_draft()
         for one, act in (
             ("defect", self._take_defect),
             ("bearing", self._take_listed),
@@ -479,6 +460,8 @@ class SceneEditor:
         found = self.listed.find(name)
         origin = origin_words(found, found.name in self.listed.own)
         self.take_bearing(found.bearing, found.name, origin)
+        if found.assumed:  # seen where it is chosen; sources are behind the question mark
+            self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
@@ -487,7 +470,6 @@ class SceneEditor:
             self._effects["kind"] = effect
         self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
         self._write_values()
-        self.drop_draft()
 
     def _take_floor_kind(self, kind: str) -> None:
         floors = self.floors[self.selected]
@@ -597,21 +579,15 @@ class SceneEditor:
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
         """State for the browser, of all fields or of `values` alone."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
-        shown = {name: self.draft.get(name, v) for name, v in wanted.items()}
         state: dict[str, Any] = {
-            "values": {name: None if math.isnan(v) else v for name, v in shown.items()},
+            "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
             "limits": {
                 name: {"least": limit.least, "most": limit.most, "step": limit.step}
                 for name, limit in self.limits.items()
                 if name in wanted
             },
             "changed": self.changed,
-            "second_units": second_units(self.scene, self.selected, self.draft),
-            "draft": {
-                "waiting": list(self.draft),
-                "faults": self.faults,
-                "words": words_of(self.draft),
-            },
+            "second_units": second_units(self.scene, self.selected),
             "bearing": {
                 "name": self.name,
                 "own": self.own_name,

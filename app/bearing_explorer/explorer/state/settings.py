@@ -19,20 +19,20 @@ class Marching:
     sample_rate
         [Hz]
     step_rate
-        [Hz] of the time integration where a person has set it; None: chosen by the program.
+        [Hz] of the time integration; None: that of the scene.
     coarse
         whether it takes half as many steps, as a slider moves.
     """
 
     duration: float
     sample_rate: float
-    step_rate: float | None
+    step_rate: float | None = None
     coarse: bool = False
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Resolution of results: fixed, unless a person changes it on the Accuracy tab.
+    """Resolution of results.
 
     Against 28,800 cage angles to a ball spacing, loads over 361 are within 0.7 % of their swing at
     99 % of the angles for every preset, and stiffness within 5 %: what is left is next to the
@@ -53,8 +53,6 @@ class Settings:
         [s] of simulated motions.
     sample_rate
         [Hz] of simulated motions.
-    step_rate
-        [Hz] of the time integration where a person has set it; None: chosen by the program.
     """
 
     n_cage_angles: int = 361
@@ -64,23 +62,13 @@ class Settings:
     n_extents: int = 91
     duration: float = 1.4
     sample_rate: float = 65536.0
-    step_rate: float | None = None
 
     @property
     def marching(self) -> Marching:
         """Settings of a motion."""
-        return Marching(self.duration, self.sample_rate, self.step_rate)
+        return Marching(self.duration, self.sample_rate)
 
     @property
     def coarse_marching(self) -> Marching:
         """Settings of a motion while a slider moves, where the usual takes too long."""
-        return Marching(COARSE * self.duration, self.sample_rate, self.step_rate, coarse=True)
-
-    def changed_by_hand(self) -> list[str]:
-        """Changes made on the Accuracy tab, in words."""
-        words = []
-        if self.n_cage_angles != Settings.n_cage_angles:
-            words.append(f"cage angles set by hand: {self.n_cage_angles}")
-        if self.step_rate is not None:
-            words.append(f"steps set by hand: {self.step_rate:.0f} Hz")
-        return words
+        return Marching(COARSE * self.duration, self.sample_rate, coarse=True)

@@ -227,12 +227,12 @@ class Accuracy(SceneJobView[Found]):
             **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
-        cost, step_rate = self._chosen.values["cost"], results.settings.step_rate
+        cost = self._chosen.values["cost"]
         for one, chart in chain.from_iterable(self._charts.values()):
             part, pale = _part(own, one), _part(base, one)
             if part is not None and not self._same:
                 pale = None  # of another scene
-            chart.draw(part, pale, cost, step_rate, reasons.get(one.experiment, ""))
+            chart.draw(part, pale, cost, reasons.get(one.experiment, ""))
         known = [found for found in (own, base) if found is not None]
         steps = next((found.stability for found in known if found.stability is not None), None)
         orbits = next((found.orbits for found in known if found.orbits), ())

@@ -30,9 +30,6 @@ GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
-OWN_STEPS = "the program's own steps"
-
-
 class OtherModels(SceneJobView[Alternatives]):
     """Errors and run times with fewer directions, other edges, balls, orbits, steps and angles."""
 
@@ -56,23 +53,17 @@ class OtherModels(SceneJobView[Alternatives]):
         return [self.job, self._table, self._taking]
 
     def _use(self, name: str) -> None:
-        """Change the scene, or the steps of its motion, to those of the model with this name."""
-        if self.parts is None:
+        """Change the scene to that of the model with this name."""
+        if self.parts is None or self.found is None:
             return
-        if name == OWN_STEPS:
-            self.parts.take_steps(None)
-        for one in () if self.found is None else takeable(self.found.rows):
-            if one.name == name and "step_rate" in one.changes:
-                self.parts.take_steps(one.changes["step_rate"])
-            elif one.name == name:
+        for one in takeable(self.found.rows):
+            if one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
                 self.parts.change_scene({"choose": words})
 
-    def _offer(self, results: Results) -> None:
+    def _offer(self, rows: Sequence[Alternative]) -> None:
         """Fill the list of what can be taken."""
-        rows = () if self.found is None else takeable(self.found.rows)
-        back = [OWN_STEPS] if results.settings.step_rate is not None else []
-        names = [*(one.name for one in rows), *back]
+        names = [one.name for one in takeable(rows)]
         chosen = self._models.values["model"]
         self._models.values["model"] = chosen = chosen if chosen in names else "".join(names[:1])
         options = choices([[name, name] for name in names])
@@ -92,11 +83,6 @@ class OtherModels(SceneJobView[Alternatives]):
         return compute
 
     def sentence(self, results: Results) -> str:
-        steps = results.settings.step_rate
-        words = "" if steps is None else f"Chosen steps of the motion: {steps:.0f} Hz. "
-        return words + self._comparison(results)
-
-    def _comparison(self, results: Results) -> str:
         if self.found is None:
             return (
                 f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
@@ -112,14 +98,13 @@ class OtherModels(SceneJobView[Alternatives]):
             words = f"Within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
         if self.found.scene != results.scene:
             words += ". Computed for an earlier scene"
-        return f"{words}. {price(self.found)}"
+        return f"{words}."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if self.found is not None:
             self._table.object = table_of_rows(self.found.rows)
-        if self._results is not None:
-            self._offer(self._results)
+            self._offer(self.found.rows)
 
     def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
         return found.table().named()
@@ -129,24 +114,6 @@ def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
     """The models that a scene can have, each once."""
     known = {one.name: one for one in rows if one.changes and math.isfinite(one.error)}
     return list(known.values())
-
-
-def price(found: Alternatives) -> str:
-    """The cost of choosing against the time saved."""
-    good = [
-        one
-        for one in found.rows
-        if one.error <= GOOD_ENOUGH[one.quantity == SPECTRUM] and one.saved > 0.0
-    ]
-    spent = style.with_prefix(found.seconds, "s")
-    if not good:
-        return f"Choosing took {spent} and saves nothing: no model within that is faster."
-    best = max(good, key=lambda one: one.saved)
-    pictures = math.ceil(found.seconds / best.saved)
-    return (
-        f"{best.name.capitalize()} saves most, {style.with_prefix(best.saved, 's')} a picture; "
-        f"choosing took {spent}, so it pays after {pictures} pictures."
-    )
 
 
 def table_of_rows(rows: tuple[Alternative, ...]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Bearing
 
@@ -51,8 +53,15 @@ class VibrationInTime(PassageView):
     needs = frozenset({"excerpt"})
     prefix = "vibration"
 
+    def build(self, packed: PackedSource) -> Any:
+        upper, lower = super().build(packed)
+        upper.tags = [compared_curves.THIN]
+        return [upper, lower]
+
     def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
-        compared = compared_curves.curves("vibration_motion", "time", *SHOWN, width=1.1)
+        compared = compared_curves.curves(
+            "vibration_motion", "time", *SHOWN[::-1], width=1.4, thin="x"
+        )
         return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:

@@ -182,15 +182,13 @@ class WorkPrecision:
         found: Experiment | None,
         shipped: Experiment | None,
         cost: str,
-        step_rate: float | None,
         refused: str,
     ) -> None:
         """Show points found on this machine and shipped ones, pale where there are both.
 
-        `cost`: "seconds" or "evaluations". `step_rate` [Hz]: the steps that were chosen instead of
-        the program's own. `refused`: why there are no points.
+        `cost`: "seconds" or "evaluations". `refused`: why there are no points.
         """
-        state = (found, shipped, cost, step_rate, refused, self.error)
+        state = (found, shipped, cost, refused, self.error)
         if self._drawn == state:
             return
         self._drawn = state
@@ -203,10 +201,10 @@ class WorkPrecision:
         faint = shipped if found is not None else None
         parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
         self._fill(parts, cost)
-        own = [p for p in main.points if self._placed(p, cost) and is_used(p, step_rate)]
+        own = [p for p in main.points if self._placed(p, cost) and p.in_use]
         self._used.data = self._at(own, cost)
         self._words.object = legend(methods_of(parts)) + paragraph(
-            not_here + sentence(main, self.error, step_rate)
+            not_here + sentence(main, self.error)
         )
 
     def _known(self, point: Point) -> bool:
@@ -279,13 +277,6 @@ class WorkPrecision:
         return lines
 
 
-def is_used(point: Point, step_rate: float | None) -> bool:
-    """True for what the page does: its own choice, or RK4 with the steps [Hz] that were chosen."""
-    if step_rate is None or point.method != "RK4":
-        return point.in_use
-    return point.value == step_rate
-
-
 def with_unit(one: Experiment, error: str, value: float) -> str:
     """An error for a sentence: in powers of ten where it is small."""
     if one.unit(error) == "dB" and value >= 0.01:
@@ -294,7 +285,7 @@ def with_unit(one: Experiment, error: str, value: float) -> str:
     return f"{text} dB" if one.unit(error) == "dB" else text
 
 
-def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str:
+def sentence(one: Experiment, error: str) -> str:
     """Comparison of the points of one chart, which all have the same reference."""
 
     def said(point: Point) -> str:
@@ -311,7 +302,7 @@ def sentence(one: Experiment, error: str, step_rate: float | None = None) -> str
         parts.append(f"Fastest within {limit}: {said(within[0])}")
     elif frontier:
         parts.append(f"None is within {limit}; the nearest is {said(frontier[-1])}")
-    used = [p for p in one.points if is_used(p, step_rate) and error in p.errors]
+    used = [p for p in one.points if p.in_use and error in p.errors]
     parts += [f"In use: {said(point)}" for point in used]
     slopes = {m: one.order(m, error) for m in one.methods if m in METHODS and METHODS[m].order}
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:

@@ -106,6 +106,7 @@ class Work:
 Change = Callable[[], None]
 
 _NEVER_BEGAN = JobState("stopped", 0.0, "Cancelled before it began.")
+_FAILED = JobState("failed", 0.0, "This could not be computed.")
 
 
 class Jobs:
@@ -163,6 +164,14 @@ class Jobs:
         self.cancel()
 
     async def _run(self, job: _Job, before: _Job | None) -> None:
+        try:
+            await self._follow(job, before)
+        except Exception:  # of what takes results and states; this task has no other listener
+            log.exception("a job could not be followed")
+            job.work.stop()
+            await self._report(job, _FAILED)
+
+    async def _follow(self, job: _Job, before: _Job | None) -> None:
         if before is not None:
             while not before.task.done():
                 await self._look(job)
@@ -206,7 +215,7 @@ class Jobs:
             state = JobState("failed", part, sentence_of(error))
         elif error is not None:
             log.error("a job failed", exc_info=error)
-            state = JobState("failed", part, "This could not be computed.")
+            state = _FAILED
         elif job is not self._job:
             state = JobState("stopped", part, "Cancelled: replaced by a newer request.")
         elif job.work.stopped:

@@ -148,6 +148,10 @@ class View(Generic[C]):
     def __init__(self, packed: PackedSource) -> None:
         self._results: C | None = None
         self._has_drawn = False
+        self._looks: tuple[bool, bool] | None = None  # as `say` had it last
+        #: of the scene, and of the last picture
+        self._bearing: object = None
+        self._drawn_bearing: object = None
         self._sentence = Sentence(css_classes=["sentence", *self.sentence_looks])
         #: parts of the content that are hidden without numbers
         self._pictures: list[pn.Column] = []
@@ -251,21 +255,25 @@ class View(Generic[C]):
         """Show the sentence and keep the results for the table. On the event loop only.
 
         Without results the last ones stay, as the last picture does, which is faded. Before the
-        first picture, and where it has no numbers, the sentence stands in its place, and no empty
-        axes.
+        first picture of a bearing, and where it has no numbers, the sentence stands in its place,
+        and no empty axes.
         """
         self._results = results or self._results
         if results is not None:
-            self._has_drawn = not self.is_empty
+            self._has_drawn, self._drawn_bearing = not self.is_empty, self._bearing
+        elif self._drawn_bearing != self._bearing:
+            self._has_drawn, self._results = False, None
         if self._has_drawn:
             self.bring()
-        if self._pictures:
+        looks = self._has_drawn, results is not None
+        if self._pictures and looks != self._looks:  # Panel takes a twentieth of a step for these
+            self._looks = looks
             for picture in self._pictures:
                 picture.visible = self._has_drawn
                 own = {name: value for name, value in picture.styles.items() if name not in FADED}
                 picture.styles = own if results is not None else own | FADED
-            looks = self.sentence_looks if self._has_drawn else ()
-            self._sentence.css_classes = ["sentence", *looks]
+            classes = self.sentence_looks if self._has_drawn else ()
+            self._sentence.css_classes = ["sentence", *classes]
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
@@ -283,7 +291,7 @@ class View(Generic[C]):
 
     def put_head(self, content: C) -> None:
         """Title and caption in the words of the bearing: its balls may be rollers."""
-        bearing = content.scene.bearing
+        self._bearing = bearing = content.scene.bearing
         line, rest = parts_of(with_elements_of(bearing, self.caption(content.grey.name)))
         self._caption.put(
             title=with_elements_of(bearing, self.title_of(content)), line=line, rest=rest

@@ -103,6 +103,8 @@ def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool 
 
 MOST_ROWS = 300
 """Rows of a table to read; the CSV file has all."""
+NOISE = 1e-12
+"""Of the largest number of a unit: what is smaller is rounding noise."""
 _PLACES = ("angle", "frequency", "time")
 """Words in the names of columns that say where a row is."""
 _UNITS = {unit.suffix: name for name, unit in UNITS.items() if unit.suffix}
@@ -121,12 +123,28 @@ def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
     ]
     first = max(0, min(said, default=0) - 1)
     end = min(size, first + MOST_ROWS)
-    shown = [[_cell(value) for value in np.ravel(v)[first:end]] for v in columns.values()]
+    shown = [
+        [_cell(value) for value in np.ravel(v)[first:end]] for v in _without_noise(columns).values()
+    ]
     table = html_table(map(_heading, columns), zip_longest(*shown, fillvalue=""))
     if end - first == size:
         return table, count(size, "row")
     zero = "; before them all values are zero" if first else ""
     return table, f"Rows {first + 1} to {end} of {size}{zero}; the CSV file has all."
+
+
+def _without_noise(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Numbers that are rounding noise of the largest one of their unit as the zero they are."""
+    numbers = {name: v for name, v in columns.items() if np.asarray(v).dtype.kind == "f"}
+    largest: dict[str, float] = {}
+    for name, values in numbers.items():
+        unit = _suffix(name) or name
+        size = np.max(np.abs(values), where=np.isfinite(values), initial=0.0)
+        largest[unit] = max(largest.get(unit, 0.0), float(size))
+    return {**columns} | {
+        name: np.where(np.abs(values) < NOISE * largest[_suffix(name) or name], 0.0, values)
+        for name, values in numbers.items()
+    }
 
 
 def _said(values: NDArray[Any]) -> NDArray[np.intp]:
@@ -137,10 +155,15 @@ def _said(values: NDArray[Any]) -> NDArray[np.intp]:
 
 def _heading(name: str) -> str:
     """``ball_load_n`` is "ball load (N)"."""
-    suffixes = [suffix for suffix in _UNITS if name.endswith(f"_{suffix}")]
-    suffix = max(suffixes, key=len, default="")
+    suffix = _suffix(name)
     bare = name.removesuffix(f"_{suffix}").replace("_", " ")
     return f"{bare} ({_UNITS[suffix]})" if suffix else bare
+
+
+def _suffix(name: str) -> str:
+    """The unit in the name of a column, as it is written there."""
+    suffixes = [suffix for suffix in _UNITS if name.endswith(f"_{suffix}")]
+    return max(suffixes, key=len, default="")
 
 
 def _cell(value: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import param
@@ -49,6 +50,15 @@ def rows_of(limits: tuple[Limit, ...]) -> list[dict[str, Any]]:
         for limit in limits
     ]
     return sorted(rows, key=lambda row: row["state"] != "crossed")
+
+
+def judged(status: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """A status line, which is a warning where all is computed and a limit of `rows` exceeded."""
+    crossed = any(row["state"] == "crossed" for row in rows)
+    if not crossed or status["mood"] != "good":
+        return dict(status)
+    words = status["words"].removesuffix(" without problems")
+    return {**status, "mood": "warn", "words": f"{words}, limits exceeded"}
 
 
 def _where(limit: Limit) -> str:

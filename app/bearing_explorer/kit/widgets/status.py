@@ -15,7 +15,7 @@ from bearing_explorer.kit.serve.live_component import LiveComponent
 class StatusLine(LiveComponent):
     """Converged or not, residual, degrees of freedom and time taken."""
 
-    #: {"mood": "good" | "bad" | "busy", "words": str, "details": [str, ...]}
+    #: {"mood": "good" | "warn" | "bad" | "busy", "words": str, "details": [str, ...]}
     #: and, where it is of a picture, "tab": str and "resting": bool
     line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
     #: of compiling: {"done": int, "of": int, "words": str, "still": bool}; empty once all is ready

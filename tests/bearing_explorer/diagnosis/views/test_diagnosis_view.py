@@ -37,7 +37,6 @@ SCENES = {
     "inner race": MOTOR.replace(race="inner"),
     "none": MOTOR.replace(extent=0.0),
 }
-TURN = 2.0 * math.pi
 
 
 @cache
@@ -281,16 +280,6 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 
 
 # -- simulated measurements ------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("preset", "noise_db"), [("fan-rig", 40.0), ("fan-rig", 10.0), ("6205", 20.0)]
-)
-def test_a_healthy_simulation_is_never_called_damaged(preset, noise_db):
-    scene = presets[preset].replace(extent=0.0)
-    measured = simulated(scene, noise_db, 3)
-    found = answered(Question.about(measured))
-    assert found.fault == "none seen"
 
 
 # -- the tab ---------------------------------------------------------------------------------------

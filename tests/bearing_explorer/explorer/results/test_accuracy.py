@@ -7,9 +7,7 @@ import time
 import pytest
 from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
 from bearing_explorer.explorer.views.work_precision import (
     BEYOND,
@@ -79,17 +77,6 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
         base.stability.trials if base.stability else ()
     )
-
-
-def test_steps_by_hand_are_those_of_the_motion_and_are_said() -> None:
-    ours = Results(RIG, settings=Settings(duration=0.05))
-    by_hand = Results(RIG, settings=Settings(duration=0.05, step_rate=131072.0))
-    assert by_hand.motion.step_rate == 131072.0
-    assert ours.motion.step_rate != 131072.0
-    assert "steps set by hand: 131072 Hz" in status_of(by_hand, 0.0)["details"]
-    assert not any("by hand" in detail for detail in status_of(ours, 0.0)["details"])
-    with pytest.raises(ValueError, match="set by hand"):
-        _ = Results(RIG, settings=Settings(step_rate=65536.0 * 128)).motion
 
 
 def test_losses_of_stability_are_named() -> None:

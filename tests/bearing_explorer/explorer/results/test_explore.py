@@ -99,7 +99,7 @@ def test_levels_hold_those_before() -> None:
     assert shapes == [(13, 17), (25, 33)]
     np.testing.assert_array_equal(start.values, job.shown[0].values[::2, ::2])
     np.testing.assert_array_equal(job.shown[0].values, job.shown[1].values[::2, ::2])
-    assert words.startswith("33 × 25 points after")
+    assert words == "33 × 25 points."
     assert job.part == pytest.approx(1.0)
 
 
@@ -131,17 +131,7 @@ def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:
     job = Recorder(stop_after=1)
     words = refine(job, question("k_yy_mean"), 1)
     assert [plane.values.shape for plane in job.shown] == [(7, 9)]
-    assert words.startswith("9 × 7 points after")
-
-
-def test_what_takes_too_long_is_told_with_its_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(explore, "BUDGET", 0.05)
-    job = Recorder()
-    words = refine(job, question("k_yy_mean", x=("shaft_speed_hz", "4", "60")), 1)
-    assert 1 <= len(job.shown) <= 3
-    assert "would take about" in words
-    with pytest.raises(ValueError, match=r"Even 5 × 4 points would take about 4 s"):
-        refine(Recorder(), question("mass_share"), 1)
+    assert words == "9 × 7 points."
 
 
 # The view

@@ -11,7 +11,10 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
+from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
+from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.compute.cache import Overtaken
+from bearing_explorer.kit.plots import compared_curves
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
@@ -117,3 +120,19 @@ def test_curves_have_a_fixed_number_of_cage_angles() -> None:
         assert Results(scene, moving=moving).equilibrium.cage_angles.size == n
     turning = Results(scene.replace(race="inner"))
     assert turning.equilibrium.cage_angles.size == 8 * 120 + 1
+
+
+@pytest.mark.parametrize(("kind", "several"), [(OverviewSpectrum, 1), (VibrationInTime, 1)])
+def test_of_two_curves_of_a_compared_scene_one_is_thin_and_the_key_says_so(
+    kind: type[View], several: int
+) -> None:
+    for plot in kind(PackedSource()).figures:
+        lines = [
+            one.glyph.line_width
+            for one in plot.renderers
+            if str(one.data_source.name).endswith("_compared_0")
+        ]
+        several -= len(lines) > 1
+        assert len(set(lines)) == len(lines)
+        assert (compared_curves.THIN in plot.tags) == (len(lines) > 1)
+    assert several == 0

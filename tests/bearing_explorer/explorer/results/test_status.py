@@ -8,8 +8,10 @@ from bearing_explorer.explorer.results.verdict import status_of
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
+from bearing_explorer.kit.widgets.limits import judged, rows_of
 
-from bearingcore import presets
+import bearingcore
+from bearingcore import presets, simulate
 
 
 def test_the_status_line_says_what_happened() -> None:
@@ -24,6 +26,13 @@ def test_the_status_line_says_what_happened() -> None:
     bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
     assert bad["mood"] == "bad"
     assert "nothing touches" in bad["words"]
+    kept, crossed = (
+        rows_of(Results(presets["fan-rig"].replace(fy=fy)).limits) for fy in (-100.0, -2e4)
+    )
+    assert judged(good, kept) == good
+    warned = judged(good, crossed)
+    assert (warned["mood"], warned["words"]) == ("warn", "Computed, limits exceeded")
+    assert judged(bad, crossed) == bad
 
 
 @pytest.mark.parametrize(
@@ -39,8 +48,10 @@ def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words:
     assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
 
 
-def test_a_motion_that_breaks_off_is_not_converged() -> None:
-    by_hand = Results(presets["fan-rig"], settings=Settings(step_rate=1024.0, duration=0.2))
-    line = status_of(by_hand, 0.0, frozenset({"motion"}))
+def test_a_motion_that_breaks_off_is_not_converged(monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = simulate(presets["fan-rig"], 0.2, step_rate=1024.0)
+    monkeypatch.setattr(bearingcore, "simulate", lambda *_, **__: broken)
+    results = Results(presets["fan-rig"], settings=Settings(duration=0.2))
+    line = status_of(results, 0.0, frozenset({"motion"}))
     assert line["mood"] == "bad"
     assert "diverged after" in line["words"]

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.chain import Chain, Peak
+from bearing_explorer.explorer.results.reasons import STIFF_WHERE_HELD
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import BEFORE, Reference
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
@@ -253,7 +254,8 @@ def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     short, *full = said(FAN_RIG)
     missing = "Not needed here: z, θx and θy"
     assert f"{missing.replace(' and', ',')}." in short
-    assert all(f"{missing} (no load along the shaft, no moment)." in words for words in full)
+    why = f"{missing} (no load along the shaft, no moment). {STIFF_WHERE_HELD}"
+    assert all(why in words for words in full)
     chosen = FAN_RIG.replace(dofs=("x", "y", "z"))
     assert all("θx and θy are held by choice." in words for words in said(chosen))
     rollers = "cylindrical rollers carry nothing along the shaft and resist no tilt"

@@ -131,5 +131,10 @@ def test_a_picture_that_is_of_an_earlier_scene_is_faded(results: Results) -> Non
     view.say(None, "Not shown for this scene: nothing turns.")
     assert picture.visible
     assert float(picture.styles["opacity"]) < 0.5
+    view.put_head(results)
     view.say(results, view.sentence(results))
     assert "opacity" not in picture.styles
+    view.put_head(Results(presets["6205"]))
+    view.say(None, "Not shown for this scene: nothing turns.")
+    assert not picture.visible, "it is of another bearing"
+    assert not view.csv()

@@ -168,6 +168,21 @@ def test_a_job_that_fails_says_so_and_the_next_one_runs(error: Exception, words:
     assert page.states[-1].mood == "done"
 
 
+def test_a_result_that_cannot_be_drawn_ends_its_job() -> None:
+    page, work = Page(), steps(100_000)
+
+    def take(_: int) -> None:
+        raise RuntimeError("no such figure")
+
+    async def session() -> None:
+        jobs = Jobs(assign)
+        jobs.start(work, take, page.report)
+        await idle(jobs)
+
+    run(session())
+    assert page.states[-1].words == "This could not be computed."
+
+
 def test_a_job_cannot_go_on_for_ever() -> None:
     work = Work(longest=60.0)
     work.started = time.monotonic()

@@ -15,14 +15,17 @@ def test_a_table_has_words_units_and_six_digits() -> None:
         {
             "cage_angle_deg": np.array([0.0, 1.0 / 3.0]),
             "k_yy_n_per_m": np.array([-12345678.9, np.nan]),
+            "k_xy_n_per_m": np.array([2.5e-10, -7.4e-9]),  # rounding noise
+            "k_ry_n_per_rad": np.array([2.5e-10, np.inf]),
             "n_loaded": np.array([4, 5]),
             "word": np.array(["<b>", "good"]),
         }
     )
-    assert cells(table, "th") == ["cage angle (°)", "k yy (N/m)", "n loaded", "word"]
+    others = ["k xy (N/m)", "k ry (N/rad)"]
+    assert cells(table, "th") == ["cage angle (°)", "k yy (N/m)", *others, "n loaded", "word"]
     assert cells(table, "td") == [
-        *("0", "−1.23457·10⁷", "4", "&lt;b&gt;"),
-        *("0.333333", "no value", "5", "good"),
+        *("0", "−1.23457·10⁷", "0", "2.5·10⁻¹⁰", "4", "&lt;b&gt;"),
+        *("0.333333", "no value", "0", "no value", "5", "good"),
     ]
     assert count == "2 rows"
 

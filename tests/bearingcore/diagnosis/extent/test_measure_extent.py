@@ -127,15 +127,6 @@ def test_too_few_ball_passes_and_too_few_samples():
         assert answer.status == ExtentStatus.TOO_COARSE
 
 
-@pytest.mark.parametrize(
-    "given",
-    [{"race": "cage"}, {"load": 0.0}, {"load": math.nan}, {"clearance": -1e-6}, {"edge": "sharp"}],
-)
-def test_what_cannot_be_is_refused(given):
-    with pytest.raises(ValueError, match=next(iter(given))):
-        measured(signal(), **given)
-
-
 @witness(
     "function: measure_extent",
     by="spalls of the HIT-SM rig (where MEASURED_RECORDS is set), 5 and 8° as published",

@@ -1,0 +1,225 @@
+"""What cannot be is refused before anything is computed, in words that name it.
+
+A refusal a line: what is asked, and what is said. `test_bad_input.py` has the fields of a scene,
+`test_types.py` values of a wrong type; a refusal that takes more than a call stands with its part.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import pytest
+
+import bearingcore as core
+from bearingcore.bearings.frequencies import bearing_of_frequencies
+from bearingcore.bearings.hertz import race_contact
+from bearingcore.bearings.kinds import kind_named
+from bearingcore.bearings.rows import Row
+from bearingcore.common.numbers import thousands
+from bearingcore.dynamics.problem import motion_problem
+from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.errors import FieldError
+from bearingcore.experiments.motions import motion_experiment
+from bearingcore.experiments.statics import statics_experiment
+from bearingcore.files.floor import read_floor
+from bearingcore.signals.indicators import severity_zone
+from bearingcore.signals.spectrograms import order_map, spectrogram
+
+NAN, INF = math.nan, math.inf
+DRAWN, RIG, LIEW_LIM = (core.presets[name] for name in ("6205", "fan-rig", "liew-lim"))
+"""One that is drawn, and two whose grooves are not known."""
+OTHER_STATE = core.equilibrium(core.presets["6206"])
+MOTOR, PAIR = DRAWN.bearing, core.presets["7208-back-to-back"].bearing
+HEALTHY, STILL = DRAWN.healthy(), RIG.replace(shaft_speed=0.0)
+RNG = np.random.default_rng(5)
+NOISE = core.Recording(RNG.standard_normal((12_000, 1)), 12_000.0, ("y",))
+TWO = RNG.standard_normal((3000, 2))
+TIME = np.arange(48_000) / 6000.0
+ENDLESS = np.broadcast_to(np.float64(0.0), (200_000_000,))
+"""Of a length that would be gigabytes, and takes none."""
+TOO_MANY = f"samples of the signal is 200000000; allowed: at most most_samples = {thousands(1e8)}"
+
+oil = partial(core.film, DRAWN, viscosity=0.02, pressure_viscosity=2e-8)
+record = partial(core.Recording, sample_rate=12_800.0, directions=("x", "y"))
+contact = partial(race_contact, contact_angle=0.0, youngs_modulus=210e9, poisson=0.3)
+envelope = partial(core.envelope_spectrum, np.zeros(1000), 20_000.0)
+diagnosis = partial(core.diagnose, NOISE, MOTOR)
+extent = partial(core.measure_extent, NOISE, MOTOR, 94.0)
+lasts = partial(core.life, core.presets["6206"])
+maps = partial(core.stiffness_maps, RIG)
+parts = partial(bearing_of_frequencies, pitch_diameter=0.04)
+
+REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
+    "rows": [
+        (lambda: Row(facing=0), "facing of a row is 0; allowed: 1 or -1"),
+        (lambda: Row(place=INF), "place of a row"),
+        (lambda: Row(clearance=1.0), "clearance of a row"),
+        (lambda: PAIR.replace(rows=(Row(), Row(n_balls=40))), "row 2: n_balls is 40"),
+        (lambda: PAIR.replace(rows=(Row(), Row(ball_diameter=0.07))), "row 2: ball_diameter is 0"),
+        (lambda: PAIR.replace(rows=(Row(), Row(inner_groove_radius=5e-3))), "row 2: inner_groove"),
+    ],
+    "kinds": [
+        (lambda: kind_named("thrust"), "kind is 'thrust'"),
+        (lambda: dataclasses.replace(MOTOR, kind="rows"), "^(number of )?rows "),
+        (lambda: dataclasses.replace(MOTOR, kind="self-aligning"), "^(number of )?rows "),
+        (lambda: dataclasses.replace(MOTOR, kind="roller"), "^roller_length "),
+    ],
+    "drawings": [
+        (lambda: contact("inner", 11.5e-3, 43.5e-3, 5.7e-3), r"inner_groove_radius is 0.0057; .*"),
+        (lambda: contact("outer", 11.5e-3, 43.5e-3, 30e-3), r"is 0.03; .*below 0.0275 m"),
+        (lambda: RIG.bearing.replace(radial_clearance=60e-6).free_contact_angle,
+         r"radial_clearance is 6e-05; allowed: at most 5e-05 m"),
+        (lambda: RIG.bearing.replace(inner_groove_radius=4.2e-3), "outer_groove_radius is None"),
+    ],
+    "frequencies of parts": [
+        (lambda: parts({}), "BPFO and BPFI"),
+        (lambda: parts({"bpfo": 3.2}), "BPFO and BPFI"),
+        (lambda: parts({"bpfo": 3.2, "bpfi": 5.3}), "nearly a whole number"),
+        (lambda: parts({"bpfo": 4.8, "bpfi": 3.2}), "more than BPFO"),
+        (lambda: parts({"bpfo": 0.2, "bpfi": 0.4}), "nearly a whole number"),
+        (lambda: parts({"bpfo": NAN, "bpfi": 4.8}), "finite"),
+    ],
+    "designations": [
+        *((lambda text=text: core.read_designation(text), "is the number of another")
+          for text in ("6205 6206", "6205-2RS1/6206", "6205, NU 206")),
+        *((lambda text=text: core.read_designation(text), "allowed: a bearing of the series")
+          for text in ("HK 1210", "NA 6904", "CSK 6205")),
+        *((lambda text=text: core.read_designation(text), "302, 303, 320, 322, 323")
+          for text in ("32206 B", "30308DJR", "30206 C", "HR6208")),
+    ],
+    "floors": [
+        (lambda: read_floor("1 2\n3 x\n"), "line 2"),
+        (lambda: read_floor("1 2 3\n4 5 6\n"), "number of columns in the floor is 3"),
+        (lambda: read_floor("1 2\n1 3\n"), "different angles"),
+        (lambda: read_floor("1 -2\n2 3\n"), "at least 0"),
+        (lambda: read_floor("1 0\n2 0\n"), "not 0 everywhere"),
+        (lambda: read_floor("0 1\n400 1\n"), "within one turn"),
+        (lambda: RIG.replace(defect=(core.Defect(0.2, 5e-5, 0.0),
+                                     core.Defect(0.2, 5e-5, 0.1, edge="exact"))),
+         "run into one another"),
+    ],
+    "maps": [
+        (lambda: maps(extents=[-0.1]), "extents"),
+        (lambda: maps(extents=[NAN]), "extents"),
+        (lambda: maps(extents=[7.0]), "extents"),
+        (lambda: maps(cage_angles=[INF]), "cage_angles"),
+        (lambda: maps(dofs=("x", "q")), "dofs"),
+    ],
+    "film, pressure and life": [
+        (lambda: oil(viscosity=0.0), "viscosity"),
+        (lambda: oil(pressure_viscosity=-1.0), "pressure_viscosity"),
+        (lambda: oil(roughness_ball=NAN), "roughness_ball"),
+        (lambda: oil(roughness_ball=0.0, roughness_inner=0.0), "roughness_inner"),
+        (lambda: core.film(RIG, viscosity=0.02, pressure_viscosity=2e-8), "inner_groove_radius"),
+        (lambda: oil(state=OTHER_STATE), "state"),
+        (lambda: core.contact_pressures(RIG), "inner_groove_radius"),
+        (lambda: core.contact_pressures(DRAWN, OTHER_STATE), "state"),
+        (lambda: core.life(LIEW_LIM, 36e3), "inner_groove_radius"),
+        (lambda: lasts(0.0), "dynamic_load_rating"),
+        (lambda: lasts(INF), "dynamic_load_rating"),
+        (lambda: lasts(14e3, positions="load line"), "positions"),
+        (lambda: lasts(14e3, positions="some"), "positions"),
+        (lambda: lasts(14e3, turning_race="outer"), "turning_race"),
+        (lambda: lasts(14e3, turning_race="cage"), "turning_race"),
+    ],
+    "limits": [
+        (lambda: core.limits(HEALTHY, shoulder_height=0.0), "shoulder_height is 0; "),
+        (lambda: core.limits(HEALTHY, shoulder_height=0.6), "shoulder_height is 0.6; "),
+        (lambda: core.limits(HEALTHY, step_rate=0.0), "step_rate is 0; "),
+        (lambda: core.limits(HEALTHY, step_rate=NAN), "step_rate is nan; "),
+    ],
+    "motions": [
+        (lambda: core.orbit(RIG.replace(balls="with mass")), "massless"),
+        (lambda: core.orbit(STILL), "shaft_speed"),
+        (lambda: core.orbit(RIG).spectrum(duration=1e9), "^duration is"),
+        (lambda: core.orbit(RIG).spectrum(resolution=1e-6), "^resolution is"),
+        (lambda: core.orbit(RIG).spectrum(resolution=NAN), "^resolution is"),
+        (lambda: speed_run(RIG, [0.0, 10.0]), "shaft_speeds"),
+        (lambda: speed_run(RIG, [260.0], duration=1e9), "^duration is"),
+        (lambda: speed_run(RIG, [260.0], resolution=1e-6), "^resolution is"),
+        (lambda: speed_run(RIG, [260.0], resolution=NAN), "^resolution is"),
+        (lambda: core.simulated_record(DRAWN.replace(shaft_speed=0.0)), "shaft_speed is 0"),
+    ],
+    "experiments": [
+        (lambda: motion_experiment(RIG, methods=("Euler",)), "method is 'Euler'"),
+        (lambda: motion_experiment(STILL), "shaft_speed is 0"),
+        (lambda: motion_problem(RIG.replace(fy=0.0)), "static state"),
+        (lambda: statics_experiment(RIG.replace(fy=0.0)), "static state"),
+    ],
+    "recordings": [
+        (lambda: record(TWO, sample_rate=0.0), "sample_rate is 0"),
+        (lambda: record(TWO, directions=("y", "z")), "x, y or both"),
+        (lambda: record(TWO[:, 0]), "a column for each direction: x, y"),
+        (lambda: record(TWO[:100]), "100 samples long"),
+        (lambda: record(TWO * [1.0, INF]), "finite"),
+        (lambda: record(TWO * [1.0, 0.0]), "the same number throughout along y"),
+        (lambda: record(TWO * [1.0, 1e-300]), "swinging by .*e-300 along y"),
+        (lambda: record(TWO * 1e300), "swinging by .*e.300 along x"),
+        (lambda: severity_zone(1e-3, "small"), "machine"),
+        (lambda: severity_zone(NAN, "large, rigid"), "velocity"),
+    ],
+    "spectra": [
+        (lambda: core.spectrum(np.zeros(100), 65536.0), "^signal is .*; allowed: "),
+        (lambda: core.spectrum(np.full(4096, NAN), 65536.0), "^signal is .*; allowed: "),
+        (lambda: core.spectrum(np.zeros(4096), NAN), "^sample_rate is .*; allowed: "),
+        (lambda: core.spectrum(np.zeros(4096), 65536.0, 40e3), "^resolution is .*; allowed: "),
+        (lambda: core.spectrum(np.zeros(4096), 65536.0, NAN), "^resolution is .*; allowed: "),
+        (lambda: core.spectrum(ENDLESS, 65536.0), TOO_MANY),
+        (lambda: core.envelope_spectrum(ENDLESS, 65536.0, (2000.0, 4000.0)), TOO_MANY),
+        (lambda: envelope((3000.0, 2000.0)), "upper end of the band is 2000"),
+        (lambda: envelope((0.0, 2000.0)), "lower end of the band is 0"),
+        (lambda: envelope((100.0, 10_000.0)), "below 10000"),
+        (lambda: core.envelope_spectrum(np.zeros(10), 2e4, (100.0, 200.0)), "at least 64 samples"),
+        (lambda: core.envelope_spectrum(np.full(1000, NAN), 2e4, (100.0, 200.0)), "finite"),
+        (lambda: core.kurtogram(np.zeros(100), 25_600.0), r"signal is .*\(100,\)"),
+        (lambda: core.kurtogram(np.zeros(4096), 25_600.0), "same number throughout"),
+        (lambda: core.kurtogram(np.zeros((4096, 2)), 25_600.0), r"\(4096, 2\)"),
+        (lambda: core.kurtogram(np.zeros(4096), 0.0), "sample_rate"),
+        (lambda: spectrogram(np.zeros(1000), 6000.0, 10.0), "row of 2400 samples"),
+        (lambda: spectrogram(np.full(9000, NAN), 6000.0, 10.0), "finite"),
+        (lambda: order_map(TIME, 6000.0, [0.0], [0.0]), "speeds above 0"),
+        (lambda: order_map(TIME, 6000.0, [8.0, 0.0], [30.0, 20.0]), "a later time for each speed"),
+        (lambda: order_map(TIME, 6000.0, [0.0, 4.0, 8.0], [20.0, 30.0]), "a later time for each"),
+        (lambda: order_map(TIME, 6000.0, [0.0, NAN], [20.0, 30.0]), "time"),
+        (lambda: order_map(TIME, 6000.0, [0.0, 8.0], [1e-4, 30.0]), "leave out where it turns slo"),
+        (lambda: order_map(TIME[:, None], 6000.0, [0.0], [20.0]), "a row"),
+        (lambda: order_map(TIME[:0], 6000.0, [0.0], [20.0]), "a row"),
+        (lambda: order_map(TIME * NAN, 6000.0, [0.0], [20.0]), "finite"),
+    ],
+    "diagnoses": [
+        (lambda: diagnosis(0.0), "shaft_speed is 0"),
+        (lambda: diagnosis(NAN), "shaft_speed is nan"),
+        (lambda: diagnosis((3.0, 2.0)), "upper shaft_speed is 2"),
+        (lambda: diagnosis((0.0, 2.0)), "lower shaft_speed is 0"),
+        (lambda: diagnosis((1.0, 2.0, 3.0)), "shaft_speed"),
+        (lambda: diagnosis(150.0, slip=-0.01), "slip"),
+        (lambda: diagnosis(150.0, slip=0.2), "slip"),
+        (lambda: diagnosis(150.0, speed_source="rumour"), "speed_source is 'rumour'"),
+        (lambda: diagnosis(150.0, bearing_source="rumour"), "bearing_source is 'rumour'"),
+        (lambda: diagnosis(150.0, unit="g"), "unit is 'g'; allowed: None for a recording"),
+        (lambda: core.diagnose("no/such.csv", "6205"), "the path of a file or folder that is ther"),
+        (lambda: extent(race="cage"), "race"),
+        (lambda: extent(load=0.0), "load"),
+        (lambda: extent(load=NAN), "load"),
+        (lambda: extent(clearance=-1e-6), "clearance"),
+        (lambda: extent(edge="sharp"), "edge"),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        pytest.param(*case, id=f"{about} {number}")
+        for about, cases in REFUSED.items()
+        for number, case in enumerate(cases)
+    ],
+)
+@pytest.mark.usefixtures("files_read_here")
+def test_what_cannot_be_is_refused(ask: Callable[[], object], words: str) -> None:
+    with pytest.raises(FieldError, match=words) as refused:
+        ask()
+    assert refused.value.field
+    assert refused.value.allowed_text

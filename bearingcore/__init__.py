@@ -18,6 +18,7 @@ from bearingcore.dynamics.motion import Motion, simulate
 from bearingcore.dynamics.orbit import Orbit, orbit
 from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.files.by_hand import read_recording
 from bearingcore.files.floor import read_floor
 from bearingcore.files.table import Table, join_tables, read_table
 from bearingcore.scene.defect import EDGES, RACES, Defect
@@ -101,6 +102,7 @@ __all__ = [
     "read_catalogue",
     "read_designation",
     "read_floor",
+    "read_recording",
     "read_table",
     "scene_of",
     "simulate",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -19,6 +20,12 @@ from bearingcore.files.facts import Finding
 from bearingcore.files.table import MOST_BYTES, Table, read_table
 from bearingcore.files.units import kind_of
 from bearingcore.signals.recording import Recording
+
+NO_RECORD = re.compile(
+    r"\..*|(readme|licen[cs]e)\b.*|.*\.(md|rst|pdf|html?|py|ipynb|docx?|pptx?|png|jpe?g|svg)",
+    re.IGNORECASE,
+)
+"""Names of documents and pictures that people keep beside their records."""
 
 FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
 
@@ -95,7 +102,7 @@ def diagnose(
     ----------
     recording
         acceleration of the housing, one direction or two; or the path of a file that `read_table`
-        reads, or of a folder of such files.
+        reads, or of a folder of such files; documents and pictures beside them are left out.
     bearing
         its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
         angle count. None: that of the file's collection where it is a known one; else it is
@@ -142,9 +149,10 @@ def diagnose(
 def _of_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    files = [one for one in sorted(folder.iterdir()) if one.is_file() and one.name[0] != "."]
+    named = [one for one in sorted(folder.iterdir()) if not NO_RECORD.fullmatch(one.name)]
+    files = [one for one in named if one.is_file()]
     if not files:
-        raise checks.refuse("recording", str(folder), "a folder with files in it")
+        raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []
     sentences = []
     for one in files:
@@ -166,7 +174,7 @@ def _of_file(
     if (size := path.stat().st_size) > MOST_BYTES:
         most = f"at most {MOST_BYTES // 2**20} MB: split it, or export less of it"
         raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
-    table = read_table(path)
+    table = read_table(path.name, path.read_bytes())
     says = table.contents
     named = says.bearing or _known(says.designation)
     if bearing is None and named is not None and named.taken:
@@ -205,11 +213,24 @@ def _recording(
     says = table.contents
     if isinstance(columns, (int, str)):
         columns = (columns,)
-    picked = says.choice.columns.values() if columns is None else map(table.index_of, columns)
-    units = [says.columns[index].unit for index in picked]
-    if unit is None and not all(units):
+    if columns is None:
+        chosen = says.choice.columns
+        if not chosen:
+            names = [table.names[i] for i in says.choice.options or range(len(table.names))]
+            why = says.choice.question or says.choice.reason or "Which column is the signal?"
+            raise ValueError(
+                f"{table.name}: {why} Say it with columns=[...], one or two of {', '.join(names)}."
+            )
+        directions, columns = directions or tuple(chosen), tuple(chosen.values())
+    if directions is None:
+        directions = ("x", "y")[-len(columns) :]
+    units: dict[int | str, str | None] = {one.name: one.unit for one in says.columns}
+    units |= {number: one.unit for number, one in enumerate(says.columns)}
+    if unit is None and not all(units.get(column) for column in columns):
         unit = says.unit.value if says.unit.taken else "m/s²"
-    if sensitivity is None and "voltage" in {kind_of(unit or one or "") for one in units}:
+    if sensitivity is None and "voltage" in {
+        kind_of(one) for one in [unit or units.get(column) for column in columns] if one
+    }:
         unit = "m/s²"  # without the sensor's sensitivity, as they are
     rate = says.sample_rate
     if sample_rate is None and rate is not None and rate.taken:

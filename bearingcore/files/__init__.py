@@ -10,6 +10,7 @@ from bearingcore.files.contents import FileContents as FileContents
 from bearingcore.files.facts import Finding as Finding
 from bearingcore.files.sampling import longest_run as longest_run
 from bearingcore.files.table import files_inside as files_inside
+from bearingcore.files.table import path_in as path_in
 from bearingcore.files.units import ACCELERATIONS as ACCELERATIONS
 from bearingcore.files.units import SPEEDS as SPEEDS
 from bearingcore.files.units import TIMES as TIMES

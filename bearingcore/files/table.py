@@ -3,18 +3,16 @@
 A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
 of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
 `Recording` of the columns that are the housing's acceleration, once what is missing is given.
-What is said by hand, with `Table.with_columns` or to `Table.recording`, goes before every guess.
+What is said by hand, with `Table.with_columns` or in `read_recording`, goes before every guess.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
@@ -131,8 +129,8 @@ class Table(FileColumns):
 
     def recording(
         self,
-        columns: Sequence[int | str] | None = None,
-        directions: Sequence[str] | None = None,
+        columns: Sequence[int | str],
+        directions: Sequence[str],
         unit: str | None = None,
         sample_rate: float | None = None,
         full_scale: float = 1.0,
@@ -145,9 +143,9 @@ class Table(FileColumns):
         Parameters
         ----------
         columns
-            which, by number from 0 or by name; None takes those that the file speaks for.
+            which, by number from 0 or by name.
         directions
-            of those columns; None takes those of the file, else y of one and x, y of two.
+            of those columns.
         unit
             one of `bearingcore.files.units.UNITS`; None takes what the headings say.
             Velocities are differentiated, voltages divided by `sensitivity`.
@@ -166,14 +164,11 @@ class Table(FileColumns):
             for an unknown column, direction or unit, an unknown rate, columns of several
             bearings, or a voltage without a sensitivity.
         """
-        picked = self._picked(columns)
-        if directions is None:
-            chosen = {index: axis for axis, index in self.contents.choice.columns.items()}
-            known = [chosen.get(i) or self.contents.columns[i].direction for i in picked]
-            directions = known if all(known) else ("x", "y")[-len(picked) :]
+        picked = [self.index_of(column) for column in columns]
         if len(set(picked)) != len(picked) or len(picked) != len(directions):
-            allowed = f"{len(directions)} different ones, one a direction"
-            raise checks.refuse("columns", list(columns or picked), allowed)
+            raise checks.refuse(
+                "columns", list(columns), f"{len(directions)} different ones, one a direction"
+            )
         self._check_one_bearing(picked)
         contents = self.contents
         units = [self._unit(index, unit) for index in picked]
@@ -197,18 +192,6 @@ class Table(FileColumns):
             levels = made.acceleration.std(axis=0)
         doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
         return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
-
-    def _picked(self, columns: Sequence[int | str] | None) -> list[int]:
-        """The numbers of columns, or of those that the file speaks for."""
-        choice = self.contents.choice
-        if columns is None and not choice.columns:
-            names = [self.names[i] for i in choice.options or range(len(self.names))]
-            why = choice.question or choice.reason or "Which column is the signal?"
-            raise ValueError(
-                f"{self.name}: {why} Say it with columns=[...], one or two of {', '.join(names)}."
-            )
-        given = choice.columns.values() if columns is None else columns
-        return [self.index_of(column) for column in given]
 
     def _not_used(self, picked: Sequence[int]) -> str:
         """Sentence on the columns that hold something that is not read, and why."""
@@ -351,7 +334,13 @@ def _in_order(name: str) -> list[tuple[int, str]]:
     return [(int(part or 0), word) for word, part in re.findall(r"(\D*)(\d{0,18})", name)]
 
 
-def read_table(name: str | os.PathLike[str], content: bytes | None = None) -> Table:
+def path_in(name: str) -> str:
+    """The path of the file to read for a name such as "rig.zip/run1.csv"."""
+    before, mark, _ = name.partition(".zip/")
+    return before + mark.rstrip("/")
+
+
+def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
@@ -365,22 +354,13 @@ def read_table(name: str | os.PathLike[str], content: bytes | None = None) -> Ta
         of the file; it may hold a hint ("12k", "1797rpm"). "rig.zip/run1.csv" is one of the files
         in a zip.
     content
-        the whole file; None where `name` is its path.
+        the whole file.
 
     Raises
     ------
     ValueError
-        saying in one sentence what is wrong with a damaged, empty, huge or mis-shaped file, or one
-        that cannot be read.
+        saying in one sentence what is wrong with a damaged, empty, huge or mis-shaped file.
     """
-    name = os.fspath(name)
-    if content is None:
-        before, packed, _ = name.partition(".zip/")
-        try:
-            content = Path(before + packed.rstrip("/")).read_bytes()
-        except OSError as error:
-            raise checks.refuse("file", name, f"one to read ({error.strerror})") from None
-        name = name if packed else Path(name).name
     size = len(content)
     if size > MOST_BYTES:
         raise checks.refuse(

@@ -80,11 +80,11 @@ class Person:
     async def come(self) -> None:
         """Open the page, wait for the first picture, and make the scene."""
         began = time.perf_counter()
-        status = await self._client.open_page()
-        if status != 200:
-            self.notes.troubles.append(f"the page answered {status}")
+        try:
+            await self._client.connect()
+        except ConnectionError as error:
+            self.notes.troubles.append(str(error))
             return
-        await self._client.connect()
         if not await self._client.until_drawn(seconds=120.0):
             self.notes.troubles.append("no first picture")
         self.notes.first_picture = time.perf_counter() - began

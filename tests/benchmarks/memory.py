@@ -26,7 +26,6 @@ MAY_GROW = 1.15
 async def person(url: str, number: int) -> float:
     """Come, drag on each tab, and leave; return the time until the first picture [s]."""
     client, began = PageClient(url), time.perf_counter()
-    await client.open_page()
     await client.connect()
     await client.until_drawn(seconds=120.0)
     first = time.perf_counter() - began

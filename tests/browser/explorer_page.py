@@ -17,6 +17,13 @@ def open_page(page: Page, server: Server, tab: str = "load") -> None:
     show(page, tab)
 
 
+def can_be_used(page: Page) -> None:
+    """Wait until a slider that is taken moves something: before that its kernels are compiled."""
+    page.wait_for_function("window.__frames >= 1")
+    page.wait_for_selector("aside:not(:has([inert])) #control-extent_deg")
+    settle(page)
+
+
 def show(page: Page, tab: str) -> None:
     choose_tab(page, tab)
     page.wait_for_function(f"window.__tab == '{tab}'")  # it is drawn

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import rest, settle, show, slider, value, wait
+from tests.browser.explorer_page import can_be_used, rest, settle, show, slider, value, wait
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -39,12 +39,6 @@ UNSENT = "not connected so cannot send"  # Bokeh, of what is moved when the line
 def first_picture(page: Page, url: str) -> None:
     page.goto(url)
     can_be_used(page)
-
-
-def can_be_used(page: Page) -> None:
-    page.wait_for_function("window.__frames >= 1")
-    page.wait_for_selector("aside:not(:has([inert])) #control-extent_deg")  # statics are compiled
-    settle(page)
 
 
 def works(page: Page) -> None:

@@ -165,6 +165,17 @@ def test_pictures_say_what_they_show(
     assert float(rows.nth(0).locator("td").nth(1).inner_text()) == 0.0
     assert float(rows.nth(1).locator("td").nth(1).inner_text()) > 0.0
     expect(view.get_by_text("before them all values are zero")).to_be_visible()
+    page.keyboard.press("Escape")
+    _, table = desk.download(lambda: export(view, "csv").click())
+    columns = {line.count(",") for line in table.decode().strip().splitlines()}
+    assert len(columns) == 1
+    _, picture = desk.download(lambda: export(view, "png").click())
+    assert picture.startswith(b"\x89PNG")
+    export(view, "python").click()
+    lines = view.locator("dialog[open] pre").inner_text()
+    compile(lines, "exported", "exec")  # that they run, `test_exported_python.py` shows
+    assert "from bearing_explorer import figures" in lines
+    page.keyboard.press("Escape")
 
 
 #: sizes of type [px] in figures that are seen, and the share of the page's width that they have

@@ -167,8 +167,8 @@ def test_what_is_out_of_sight_is_painted_once_all_rests(page: Page, explorer: Se
     page.set_viewport_size({"width": 420, "height": 500})
     page.evaluate(_COUNT_PAINTS)
     page.get_by_label("Charts of").select_option("Statics")
-    wait(page, lambda: len(page.evaluate(_COLORS)) > 3, 20.0)
-    wait(page, lambda: all(one[3] > 20 for one in page.evaluate(_COLORS)), 20.0)
+    wait(page, lambda: len(page.evaluate(_COLORS)) > 3)
+    wait(page, lambda: all(one[3] > 20 for one in page.evaluate(_COLORS)))
     rest(page)
     times = page.evaluate(f"({_FIGURES})().map((view) => window.__painted[view.model.id])")
     assert len(times) > 3

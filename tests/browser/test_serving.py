@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import settle, wait
+from tests.browser.explorer_page import can_be_used, settle, wait
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -49,7 +49,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         answer = page.goto(url)
         assert answer is not None
         assert "unsafe-eval" in answer.headers["content-security-policy"]
-        page.wait_for_function("window.__mark !== undefined")
+        can_be_used(page)
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
         page.wait_for_function("window.__asked > 0 && window.__mark === window.__asked")
         page.locator(".tab-stiffness").click()
@@ -78,7 +78,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
 def test_panel_serve_shows_the_page_too(page: Page) -> None:
     with serving(page_server(ROOT / "app" / "app.py")) as server:
         page.goto(server.url)
-        page.wait_for_function("window.__mark !== undefined")
+        can_be_used(page)
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
         page.wait_for_function("window.__asked > 0 && window.__mark === window.__asked")
         choose_tab(page, "stiffness")
@@ -123,7 +123,7 @@ def ends_cleanly(server: Server, by: signal.Signals) -> None:
 def test_the_page_works_without_the_speedups(page: Page) -> None:
     with serving(explorer_server(environment={"BEARING_EXPLORER_PLAIN": "1"})) as server:
         page.goto(server.url)
-        page.wait_for_function("window.__mark !== undefined")
+        can_be_used(page)
         page.locator(".tab-load").click()
         drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
         page.wait_for_function("window.__asked > 0")

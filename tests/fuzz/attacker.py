@@ -123,8 +123,6 @@ async def _new_page(before: _Client | None, url: str) -> _Client:
     if before is not None:
         await before.close()
     client = _Client(url)
-    if await client.open_page() != 200:
-        raise ConnectionError("there is no page")
     await client.connect()
     await client.show("load")
     return client

@@ -96,7 +96,6 @@ class Uploader(PageClient):
 async def upload_all(url: str, numbers: Sequence[int], outcome: Outcome) -> None:
     """Upload the damaged files with these numbers, in one session."""
     client = Uploader(url)
-    await client.open_page()
     await client.connect()
     await client.show("diagnosis", "FileUpload")
     kinds = broken_files()
@@ -117,7 +116,6 @@ async def upload_all(url: str, numbers: Sequence[int], outcome: Outcome) -> None
 async def use_meanwhile(url: str, others: asyncio.Future[Any], outcome: Outcome) -> None:
     """Move a slider in a good session and ask `/liveness`, until all others are done."""
     client = PageClient(url)
-    await client.open_page()
     await client.connect()
     await client.until_drawn(seconds=PATIENCE)
     while not others.done() or not outcome.pictures:

@@ -32,7 +32,6 @@ def test_hostile_messages_break_nothing_and_are_taken_or_cut_off(
 
     async def send(url: str, server: Any) -> None:
         there = PageClient(url)
-        await there.open_page()
         await there.connect()
         await asyncio.gather(*(attack(url, 1_000_001 + k, 120, tally) for k in range(2)))
         await there.ask(set={"extent_deg": 31.0})

@@ -29,6 +29,7 @@ class PageClient:
     def __init__(self, url: str, on_packet: Callable[[int, float], None] | None = None) -> None:
         self.url = url if url.endswith("/") else url + "/"
         self.on_packet = on_packet
+        self.token = ""
         self.mark = 0
         self.drawn = 0
         self._network = float("inf")  # the least time a change has been on its way [s]
@@ -60,7 +61,9 @@ class PageClient:
         return int(response.code)
 
     async def connect(self) -> None:
-        """Open the websocket, take the document, say that the page is up."""
+        """Open the page, its websocket, take the document, say that the page is up."""
+        if not self.token and (status := await self.open_page()) != 200:
+            raise ConnectionError(f"the page answered {status}")
         await self.open_socket()
         reply = await self.request("PULL-DOC-REQ")
         self._learn(reply["doc"])

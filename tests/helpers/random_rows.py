@@ -6,15 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bearingcore import (
-    EDGES,
-    RACES,
-    Bearing,
-    Defect,
-    Load,
-    Scene,
-    presets,
-)
+from bearingcore import EDGES, RACES, Bearing, Defect, Load, Scene, presets
 from bearingcore.bearings.rows import ARRANGEMENTS, Row
 
 OWN_ANGLES = "rows with angles of their own"

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bearingcore import life, presets
+from tests.outside.plane import Plane
 from tests.outside.test_hertz import both
 from tests.outside.witness import witness
 
@@ -19,22 +20,9 @@ def loads(cage: np.ndarray, shaft: np.ndarray, damaged: bool) -> np.ndarray:
     """Ball loads (n, 9) [N] in the plane, by Newton; a ball on the corner of a convex race."""
     b, defect = SCENE.bearing, SCENE.defect
     K = sum(factor ** (-2.0 / 3.0) for factor, _ in both(b)) ** -1.5
-    phi = cage[:, None] + 2.0 * math.pi * np.arange(9) / 9
-    away = np.remainder(phi - defect.center - shaft[:, None] + math.pi, 2.0 * math.pi) - math.pi
-    s = np.maximum(0.5 * defect.extent - np.abs(away), 0.0)
-    R, r = b.inner_raceway_radius, 0.5 * b.ball_diameter
-    under = np.maximum(r**2 - (R * np.sin(s)) ** 2, 0.0)
-    drop = np.where(under > 0.0, R + r - (R * np.cos(s) + np.sqrt(under)), np.inf)
-    d = np.minimum(drop, defect.depth) * damaged
-    e = np.stack([np.cos(phi), np.sin(phi)], axis=2)
-    q = np.tile([0.0, -2.0 * b.radial_clearance - 15e-6], (len(cage), 1))
-    for _ in range(60):
-        pressed = np.maximum(np.einsum("njd,nd->nj", e, q) - b.radial_clearance - d, 0.0)
-        rest = np.einsum("njd,nj->nd", e, K * pressed**1.5) - [0.0, -1000.0]
-        bend = np.einsum("njd,nj,nje->nde", e, 1.5 * K * pressed**0.5, e) + 1e3 * np.eye(2)
-        q -= 0.7 * np.linalg.solve(bend, rest[:, :, None])[:, :, 0]
-    assert np.abs(rest).max() < 1e-3
-    return np.asarray(K * pressed**1.5)
+    plane = Plane(9, b.ball_diameter, b.pitch_diameter, K, b.radial_clearance)
+    hurt = (damaged * defect.extent, defect.depth, "inner", "exact")
+    return plane.solve(1000.0, cage, defect.center + shaft, hurt)[0]
 
 
 def tiring(damaged: bool, places: int = 64) -> tuple[float, float]:

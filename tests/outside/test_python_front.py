@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from scipy.signal import hilbert
 
-from bearingcore import join_tables, presets, read_table, scene_of, simulated_record
-from bearingcore.files import Column
+from bearingcore import join_tables, presets, read_recording, read_table, scene_of, simulated_record
 from tests.outside.witness import witness
 
 RATE = 8000.0
@@ -27,13 +26,18 @@ def written(part: slice) -> bytes:
 
 
 @witness(
-    "function: read_table",
+    "function: read_recording",
     by="NumPy's savetxt", compared="samples and rate of a file whose columns a hand names",
     within=1e-9,
 )  # fmt: skip
 def test_a_file_is_read_as_the_hand_says() -> None:
-    table = read_table("a.csv", written(slice(None)))
-    found = table.with_columns({"a": Column("", "time", "s")}).recording(["b"], "y", "g")
+    found = read_recording(
+        "a.csv",
+        written(slice(None)),
+        columns={"time": "a", "signal": "b"},
+        unit="g",
+        directions="y",
+    )
     assert found.sample_rate == pytest.approx(RATE, rel=1e-9)
     np.testing.assert_allclose(found.acceleration[:, 0], 9.80665 * SIGNAL, rtol=1e-9)
 

@@ -244,25 +244,13 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
         "105.mat · 167 ms · 12 kHz? · 1797 rpm · g? · 6205-2RS, CWRU drive end?"
     )
     assert made.source_of("unit").startswith("A guess: variables named as in the Case Western")
+    assert made.state.columns.places == ["drive end", "fan end", "base"]
     answer(made, sample_rate="48000", unit="m/s²", bearing="scene")
     assert made.source_of("unit") == "Given"
     assert made.state.line == "105.mat · 41.7 ms · 48 kHz · 1797 rpm · m/s² · the scene's bearing"
     assert made.state.whole_name == ""
     answer(made, columns="y;x;")  # the hand wins, and a note says what speaks against it
     assert "two places (drive end and fan end)" in made.state.remarks
-
-
-def test_sensors_at_several_places_are_asked_about_and_never_mixed():
-    sides = dict.fromkeys(("DE", "FE", "BA"), NOISE[:, :1] * 0.3)
-    made = brought("12k_105.mat", mat_of(**sides))
-    assert made.measured is None
-    assert set(made.state.open) == {"columns", "unit"}
-    assert "several places (base, drive end, fan end)" in made.state.reasons["columns"]
-    assert made.state.columns.places == ["drive end", "fan end", "base"]
-    answer(made, columns="y;;")
-    assert made.measured is not None
-    assert made.measured.recording.sample_rate == 12_000.0
-    assert "12 kHz?" in made.state.line
 
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():

@@ -94,7 +94,7 @@ def test_a_run_to_failure_shows_as_a_trend_and_names_no_part(run, rpm, least):
     assert len(files) == 2
     recordings, rms = [], []
     for file in files:
-        table = read_table(file)
+        table = read_table(file.name, file.read_bytes())
         found = table.contents
         assert found.collection == "FEMTO-ST"
         recordings.append(table.recording([4, 5], ["x", "y"], found.unit.value))

@@ -50,17 +50,6 @@ def test_case_western_variables_are_of_several_places() -> None:
     assert got.shaft_speed == found.shaft_speed.value
 
 
-def test_the_number_of_a_case_western_file_says_how_it_was_sampled() -> None:
-    sides = {f"X097_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE")}
-    found: Any = read_table("a.mat", matlab(**sides)).contents
-    assert found.sample_rate.value == 48_000.0
-    named: Any = read_table("12k_Drive_End_1.mat", matlab(**sides)).contents
-    assert named.sample_rate.value == 12_000.0
-    assert "12k" in named.sample_rate.reason
-    assert named.choice.columns == {"y": 0}
-    assert "name says drive end" in named.choice.reason
-
-
 def test_mfpt_structs_tell_rate_speed_and_load() -> None:
     run = {"gs": NOISE[:, :1], "sr": 48_828, "rate": 25, "load": "150"}
     table = read_table("run.mat", matlab(bearing=run, BPFO=81.125))
@@ -176,34 +165,6 @@ def test_files_of_public_collections_are_recognised(
     assert (None if found.bearing is None else found.bearing.value) == bearing
 
 
-@pytest.mark.parametrize("count", [2, 3])
-def test_columns_without_a_name_are_asked_about(count: int) -> None:
-    choice = read_table("a.csv", lines(NOISE[:600, :count])).contents.choice
-    assert not choice.columns
-    assert choice.options == tuple(range(count))
-    assert choice.question == (
-        f"The file holds {count} signals, and nothing says where or in which direction they were "
-        "measured. Which is at this bearing?"
-    )
-
-
-@pytest.mark.parametrize(
-    "names",
-    [("Accel DE", "Accel NDE"), ("DE", "FE"), ("Acc 1", "Acc 2"), ("inboard", "outboard"),
-     ("drive end", "opposite drive end"), ("ch DE", "ch 2")],
-)  # fmt: skip
-def test_two_signals_are_two_directions_only_where_something_says_so(names) -> None:
-    text = "time," + ",".join(names) + "\n"
-    rows = np.column_stack([np.arange(600) / 8000.0, NOISE[:600, :2]])
-    for file_name in ("a.csv", "pump_de_nde_fe.csv"):
-        choice = read_table(file_name, text.encode() + lines(rows)).contents.choice
-        assert not choice.columns
-        assert choice.options == (1, 2)
-    for axes in ("acc x,acc y", "horizontal,vertical", "DE H,DE V"):
-        table = read_table("a.csv", f"time,{axes}\n".encode() + lines(rows))
-        assert table.contents.choice.columns == {"x": 1, "y": 2}
-
-
 def test_lines_above_the_numbers_are_listened_to() -> None:
     heading = (
         "Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\nLoad; 2,5 kN\nUnit: m/s^2\n"
@@ -242,13 +203,6 @@ def test_a_velocity_is_differentiated_with_a_note() -> None:
     inside = slice(20, -20)
     np.testing.assert_allclose(got.acceleration[inside, 0], exact[inside], atol=0.5)
     assert "differentiated" in got.notes[0]
-
-
-def test_a_displacement_or_a_temperature_is_no_signal() -> None:
-    content = lines(NOISE[:600, :3], heading="gap [µm];temp [°C];acc [g]".replace(";", ","))
-    found: Any = read_table("a.csv", content).contents
-    assert [column.role for column in found.columns] == ["other", "other", "signal"]
-    assert found.choice.columns == {"y": 2}
 
 
 def test_a_column_of_speed_is_the_shafts() -> None:

@@ -1,5 +1,6 @@
 """Files as programs, loggers and instruments lay them out, and what must come out of them."""
 
+import csv
 import gzip
 import io
 import json
@@ -14,7 +15,7 @@ import pandas as pd
 import pytest
 from scipy.io import savemat
 
-from bearingcore import join_tables, read_table
+from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
 
@@ -51,62 +52,6 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
     assert rate is None or found.value == pytest.approx(rate, rel=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("content", "rate"),
-    [
-        (FRAME.to_csv(), RATE),
-        (FRAME.to_csv(sep=";", decimal=","), RATE),
-        (FRAME.acc.to_csv(), None),
-        (pd.Series(SIGNAL[:, 0]).to_csv(), None),
-        (pd.Series(SIGNAL[:, 0], index=TIME).to_csv(), RATE),
-        (pd.Series(SIGNAL[:, 0], index=DATES).to_csv(), RATE),
-        (pd.DataFrame({"acc": SIGNAL[:, 0]}, index=DATES - DATES[0]).to_csv(), RATE),
-        (pd.DataFrame(np.column_stack([TIME, SIGNAL[:, 0]])).to_csv(index=False), RATE),
-        (FRAME.reset_index().to_csv(), RATE),
-        (pd.DataFrame({"when": DATES, "acc": SIGNAL[:, 0]}).to_csv(), RATE),
-        (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),  # an uptime, no days since 1970
-        ("Unnamed: 0" + FRAME.to_csv(), RATE),
-        (
-            '"time" "acc"\n'
-            + "\n".join(f'"{i + 1}" {t:.6f} {a}' for i, (t, a) in enumerate(FRAME.to_numpy())),
-            RATE,
-        ),
-    ],
-    ids=[
-        "frame",
-        "german",
-        "series",
-        "unnamed",
-        "times",
-        "dates",
-        "durations",
-        "bare",
-        "two",
-        "again",
-        "counted",
-        "uptime",
-        "R",
-    ],
-)
-def test_the_index_of_a_data_frame_is_no_signal(content: str, rate: float | None) -> None:
-    check_one_signal(read(content), rate)
-
-
-@pytest.mark.parametrize(
-    ("heading", "a_second"),
-    [
-        ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
-        ("Zeitstempel", 1.0), ("elapsed [s]", 1.0), ("X [s]", 1.0), ("Timestamp (ns)", 1e9),
-        ("host_time_ns", 1e9), ("Elapsed Time (ms)", 1e3), ("time/s", 1.0), ("TimeStamp", 1.0),
-        ("us", 1e6), ("Zeit in ms", 1e3),
-    ],
-)  # fmt: skip
-def test_times_are_known_by_name_and_unit_in_any_column(heading: str, a_second: float) -> None:
-    made = read(rows(SIGNAL[:, 0], TIME * a_second, heading=f"acc [g],{heading}"))
-    assert [column.role for column in made.contents.columns] == ["signal", "time"]
-    check_one_signal(made)
-
-
 @pytest.mark.parametrize(("unit", "a_second"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
 def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -> None:
     made = read(rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"))
@@ -115,40 +60,10 @@ def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -
     assert f"if it is in {unit};" in rate.reason
     with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         made.recording([1], ["y"], "g")
-    by_hand = made.with_columns({0: Column("", "time", unit)}).recording(unit="g")
+    by_hand = read_recording(
+        "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
+    )
     assert by_hand.sample_rate == pytest.approx(RATE)
-
-
-@pytest.mark.parametrize(("unit", "size"), [("s", 1), ("ms", 10**3), ("µs", 10**6), ("ns", 10**9)])
-def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None:
-    micro = [1_700_000_000_000_000 + 125 * i for i in range(N)]
-    told = [
-        f"{m * size // 10**6}"
-        if size >= 10**6
-        else f"{m // (10**6 // size)}.{m % (10**6 // size):0{len(str(10**6 // size)) - 1}d}"
-        for m in micro
-    ]
-    lines = [f"{when},{value:.4f}" for when, value in zip(told, SIGNAL[:, 0], strict=True)]
-    made = read("timestamp,acc\n" + "\n".join(lines))
-    check_one_signal(made)
-    assert f"in {unit} since 1970" in made.contents.sample_rate.reason
-
-
-@pytest.mark.parametrize("where", [[0], [700], range(N)])
-def test_a_column_of_words_is_left_out_whichever_rows_have_one(where) -> None:
-    lines = [f"{t:.6f}\t{a:.4f}" + "\tok" * (i in where) for i, (t, a) in enumerate(zip(
-        TIME, SIGNAL[:, 0], strict=True))]  # fmt: skip
-    made = read("time\tacc\tComment\n" + "\n".join(lines))
-    assert made.names == ("time", "acc")
-    check_one_signal(made)
-
-
-@pytest.mark.parametrize("delimiter", [",", ";", " "])
-def test_numbers_in_one_row_are_a_column(delimiter: str) -> None:
-    text = delimiter.join(f"{value:.4f}" for value in SIGNAL[:, 0])
-    check_one_signal(read(text), None)
-    named = f"time{delimiter}" + delimiter.join(f"{t:.6f}" for t in TIME)
-    check_one_signal(read(f"{named}\nacc{delimiter}{text}"))
 
 
 @pytest.mark.parametrize("count", [100, 1023])
@@ -187,30 +102,6 @@ def test_words_in_many_lines_are_still_refused_with_the_first() -> None:
     lines[500:600] = ["some words"] * 100
     with pytest.raises(ValueError, match=r"line 501 of a\.csv is 'some words'"):
         read("\n".join(lines))
-
-
-@pytest.mark.parametrize(
-    "when",
-    [
-        lambda i: f"1/1/2024 10:00:00.{125 * i:06d} AM",
-        lambda i: f"01-Jan-2024 10:00:00.{125 * i:06d}",
-        lambda i: f"{125e-6 * i:.6g} sec",
-        lambda i: f"0 days 00:00:00.{125 * i:06d}",
-        lambda i: f"01.01.2024 10:00:00.{125 * i:06d}+01:00",
-    ],
-)
-def test_dates_and_durations_as_programs_write_them(when) -> None:
-    check_one_signal(read("Time,acc\n" + "\n".join(
-        f"{when(i)},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0]))))  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    "heading",
-    ["X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000"],
-)
-def test_a_rate_above_columns_that_count(heading: str) -> None:
-    lines = [f"{i},{value:.4f}" for i, value in enumerate(SIGNAL[:, 0])]
-    check_one_signal(read(f"{heading}\n" + "\n".join(lines)))
 
 
 def lines(row: Any, heading: str = "") -> str:
@@ -295,13 +186,6 @@ SLOW = 0.5 + np.arange(N) / 99.7
             RATE, True, "g", ["acc"],
         ),
     ],
-    ids=[
-        "settings beside the first numbers", "scope of two channels", "scope that counts",
-        "phone that counts twice", "seconds and milliseconds", "nine axes", "slow seconds",
-        "fast seconds", "nanoseconds without a heading", "labels", "rows of one signal",
-        "clock against the file's name",
-        "count above", "zone and address", "empty cells at the ends",
-    ],
 )  # fmt: skip
 def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -> None:
     made = read(text, "run 1 1600Hz.csv" if rate == 1690 else "a.csv").contents
@@ -312,15 +196,6 @@ def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -
     chosen = made.choice.columns.values() or made.choice.options
     assert {made.columns[index].name for index in chosen} == set(signals)
     assert made.shaft_speed is None
-
-
-def test_lists_and_records_of_json_are_columns() -> None:
-    check_one_signal(read(json.dumps(SIGNAL[:, 0].tolist()), "a.json"), None)
-    check_one_signal(read(f"[{' '.join(map(str, SIGNAL[:, 0]))}]"), None)
-    check_one_signal(read(json.dumps(FRAME.to_numpy().tolist()), "a.json"))
-    for lines in (False, True):
-        check_one_signal(read(FRAME.to_json(orient="records", lines=lines, double_precision=9)))
-    check_one_signal(read(json.dumps({"fs": RATE, "acc": SIGNAL[:, 0].tolist()}), "a.json"))
 
 
 def matlab(**variables: Any) -> bytes:
@@ -434,18 +309,6 @@ def test_formats_of_other_libraries_are_read(tmp_path) -> None:
     check_one_signal(read(parquet(), "a.parquet"))
 
 
-def test_arrays_of_numpy_are_read() -> None:
-    check_one_signal(read(numpy_file(np.save, SIGNAL[:, 0]), "a.npy"), None)
-    check_one_signal(read(numpy_file(np.save, np.column_stack([TIME, SIGNAL[:, 0]]).T), "a.npy"))
-    several = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, unit="g")
-    beside = numpy_file(np.savez, acc=SIGNAL[:, 0], fs=RATE, about=cells({}))
-    check_one_signal(read(beside, "a.npz"))
-    for name in ("a.npz", "upload"):
-        check_one_signal(read(several, name))
-    with pytest.raises(ValueError, match="damaged or unknown part"):
-        read(numpy_file(np.save, cells({}, {})), "a.npy")
-
-
 def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     text = FRAME.to_csv().encode()
     made = read(zipped(run_csv=text), "rig.zip")
@@ -483,6 +346,7 @@ def matlab_table() -> bytes:
         (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
+        (numpy_file(np.save, cells({}, {})), "damaged or unknown part"),
     ],
 )
 def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
@@ -502,50 +366,6 @@ def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
 
 
 # -- habits that were read wrongly ----------------------------------------------------------------
-
-
-def lines(write: Any, heading: str = "Time,acc [g]") -> str:
-    """A row for each time and acceleration, as `write` writes it."""
-    rows = [write(t, a) for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
-    return "\n".join([*([heading] if heading else []), *rows])
-
-
-def of_a_clock(begin: float, hours: int = 12) -> Any:
-    def write(t: float, a: float) -> str:
-        minute, second = divmod(begin * 60.0 + t, 60.0)
-        hour = int(minute // 60)
-        half = f" {'AP'[hour >= 12]}M" if hours == 12 else ""
-        return f"{(hour - 1) % 12 + 1}:{int(minute % 60):02d}:{second:09.6f}{half},{a:.4f}"
-
-    return write
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        lines(of_a_clock(12 * 60 + 59.999)),  # to 1:00 PM
-        lines(of_a_clock(11 * 60 + 59.999)),
-        lines(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"),
-        lines(lambda t, a: f'"{t + 1.0:.6f}","{a:.4f}"', '"Time (s)","Acceleration, vertical (g)"'),
-        lines(lambda t, a: f'"{t:.6f}","{a:.4f}"'.replace(".", ","), '"Time (s)","Acc (g)"'),
-        lines(lambda t, a: f'"{1e3 * t + 2e3:,.3f}","{a:,.4f}"', "Time (ms),Acc (g)"),
-        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:,.4f}", "Time (ms);Acc (g)"),
-        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".translate({44: 46, 46: 44}),
-              "Zeit (ms);Acc (g)"),
-        lines(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".replace(",", "'"), "Time (ms);Acc (g)"),
-        lines(lambda t, a: f"{t:.6f} {a:.4f}".replace(".", ","), ""),
-        lines(lambda t, a: f"{t:.6E}  {a:.6E}".replace("E", "D"), ""),
-        lines(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"),
-        lines(lambda t, a: f"{t:.6f},{a:.4f}", "Time,Acc\nfloat64,float64\ns,g"),
-        lines(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"),
-        lines(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"),
-        ("Time [s]\tAcc [g]\n" + lines(lambda t, a: f"{t:.6f}\t{a:.4f}", "")).encode("utf-16-le"),
-        ("Time [s]\tAcc [g]\n" + lines(lambda t, a: f"{t:.6f}\t{a:.4f}", "")).encode("utf-16-be"),
-        gzip.compress(FRAME.to_csv().encode()),
-    ],
-)  # fmt: skip
-def test_numbers_and_times_as_spreadsheets_and_programs_write_them(content: Any) -> None:
-    check_one_signal(read(content))
 
 
 @pytest.mark.parametrize("heading", ["Time,Acc", "Time [s],Acc [g]"])
@@ -570,11 +390,46 @@ def test_words_in_place_of_numbers_are_missing_numbers(share: float) -> None:
         read("\n".join(coded))
 
 
-def test_rows_of_several_sensors_are_not_one_signal() -> None:
-    mixed = "\n".join(f"{i // 2 / RATE:.6f},{'DE' if i % 2 else 'FE'},{a:.4f}" for i, a in
-                      enumerate(SIGNAL.ravel()))  # fmt: skip
-    with pytest.raises(ValueError, match=r"row to row \(FE, DE\).*columns or files of their own"):
-        read("t,place,acc\n" + mixed)
+BOTH = FRAME.assign(other=SIGNAL[:, 1])
+LONG = BOTH.melt("time", var_name="place", value_name="v [g]")
+LONG["place"] = LONG.place.replace({"acc": "DE", "other": "NDE"})
+OF_SENSORS = {
+    "blocks": LONG.to_csv(index=False),
+    "in turn": LONG.sort_values("time", kind="stable").to_csv(index=False),
+    "times apart": LONG.sort_values("time", kind="stable")
+    .assign(time=np.arange(2 * N) / (2.0 * RATE)).to_csv(index=False),
+    "no times": LONG.drop(columns="time").to_csv(index=False),
+    "numbers": LONG.sort_values("time", kind="stable")
+    .assign(place=[1, 2] * N).rename(columns={"place": "sensor_id"}).to_csv(index=False),
+    "records": LONG.to_json(orient="records", lines=True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("content", OF_SENSORS.values(), ids=list(OF_SENSORS))
+def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
+    made = read(content)
+    signals = [i for i, one in enumerate(made.contents.columns) if one.role == "signal"]
+    np.testing.assert_allclose(made.columns[:, signals], SIGNAL, atol=1e-9)
+    assert made.contents.choice.question, "which place is at the bearing?"
+    rate = made.contents.sample_rate
+    assert rate is None or rate.value == pytest.approx(RATE)
+
+
+def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"DE.*as many rows of each"):
+        read(LONG.iloc[: 3 * N // 2].sort_values("v [g]").to_csv(index=False))
+
+
+@pytest.mark.parametrize(
+    ("begin", "rate"),
+    [("1712345678\n64\n", 64.0), ("12000\n", 12e3), (f"{N}\n12000\n", 12e3), (f"{N}\n", None)],
+)
+def test_numbers_above_a_column_are_no_samples(begin: str, rate: float | None) -> None:
+    made = read(begin + rows(SIGNAL[:, 0]).decode())
+    np.testing.assert_array_equal(made.columns[:, 0], SIGNAL[:, 0])
+    found = made.contents.sample_rate
+    assert (found and (found.value, found.stated)) == (rate and (rate, False))
+    assert "are no samples" in made.notes[0]
 
 
 def test_a_column_with_one_number_is_a_fact() -> None:
@@ -591,11 +446,11 @@ def test_a_column_with_one_number_is_a_fact() -> None:
 @pytest.mark.parametrize("words", ["Sensitivity: 100 mV/g", "Sensor: 100 mV/g, S/N 1234"])
 def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
     volts = f"# {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
-    got = read_table("a.csv", volts).recording().acceleration[:, 0]
+    got = read_recording("a.csv", volts).acceleration[:, 0]
     np.testing.assert_allclose(got, SIGNAL[:, 0] * 0.0980665, atol=1e-9)
     two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
     with pytest.raises(ValueError, match="sensitivity"):
-        read_table("a.csv", two).recording()
+        read_recording("a.csv", two)
 
 
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
@@ -615,68 +470,70 @@ def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
 THREE = rows(TIME * 1e3, SIGNAL, heading="a,b,c")
 
 
-def test_everything_can_be_said_by_hand() -> None:
-    table = read_table("x.csv", THREE)
-    said = table.with_columns({"a": Column("", "time", "ms")})
-    got = said.recording([1, 2], "xy", "g", shaft_speed=188.0)
+def test_everything_can_be_said_by_hand_in_one_call() -> None:
+    got = read_recording(
+        "x.csv", THREE, columns={"time": "a", "signal": [1, 2]}, directions="xy", time_unit="ms",
+        unit="g", shaft_speed=188.0,
+    )  # fmt: skip
     np.testing.assert_allclose(got.acceleration, SIGNAL * 9.80665, atol=1e-5)
     assert (got.sample_rate, got.directions, got.shaft_speed) == (
         pytest.approx(RATE),
         ("x", "y"),
         188.0,
     )
-    untimed = table.with_columns({0: Column("", "other")})
-    rate = untimed.recording([2], unit="mV", sample_rate=9000.0, sensitivity=0.01)
+    rate = read_recording("x.csv", THREE, columns={"time": None, "signal": 2}, unit="mV",
+                          sensitivity=0.01, sample_rate=9000.0)  # fmt: skip
     assert rate.sample_rate == 9000.0
     np.testing.assert_allclose(rate.acceleration[:, 0], SIGNAL[:, 1] * 0.1, atol=1e-5)
     speed = rows(SIGNAL[:, 0], np.full(N, 25.0), heading="p,q")
-    turning = read_table("x.csv", speed).with_columns({1: Column("", "speed", "Hz")})
-    got = turning.recording([0], unit="g", sample_rate=RATE)
+    got = read_recording("x.csv", speed, columns={"signal": 0, "speed": 1}, unit="g",
+                         speed_unit="Hz", sample_rate=RATE)  # fmt: skip
     assert got.shaft_speed == pytest.approx(50.0 * math.pi)
 
 
 def test_the_hand_wins_over_what_headings_say() -> None:
     content = rows(TIME, SIGNAL, heading="DE [Hz],NDE [°C],time [s]")
-    signals = {1: Column("", "signal"), 2: Column("", "signal")}
-    table = read_table("x.csv", content).with_columns({0: Column("", "time", "s"), **signals})
-    got = table.recording([1, 2], "yx", "m/s²")
+    got = read_recording("x.csv", content, columns={"time": 0, "signal": [1, 2]}, time_unit="s",
+                         unit="m/s²", directions=("y", "x"))  # fmt: skip
     np.testing.assert_allclose(got.acceleration, SIGNAL)
     assert got.sample_rate == pytest.approx(RATE)
-    slow = table.with_columns({0: Column("", "time", "h")}).recording([1], unit="g")
+    slow = read_recording(
+        "x.csv", content, columns={"time": 0, "signal": 1}, time_unit="h", unit="g"
+    )
     assert slow.sample_rate == pytest.approx(RATE / 3600.0)  # whatever is likely
 
 
 def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
     (tmp_path / "rig.zip").write_bytes(zipped(run_csv=FRAME.to_csv().encode(), b_csv=b"1"))
-    got = read_table(tmp_path / "rig.zip" / "run.csv").recording(unit="g")
+    got = read_recording(tmp_path / "rig.zip" / "run.csv", unit="g")
     assert got.sample_rate == pytest.approx(RATE)
 
 
 def test_a_typed_rate_that_nothing_shows_is_said() -> None:
     alone = rows(SIGNAL[:, 0])
-    got = read_table("x.csv", alone).recording(unit="g", sample_rate=RATE)
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
     assert "Nothing in the file shows whether it was" in got.notes[0]
-    likely = read_table("12k.csv", alone).recording(unit="g", sample_rate=RATE)
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
     assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
     timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
-    assert read_table("x.csv", timed).recording(unit="g", sample_rate=RATE).notes == ()
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
 
 
 @pytest.mark.parametrize(
-    ("roles", "columns", "told"),
+    ("given", "told"),
     [
-        ({}, None, r"Which is at this bearing.*Say it with columns=\[...\], one or two of b, c"),
-        ({}, [1], r"unit is missing: pass unit="),
-        ({1: "tim"}, None, "signal, time, speed"),
-        ({}, ["d"], "one of a, b, c"),
-        ({0: "time Hz"}, None, "unit is 'Hz'; allowed: s, ms"),
-        ({0: "time s", 1: "time s"}, None, "one column of times"),
+        ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
+        ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
+        ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
+        ({"columns": {"signal": "d"}}, "one of a, b, c"),
+        ({"columns": {"speed": 1}}, "speed_unit is missing"),
+        ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
+        ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],
 )
-def test_what_is_still_to_be_said_is_asked_for(roles: dict, columns: list, told: str) -> None:
-    table, given = read_table("x.csv", THREE), {i: Column("", *r.split()) for i, r in roles.items()}
+def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        table.with_columns(given).recording(columns)
+        read_recording("x.csv", THREE, **given)
 
 
 def test_roles_over_the_columns_are_data_for_a_form() -> None:
@@ -696,13 +553,13 @@ def test_roles_over_the_columns_are_data_for_a_form() -> None:
 def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
     path = tmp_path / "run_1797rpm.csv"
     path.write_text(FRAME.to_csv())
-    got = read_table(path).recording(unit="g")
+    got = read_recording(path, unit="g")
     assert got.shaft_speed is None  # a name suggests it; it does not give it
-    suggested = read_table(path).contents.shaft_speed
+    suggested = read_table(path.name, path.read_bytes()).contents.shaft_speed
     assert suggested.value == pytest.approx(1797.0 * math.pi / 30.0)
     assert (suggested.stated, suggested.taken) == (False, True)
     with pytest.raises(ValueError, match="No such file"):
-        read_table(tmp_path / "none.csv")
+        read_recording(tmp_path / "none.csv")
 
 
 # -- one signal in several files -------------------------------------------------------------------
@@ -739,6 +596,129 @@ def test_files_that_do_not_belong_together_are_not_joined(monkeypatch) -> None:
             join_tables(other)
 
 
+# -- one signal ------------------------------------------------------------------------------------
+
+
+def written(write: Callable[[float, float], str], heading: str = "Time,acc [g]") -> str:
+    """A row for each time and acceleration, as `write` writes it."""
+    rows = [write(t, a) for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    return "\n".join([*([heading] if heading else []), *rows])
+
+
+def of_a_clock(begin: float) -> Callable[[float, float], str]:
+    def write(t: float, a: float) -> str:
+        minute, second = divmod(begin * 60.0 + t, 60.0)
+        hour, half = int(minute // 60), "AP"[int(minute >= 720.0)]
+        return f"{(hour - 1) % 12 + 1}:{int(minute % 60):02d}:{second:09.6f} {half}M,{a:.4f}"
+
+    return write
+
+
+def since_1970(size: int) -> str:
+    """Rows whose times count seconds of so many parts, to the microsecond."""
+
+    def write(t: float, a: float) -> str:
+        micro = 1_700_000_000_000_000 + round(1e6 * t)
+        whole, rest = divmod(micro * size, 10**6)
+        return f"{whole}.{rest:06d},{a:.4f}" if size < 10**6 else f"{whole},{a:.4f}"
+
+    return written(write, "timestamp,acc")
+
+
+def in_row(values: Any, delimiter: str) -> str:
+    return delimiter.join(f"{value:.6f}" for value in values)
+
+
+ALONE = SIGNAL[:, 0]
+LIST = ALONE.tolist()
+#: files with one signal, each with its rate and, where it matters, its name
+ONE_SIGNAL: list[tuple[Any, ...]] = [
+    # the index of a data frame is no signal; an uptime is no time since 1970
+    (FRAME.to_csv(), RATE),
+    (FRAME.to_csv(sep=";", decimal=","), RATE),
+    (FRAME.acc.to_csv(), None),
+    (pd.Series(ALONE).to_csv(), None),
+    (pd.Series(ALONE, index=TIME).to_csv(), RATE),
+    (pd.Series(ALONE, index=DATES).to_csv(), RATE),
+    (pd.DataFrame({"acc": ALONE}, index=DATES - DATES[0]).to_csv(), RATE),
+    (pd.DataFrame(np.column_stack([TIME, ALONE])).to_csv(index=False), RATE),
+    (FRAME.reset_index().to_csv(), RATE),
+    (pd.DataFrame({"when": DATES, "acc": ALONE}).to_csv(), RATE),
+    (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),
+    ("Unnamed: 0" + FRAME.to_csv(), RATE),
+    (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
+    *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
+    (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
+    # times are known by name and unit in any column
+    *((rows(ALONE, TIME * a_second, heading=f"acc [g],{heading}"), RATE) for heading, a_second in (
+        ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
+        ("Zeitstempel", 1.0), ("elapsed [s]", 1.0), ("X [s]", 1.0), ("Timestamp (ns)", 1e9),
+        ("host_time_ns", 1e9), ("Elapsed Time (ms)", 1e3), ("time/s", 1.0), ("TimeStamp", 1.0),
+        ("us", 1e6), ("Zeit in ms", 1e3))),
+    *((since_1970(size), RATE) for size in (1, 10**3, 10**6, 10**9)),
+    # dates and durations as programs write them, a clock over noon and before it
+    (written(lambda t, a: f"1/1/2024 10:00:00.{1e6 * t:06.0f} AM,{a}"), RATE),
+    (written(lambda t, a: f"01-Jan-2024 10:00:00.{1e6 * t:06.0f},{a}"), RATE),
+    (written(lambda t, a: f"{t:.6g} sec,{a}"), RATE),
+    (written(lambda t, a: f"0 days 00:00:00.{1e6 * t:06.0f},{a}"), RATE),
+    (written(lambda t, a: f"01.01.2024 10:00:00.{1e6 * t:06.0f}+01:00,{a}"), RATE),
+    (written(of_a_clock(12 * 60 + 59.999)), RATE),
+    (written(of_a_clock(11 * 60 + 59.999)), RATE),
+    (written(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"), RATE),
+    # a column of words is left out, whichever rows have one
+    *((written(lambda t, a, where=where: f"{t:.6f}\t{a}" + "\tok" * bool(t in where),
+               "time\tacc\tComment"), RATE) for where in ([0.0], [TIME[700]], TIME)),
+    # numbers in one row are a column
+    *((in_row(ALONE, delimiter), None) for delimiter in ",; "),
+    *((f"time{d}{in_row(TIME, d)}\nacc{d}{in_row(ALONE, d)}", RATE) for d in ",; "),
+    # a rate above columns that count
+    *((written(lambda t, a: f"{round(t * RATE)},{a}", heading), RATE) for heading in (
+        "X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000")),
+    # numbers as spreadsheets and programs write them
+    (written(lambda t, a: f'"{t + 1.0:.6f}","{a:.4f}"', '"Time (s)","Acceleration, vertical (g)"'),
+     RATE),
+    (written(lambda t, a: f'"{t:.6f}","{a:.4f}"'.replace(".", ","), '"Time (s)","Acc (g)"'), RATE),
+    (written(lambda t, a: f'"{1e3 * t + 2e3:,.3f}","{a:,.4f}"', "Time (ms),Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:,.4f}", "Time (ms);Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".translate({44: 46, 46: 44}),
+             "Zeit (ms);Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".replace(",", "'"), "Time (ms);Acc (g)"),
+     RATE),
+    (written(lambda t, a: f"{t:.6f} {a:.4f}".replace(".", ","), ""), RATE),
+    (written(lambda t, a: f"{t:.6E}  {a:.6E}".replace("E", "D"), ""), RATE),
+    (written(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f}", "Time,Acc\nfloat64,float64\ns,g"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"), RATE),
+    *((written(lambda t, a: f"{t:.6f}\t{a:.4f}", "Time [s]\tAcc [g]").encode(code), RATE)
+      for code in ("utf-16-le", "utf-16-be")),
+    (gzip.compress(FRAME.to_csv().encode()), RATE),
+    # lists and records of JSON, arrays of NumPy
+    (json.dumps(LIST), None, "a.json"),
+    (f"[{' '.join(map(str, LIST))}]", None),
+    (json.dumps(FRAME.to_numpy().tolist()), RATE, "a.json"),
+    *((FRAME.to_json(orient="records", lines=lines, double_precision=9), RATE)
+      for lines in (False, True)),
+    (json.dumps({"fs": RATE, "acc": LIST}), RATE, "a.json"),
+    (numpy_file(np.save, ALONE), None, "a.npy"),
+    (numpy_file(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
+    (numpy_file(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
+    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
+    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("file", ONE_SIGNAL)
+def test_one_signal_is_found_with_its_rate(file: tuple[Any, ...]) -> None:
+    content, rate, *name = file
+    check_one_signal(read(content, *name), rate)
+
+
+@pytest.mark.parametrize(("unit", "size"), [("s", 1), ("ms", 10**3), ("µs", 10**6), ("ns", 10**9)])
+def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None:
+    assert f"in {unit} since 1970" in read(since_1970(size)).contents.sample_rate.reason
+
+
 # -- what is said, a file a line -------------------------------------------------------------------
 
 #: a fact of a table by its name here; words are looked for in what is said
@@ -746,7 +726,9 @@ FACTS: dict[str, Callable[[Any], Any]] = {
     "names": lambda made: made.names,
     "roles": lambda made: [column.role for column in made.contents.columns],
     "units": lambda made: [column.unit for column in made.contents.columns],
+    "places": lambda made: [column.place for column in made.contents.columns],
     "columns": lambda made: made.contents.choice.columns,
+    "choice": lambda made: made.contents.choice.reason,
     "options": lambda made: made.contents.choice.options,
     "question": lambda made: made.contents.choice.question,
     "rate": lambda made: stated(made.contents.sample_rate),
@@ -808,6 +790,7 @@ QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
     pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
 LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
 STEP = {"wf_increment": 1.0 / RATE}
+CWRU = {f"X097_{side}_time": SIGNAL[:, :1] for side in ("DE", "FE")}
 
 FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     # remarks above one column are no names of it
@@ -881,6 +864,9 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (rows(LINES, SIGNAL[:, 0], heading="f,Amplitude [g]"), {"question": "spectrum", "columns": {}}),
     (rows(FIFTY, TIME, SIGNAL[:, 0], heading="Frequency [Hz],t1 [s],acc [g]"),
      {"columns": {"y": 2}, "rpm": None, "guessed": None}),
+    # a column of words that few rows have
+    (written(lambda t, a: f"{t:.6f}\t{a}" + "\tok" * bool(t == TIME[9]), "time\tacc\tComment"),
+     {"names": ("time", "acc")}),
     # an oscilloscope writes its settings beside the numbers
     ("\n".join(f"{a},{t - 0.1:.6f},{v:.4f}," for a, t, v in zip(
         BESIDE, TIME, SIGNAL[:, 0], strict=True)),
@@ -891,6 +877,24 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
     (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
      {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
+    # collections: how the number of a Case Western file says it was sampled, and a file's name;
+    # tables of the IMS without headings or extension
+    (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
+    (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
+                      "columns": {"y": 0}, "choice": "name says drive end"}),
+    # a displacement or a temperature is no signal
+    (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
+     {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),
+    # two signals are two directions only where something says so
+    *((two(f"time,{names}"), {"file": file, "columns": {}, "options": (1, 2)})
+      for file in ("a.csv", "pump_de_nde_fe.csv")
+      for names in ("Accel DE,Accel NDE", "DE,FE", "Acc 1,Acc 2", "inboard,outboard",
+                    "drive end,opposite drive end", "ch DE,ch 2")),
+    *((two(f"time,{names}"), {"columns": {"x": 1, "y": 2}})
+      for names in ("acc x,acc y", "horizontal,vertical")),
+    *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
+       {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
+      for count in (2, 3)),
     # HDF5, beside each data set
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
@@ -902,13 +906,14 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("content", "said"), FILES)
 def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
-    made = read(content, "a.h5" if content[:4] == b"\x89HDF" else "a.csv")
+    said = {"file": "a.csv", **said}
+    made = read(content, said.pop("file"))
     missing = N - len(made.columns)  # the rows in which an oscilloscope has its settings
     assert missing in (0, 3)
     assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
     for name, expected in said.items():
         found = FACTS[name](made)
-        if name in ("question", "reason", "trouble", "why"):
+        if name in ("question", "choice", "reason", "trouble", "why"):
             assert expected in found, name
         elif isinstance(expected, float):
             assert found == pytest.approx(expected, rel=1e-4), name

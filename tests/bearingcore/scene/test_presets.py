@@ -1,20 +1,11 @@
 """Every preset: what its note says is so, and it can be computed through and through."""
 
-import math
-
 import numpy as np
 import pytest
 
-from bearingcore import (
-    dynamic_load_rating,
-    limits,
-    preset_notes,
-    presets,
-    simulate,
-)
+from bearingcore import dynamic_load_rating, limits, preset_notes, presets, simulate
 
 every_preset = pytest.mark.parametrize("name", list(presets))
-TURN = np.linspace(0.0, 2.0 * math.pi, 361)
 
 CATALOGUE = {
     "6205": 14.0e3,

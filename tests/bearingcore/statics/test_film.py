@@ -5,9 +5,7 @@ import math
 import pytest
 
 from bearingcore import equilibrium, presets
-from bearingcore.statics.film import (
-    film,
-)
+from bearingcore.statics.film import film
 
 OIL = {"viscosity": 0.02, "pressure_viscosity": 2.0e-8}
 

@@ -19,7 +19,7 @@ from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
 from bearingcore import Scene, presets
 from bearingcore.common import ResultTable
 from bearingcore.diagnosis import EnvelopeLines
-from bearingcore.files import ACCELERATIONS
+from bearingcore.files import ACCELERATIONS, path_in
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
@@ -233,9 +233,11 @@ def _table_lines(origin: Origin) -> list[str]:
     if origin.parts:
         names = code_of(list(origin.parts))
         return [
-            f"table = join_tables([read_table(name) for name in {names}])",
+            f"parts = [read_table(name, Path(name).read_bytes()) for name in {names}]",
+            "table = join_tables(parts)",
         ]
-    return [f"table = read_table({code_of(origin.file)})"]
+    name, path = code_of(origin.file), code_of(path_in(origin.file))
+    return [f"table = read_table({name}, Path({path}).read_bytes())"]
 
 
 def recording_lines(measured: Measured) -> list[str]:

@@ -363,15 +363,17 @@ def python_lines(found: FoundTrend, model: Model) -> str:
         ]  # fmt: skip
         files.append(f"    ({', '.join(given)}),")
     return "\n".join([
+        "from pathlib import Path\n",
         "from bearingcore import Recording, Scene, presets, read_table, trend",
-        "from bearingcore.files import Column\n",
+        "from bearingcore.files import Column, path_in\n",
         f"scene = {scene_code(scene)}",
         "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s, which",
         *files,
         "]",
         "recordings = []",
         "for name, columns, along, given, unit, rate, one, sensor, speed, part in files:",
-        "    table = read_table(name).with_columns(given)",
+        "    table = read_table(name, Path(path_in(name)).read_bytes())",
+        "    table = table.with_columns(given)",
         "    table = table.one_of_recordings(part) if part else table",
         "    made = table.recording(columns, along, unit, rate, one, sensitivity=sensor)",
         "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",

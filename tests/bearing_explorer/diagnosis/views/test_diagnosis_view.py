@@ -13,10 +13,7 @@ from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
-from bearing_explorer.diagnosis.views.part_lines import (
-    FAINT,
-    STRONG,
-)
+from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG
 from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
 from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.kit.messages import take

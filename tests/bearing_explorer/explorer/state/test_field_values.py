@@ -4,12 +4,7 @@ import math
 import re
 
 import pytest
-from bearing_explorer.explorer.state.field_values import (
-    FIELD_BY_KEY,
-    limits_of,
-    read,
-    values_of,
-)
+from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, limits_of, read, values_of
 from bearing_explorer.kit.sentences import sentence_of
 
 from bearingcore import presets

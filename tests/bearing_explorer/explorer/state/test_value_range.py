@@ -5,11 +5,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.explorer.state.field_values import limits_of
-from bearing_explorer.explorer.state.value_range import (
-    SWEEPABLE,
-    sweep,
-    usual_range,
-)
+from bearing_explorer.explorer.state.value_range import SWEEPABLE, sweep, usual_range
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -6,11 +6,7 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.bearing import (
-    BAR_LENGTH,
-    BearingDrawing,
-    Shapes,
-)
+from bearing_explorer.explorer.views.bearing import BAR_LENGTH, BearingDrawing, Shapes
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Scene, presets

@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import of_orbit
-from bearing_explorer.explorer.views.orbit import (
-    SteadyOrbit,
-    marched_path,
-    orbit_path,
-)
+from bearing_explorer.explorer.views.orbit import SteadyOrbit, marched_path, orbit_path
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets

@@ -200,7 +200,6 @@ def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptu
     async def attack(url: str, server: Any) -> None:
         mine, other = PageClient(url), PageClient(url)
         for client in (mine, other):
-            await client.open_page()
             await client.connect()
             assert await client.until_drawn()
         documents = [session.document for session in session_of(server)]
@@ -261,7 +260,6 @@ def test_two_processes_share_the_port_and_end_together() -> None:
         people = [PageClient(url) for _ in range(6)]
 
         async def come(client: PageClient) -> None:
-            assert await client.open_page() == 200
             await client.connect()
             await client.ask(set={"extent_deg": 30.0})
             assert await client.until_drawn()
@@ -288,7 +286,6 @@ def test_models_are_found_as_bokeh_finds_them() -> None:
 
     async def look(url: str, server: Any) -> None:
         client = PageClient(url)
-        await client.open_page()
         await client.connect()
         assert await client.until_drawn()
         [session] = session_of(server)
@@ -366,7 +363,6 @@ def test_bad_frames_end_the_connection_with_a_sentence(caplog: pytest.LogCapture
 def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
     async def wait(url: str, server: Any) -> None:
         client = PageClient(url)
-        await client.open_page()
         await client.connect()
         assert await client.until_drawn()
         for socket in LiveSocket.connected:

@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from bearingcore.diagnosis.part.combs import (
-    HARMONICS,
-    comb_level,
-    lines_at,
-    noise_level,
-)
+from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at, noise_level
 from bearingcore.signals.line_levels import line_levels
 
 

@@ -37,8 +37,7 @@ def ship(preset: str) -> None:
     found = measure(presets[preset], c_loop=pace().motion)
     FILES.mkdir(exist_ok=True)
     (FILES / f"{preset}.json").write_text(as_json(found), encoding="utf-8")
-    count = sum(len(one.points) for one in found.experiments.values())
-    print(f"{preset}: {count} points in {time.perf_counter() - began:.0f} s; {pace()}")
+    print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
     for name, why in found.refused.items():
         print(f"  no {name}: {why}", flush=True)
 

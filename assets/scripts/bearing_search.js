@@ -1,4 +1,4 @@
-// One search over all bearings: presets, published ones, designations.
+// One search over all bearings: presets, published ones, those of a person's table, designations.
 // rows.js is put in front of this file. The server finds; what it finds is a list below the field.
 
 const SEARCH_PAUSE = 150  // ms without a key until a text is sent

@@ -6,6 +6,9 @@ here imports one that imports it.
 
 from bearingcore.bearings.ball import USUAL_GROOVES as USUAL_GROOVES
 from bearingcore.bearings.ball import drawn as drawn
+from bearingcore.bearings.catalogue import CATALOGUE_COLUMNS as CATALOGUE_COLUMNS
+from bearingcore.bearings.catalogue import MOST_BYTES as MOST_BYTES
+from bearingcore.bearings.catalogue import NEEDED_COLUMNS as NEEDED_COLUMNS
 from bearingcore.bearings.designation import designations as designations
 from bearingcore.bearings.designation import is_known as is_known
 from bearingcore.bearings.designation import series_words as series_words

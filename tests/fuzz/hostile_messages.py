@@ -36,6 +36,7 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("Controls", {"mark": 1, "choose": {"dofs": "x y z"}}),
     ("Controls", {"mark": 1, "reset": True, "released": True}),
     ("Controls", {"mark": 1, "floor": _FILE}),
+    ("Controls", {"mark": 1, "catalogue": _FILE}),
     ("ShareBar", {"mark": 1, "open": _FILE}),
     ("ShareBar", {"mark": 1, "compare": _FILE}),
     ("ShareBar", {"mark": 1, "undo": True}),

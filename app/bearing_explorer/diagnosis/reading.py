@@ -5,7 +5,7 @@ For any thread: nothing here knows a session.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -21,11 +21,12 @@ from bearing_explorer.diagnosis.machine import (
     NOT_KNOWN,
     FormError,
     Machine,
+    find_published,
     kept_answers,
 )
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
-from bearingcore import Table, read_table
+from bearingcore import CatalogueBearing, Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
 
@@ -111,6 +112,7 @@ def read_file(
     name: str,
     content: bytes,
     scene: Machine,
+    find: Callable[[str], CatalogueBearing] = find_published,
     kept: Mapping[str, str] = MappingProxyType({}),
 ) -> Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence.
@@ -127,12 +129,13 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return read_of(table, scene, kept)
+    return read_of(table, scene, find, kept)
 
 
 def read_of(
     table: Table,
     scene: Machine,
+    find: Callable[[str], CatalogueBearing],
     kept: Mapping[str, str],
     changed: Mapping[str, str] = MappingProxyType({}),
 ) -> Read:
@@ -144,11 +147,11 @@ def read_of(
     form = {**first, **kept, **changed}
     asks = {field: words for field, words in asks.items() if field not in changed}
     sizes = size_questions(table, form)
-    found, refused = _tried(table, form, scene), {}
+    found, refused = _tried(table, form, scene, find), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
         refused = found.sentences
-        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
@@ -171,18 +174,26 @@ class AnsweredTable:
 
 
 def read_answers(
-    table: Table, changed: Mapping[str, str], scene: Machine
+    table: Table,
+    changed: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
 ) -> AnsweredTable | FormError:
     try:
         told, form = fill(table, changed)
     except FormError as refused:
         return refused
-    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene))
+    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene, find))
 
 
-def _tried(table: Table, form: Mapping[str, str], scene: Machine) -> Measured | FormError:
+def _tried(
+    table: Table,
+    form: Mapping[str, str],
+    scene: Machine,
+    find: Callable[[str], CatalogueBearing],
+) -> Measured | FormError:
     try:
-        return read_form(table, form, scene)
+        return read_form(table, form, scene, find)
     except FormError as refused:
         return refused
 

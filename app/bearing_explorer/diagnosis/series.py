@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from bearing_explorer.diagnosis.form import fill, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
 from bearing_explorer.diagnosis.signal import Measured, Origin
-from bearingcore import Recording, Table
+from bearingcore import CatalogueBearing, Recording, Table
 
 MOST_FILES = 200
 """Of a series."""
@@ -85,6 +85,7 @@ def recordings_of(
     kept: Mapping[str, str],
     direction: str,
     scene: Machine,
+    find: Callable[[str], CatalogueBearing],
 ) -> SeriesRecordings:
     """The recordings of a series along a direction; without files the one that is shown.
 
@@ -105,7 +106,7 @@ def recordings_of(
             answers.pop("part", None)
         try:
             told, form = fill(table, answers)
-            found = read_form(told, {**form, **kept_answers(form, kept)}, scene)
+            found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
             left_out.append(f"{table.name}: {error}")
             continue

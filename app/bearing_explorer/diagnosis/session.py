@@ -22,6 +22,7 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
+from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.jobs import Change
 from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.simulated_signals import NOISES
@@ -116,13 +117,13 @@ class Measurement(SignalForm):
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, kept = self._scene, self._given_machine
+        scene, find, kept = self._scene, self._bearings.find, self._given_machine
         content, request = bytes(upload.content), self._latest
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:
             try:
-                return read_file(name, content, scene, kept)
+                return read_file(name, content, scene, find, kept)
             except ValueError as error:
                 return str(error)
             except Exception:
@@ -173,7 +174,9 @@ class Measurement(SignalForm):
         given = self.state.values
         kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
         changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
+        return recordings_of(
+            self.series, shown, changed, kept, direction, self._scene, self._bearings.find
+        )
 
     def join_parts(self) -> None:
         """Make one signal of the files of the series, in their order."""
@@ -182,14 +185,14 @@ class Measurement(SignalForm):
             return
         self._latest += 1
         self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
-        scene, changed = self._scene, self._changed
+        scene, find, changed = self._scene, self._bearings.find, self._changed
 
         def join() -> Read:
             try:
                 joined = join_tables([fill(table, changed)[0] for table in tables])
             except FieldError as error:
                 raise ValueError(f"These files are not joined: {sentence_of(error)}") from None
-            found = read_of(joined, scene, {}, changed)
+            found = read_of(joined, scene, find, {}, changed)
             return replace(found, parts=tuple(table.name for table in tables))
 
         def take(found: Read) -> None:
@@ -233,6 +236,6 @@ def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
     async def assign(change: Change) -> None:
         change()
 
-    made = Measurement(lambda: scene, assign, lambda: None)
+    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
     made.measured = measured
     return made

@@ -43,7 +43,6 @@ from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, rea
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
-from bearing_explorer.kit.bearing_list import find_bearing
 from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
@@ -90,7 +89,7 @@ class SignalForm(Findings):
         if SCENE not in (values["bearing"], values["speed"]):
             return
         try:
-            machine = machine_of(table, values, self._scene)
+            machine = machine_of(table, values, self._scene, self._bearings.find)
         except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
             self._tell(words=str(error), bad=True, refused=error.sentences)
             return
@@ -177,7 +176,7 @@ class SignalForm(Findings):
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
-            bearings=bearings_of(table),
+            bearings=bearings_of(table, own=self._own_bearings),
             recordings=recordings_of(table),
             speeds=speeds_of(table),
             settling=False,
@@ -211,7 +210,7 @@ class SignalForm(Findings):
         scene, as_read = self._scene, self._as_read
         assert as_read is not None
         self._in_background(
-            lambda: read_answers(as_read, changed, scene),
+            lambda: read_answers(as_read, changed, scene, self._bearings.find),
             lambda found: self._take_answers(texts, found),
             table.name,
         )
@@ -289,12 +288,17 @@ class SignalForm(Findings):
         self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
         self._draw()
 
+    @property
+    def _own_bearings(self) -> list[str]:
+        """Names of the bearings of a person's table."""
+        return list(self._bearings.own)
+
     def take_bearing(self, name: str) -> None:
         """Take a listed bearing as the one that was measured."""
         measured = self.measured
         if self._table is None:
             if measured is not None:
-                bearing = find_bearing(name).bearing
+                bearing = self._bearings.find(name).bearing
                 machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
                                   bearing_name=name)  # fmt: skip
                 self.measured = replace(measured, machine=machine)
@@ -302,7 +306,7 @@ class SignalForm(Findings):
                 self._draw()
             return
         named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
-        self._tell(bearings=bearings_of(self._table, [*named, name]))
+        self._tell(bearings=bearings_of(self._table, [*named, name], self._own_bearings))
         self.take_form({**self.state.values, "bearing": name})
 
     def take_load(self) -> None:

@@ -12,7 +12,7 @@ Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
 
 
 class SceneChange(msgspec.Struct, omit_defaults=True):
-    """A change of the scene: numbers, choices, a reset, a measured floor.
+    """A change of the scene: numbers, choices, a reset, a measured floor, a table of bearings.
 
     Attributes
     ----------
@@ -40,6 +40,7 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     released: bool = False
     turning: bool = False
     floor: TextFile | None = None
+    catalogue: TextFile | None = None
     search: str | None = None
 
 

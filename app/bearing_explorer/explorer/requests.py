@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from bearing_explorer.explorer.report import report
 from bearing_explorer.explorer.results.results import Results
@@ -24,13 +24,16 @@ from bearing_explorer.explorer.state.scene_editor import LARGEST_FILE, SceneEdit
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
-from bearing_explorer.kit.bearing_list import search_bearings
+from bearing_explorer.kit.bearing_list import read_table
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.session import Half
 from bearing_explorer.kit.views.base import View
+from bearingcore.bearings import MOST_BYTES
 
 log = logging.getLogger(__name__)
+
+Found = TypeVar("Found")
 
 _LONGEST_NAME = 200
 _LONGEST_LINK = 2000
@@ -96,9 +99,9 @@ class Requests(Half):
     def change_scene(self, message: Any) -> None:
         """Take a message of the controls: numbers, choices, a reset, a file."""
         if (text := message.get("search")) is not None:
-            show = self.controls.send
+            listed, show = self.editor.listed, self.controls.send
             self.page.in_background(
-                lambda: search_bearings(text), lambda found: show({"found": found})
+                lambda: listed.search(text), lambda found: show({"found": found})
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -124,12 +127,10 @@ class Requests(Half):
             rests = typed or "released" in message
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
-            if file := message.get("floor"):  # as it may be long it is read off the event loop
-                # one character more than may be, so that the reader sees that there are too many
-                name, floor = file["name"][:_LONGEST_NAME], file["text"][: LARGEST_FILE + 1]
-                self.page.in_background(
-                    lambda: read_file(floor), lambda found: self._take_floor(name, found)
-                )
+            self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
+            self._open_file(
+                message.get("catalogue"), MOST_BYTES, read_table, self.editor.listed.take
+            )
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
@@ -156,13 +157,26 @@ class Requests(Half):
     def _take_floor(self, name: str, found: Any) -> None:
         self.editor.take_floor(name, *found)
         self.bookmarks.step()
-        self._show_taken()
 
-    def _take_scene(self, wanted: OpenRequest, found: Any) -> None:
-        self.bookmarks.take(wanted, found)
-        self._show_taken()
+    def _open_file(
+        self,
+        file: Mapping[str, str] | None,
+        longest: int,
+        read: Callable[[str], Found],
+        take: Callable[[str, Found], object],
+    ) -> None:
+        """Read the text of a file off the event loop, as it may be long, and take its content.
 
-    def _show_taken(self) -> None:
+        `longest` [characters]: one more is read, so that the reader sees that there are too many.
+        """
+        if file is not None:
+            name, text = file["name"], file["text"][: longest + 1]
+            self.page.in_background(
+                lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
+            )
+
+    def _taken(self, take: Callable[[str, Found], object], name: str, found: Found) -> None:
+        take(name, found)
         self.show_controls(state=self.editor.state())
         self.show_links()
         self.draw()
@@ -187,7 +201,10 @@ class Requests(Half):
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
             self.page.in_background(
-                lambda: read_request(wanted), lambda found: self._take_scene(wanted, found)
+                lambda: read_request(wanted),
+                lambda found: self._taken(
+                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
+                ),
             )
         self.change_scene(message)  # the mark, and a reset
 
@@ -196,7 +213,7 @@ class Requests(Half):
         request = OpenRequest("open", name, text)
         place = read_request(request)
         self.bookmarks.leave()
-        self._take_scene(request, place)
+        self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
         if isinstance(place, Place):
             self.page.show_tab({"show": place.tab})
 

@@ -40,7 +40,7 @@ from bearing_explorer.explorer.state.field_values import (
     second_units,
     values_of,
 )
-from bearing_explorer.kit.bearing_list import find_bearing, origin_words
+from bearing_explorer.kit.bearing_list import BearingTable, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (
     DOF_NAMES,
@@ -136,6 +136,8 @@ class SceneEditor:
     """The state of the controls, and the scene that they stand for."""
 
     preset: str
+    listed: BearingTable = field(default_factory=BearingTable)
+    """Bearings to choose from."""
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Range] = field(init=False)
@@ -455,8 +457,11 @@ class SceneEditor:
         )
 
     def _take_listed(self, name: str) -> None:
-        found = find_bearing(name)
-        self.take_bearing(found.bearing, found.name, origin_words(found))
+        found = self.listed.find(name)
+        origin = origin_words(found, found.name in self.listed.own)
+        self.take_bearing(found.bearing, found.name, origin)
+        if found.assumed:  # seen where it is chosen; sources are behind the question mark
+            self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
@@ -618,6 +623,7 @@ class SceneEditor:
             },
             "hidden": hidden,
             "effects": self.effects,
+            "table": {"words": self.listed.words, "bad": self.listed.bad},
         }
 
 

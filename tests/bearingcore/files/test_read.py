@@ -137,13 +137,6 @@ def test_a_struct_array_is_numbered_and_shorter_vectors_end_earlier():
     np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:2000, 1] * 9.80665)
 
 
-def nested(depth: int) -> dict[str, object]:
-    inside: dict[str, object] = {"a": SIGNAL}
-    for _ in range(depth):
-        inside = {"s": inside}
-    return inside
-
-
 def hdf5(fill) -> bytes:
     """A file of MATLAB's version 7.3: HDF5 after 512 bytes of text."""
     buffer = io.BytesIO()
@@ -208,27 +201,9 @@ def test_hdf5_names_no_other_files(tmp_path):
     assert read_table("x.mat", hdf5(fill)).names == ("own",)
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "told"),
-    [
-        ("a.csv", b"", "allowed: one that is not empty"),
-        ("a.csv", b"words\n" * 5000, "a table of numbers"),
-        ("a.csv", text(TABLE[:20]), "number of rows in a.csv is 20"),
-        ("a.png", b"\x89PNG\r\n\x1a\n\x00\x00" + bytes(1000), "text with numbers"),
-        ("a.wav", b"RIFF\x00\x00\x00\x00WAVE", "a whole WAV file"),
-        ("a.mat", b"MATLAB 5.0 MAT-file", "MATLAB file"),
-        ("a.mat", b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(600), "MATLAB file"),
-        ("a.mat", b"\x89HDF\r\n\x1a\n".ljust(600), "damaged or unknown part"),
-        ("a.mat", hdf5(matlab_7_3)[:9000], "damaged or unknown part"),
-        ("a.mat", matlab({"s": nested(12)}), "structs inside one another"),
-        ("a.mat", matlab({"a": SIGNAL * 1j}), "vector or matrix"),
-        ("a.mat", matlab({"a": np.zeros((1030, 1030))}), "number of columns in a.mat is 1030"),
-    ],
-)
-def test_bad_files_are_refused_with_a_sentence(name, content, told):
-    with pytest.raises(ValueError, match=told) as caught:
-        read_table(name, content)
-    assert "\n" not in str(caught.value)
+def test_a_cut_file_of_matlab_7_3_is_refused():
+    with pytest.raises(ValueError, match="damaged or unknown part"):
+        read_table("a.mat", hdf5(matlab_7_3)[:9000])
 
 
 def test_huge_files_are_refused_before_they_are_read(monkeypatch):
@@ -237,23 +212,6 @@ def test_huge_files_are_refused_before_they_are_read(monkeypatch):
         read_table("a.csv", bytes(2**21))
     with pytest.raises(ValueError, match=r"count of numbers in a\.csv is 'over 5000'"):
         child.read_file("a.csv", text(TABLE), most_numbers=5000)
-
-
-@pytest.mark.parametrize(
-    ("columns", "directions", "unit", "told"),
-    [
-        ([5], ["y"], "g", "column is 5"),
-        (["z"], ["y"], "g", "column is 'z'"),
-        ([True, 1], ["x"], "g", "columns"),
-        ([1, 1], ["x", "y"], "g", "different ones, one a direction"),
-        ([1], ["y"], None, r"unit is missing: pass unit=..., one of m/s², g"),
-        ([1], ["y"], "mV", r"sensitivity is missing: pass sensitivity=..., that of the sensor"),
-    ],
-)
-def test_tables_refuse_what_they_do_not_have(columns, directions, unit, told):
-    table = read_table("a.csv", text(TABLE, heading="time,x,y\n"))
-    with pytest.raises(ValueError, match=told):
-        table.recording(columns, directions, unit)
 
 
 def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():

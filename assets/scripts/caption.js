@@ -55,7 +55,8 @@ export function render({ model }) {
   const file = (ending) => {
     const scene = (model.subject.replace(/\.[a-z]\w{1,4}$/i, "") || (document.documentElement.dataset.scene ?? "")).replaceAll("°", "deg").replaceAll("µ", "u")
       .replace(/[^\p{L}\p{N}.]+/gu, "-").slice(0, 90)
-    return `bearing-${model.name_of_files}${scene && `-${scene}`.replace(/-$/, "")}.${ending}`
+    const name = `bearing-${model.name_of_files}`.replace(/^bearing-(?=bearing)/, "")
+    return `${name}${scene && `-${scene}`.replace(/-$/, "")}.${ending}`
   }
   // Bokeh's figures, or the drawing that the view has instead.
   const views = () => model.picture

@@ -4,6 +4,7 @@
 const stored = () => {
   try { return sessionStorage.getItem("signal-files") || "" } catch { return "" }
 }
+const TREND = 500  // px: the least height of its card with figures
 const store = (name) => {
   window.signal_files = name
   try { sessionStorage.setItem("signal-files", name) } catch { /* a browser that stores nothing */ }
@@ -27,7 +28,7 @@ export function render({ model }) {
     element("p", { id: "measurement-note" }, model.note))
   const { compare } = new Intl.Collator(undefined, { numeric: true })
   const place = (file) => file.webkitRelativePath || file.name
-  let queue = [], count = 0, chosen = 0, source = null, upload = 0, baseline = false
+  let queue = [], count = 0, chosen = 0, source = null, upload = 0, baseline = false, asked = ""
   const show = (share) => {
     bar.hidden = !source && !queue.length
     bar.value = count ? (count - queue.length - 1 + share) / count : 0
@@ -39,8 +40,20 @@ export function render({ model }) {
     show(0)
     model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen, baseline })
   }
+  // The trend that further files bring is far below: it comes into view with its figures.
+  const show_trend = () => {
+    const card = [...inside(document)].find((one) => one.matches(".view-trend"))
+    const growth = new ResizeObserver(([{ contentRect }]) => {
+      if (contentRect.height < TREND) return
+      growth.disconnect()
+      card.scrollIntoView()
+    })
+    if (card) growth.observe(card)
+  }
   const begin = (list, is_baseline = false) => {
     baseline = is_baseline
+    if (is_baseline || asked === "several") show_trend()
+    asked = ""
     const all = [...list ?? []].filter((file) => !file.name.startsWith("."))
     if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
     all.sort((one, other) => compare(place(one), place(other)))
@@ -69,7 +82,10 @@ export function render({ model }) {
     show(last / sent.size)
     model.send_msg({ type: "piece", content: piece, of })
   })
-  on_event("choose-files", root, (which) => ({ baseline: sound, several: files })[which]?.click())
+  on_event("choose-files", root, (which) => {
+    asked = which
+    ;({ baseline: sound, several: files })[which]?.click()
+  })
   for (const one of [files, folder, sound]) one.addEventListener("change", () => {
     begin(one.files, one === sound)
     one.value = ""  // so that the same can be chosen again

@@ -140,7 +140,8 @@ class Bearing(InRows):
         checks.keep(self, rows=tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
             raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
-        for name in self.estimated:
+        names: object = self.estimated
+        for name in names if isinstance(names, tuple | list) else (names,):
             checks.choice("estimated", name, ESTIMATES)
         checks.keep(self, estimated=tuple(self.estimated))
         checks.keep(self, kind=kind_of(self))

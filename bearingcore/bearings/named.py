@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import TypeAlias
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.catalogue import CatalogueBearing, catalogue
 from bearingcore.bearings.designation import Designation, read_designation
+from bearingcore.bearings.designation_tables import boundaries
 from bearingcore.common import checks
 
 BearingLike: TypeAlias = Bearing | CatalogueBearing | Designation | str
@@ -37,3 +40,40 @@ def bearing_of(value: BearingLike) -> Bearing:
     if isinstance(value, CatalogueBearing | Designation):
         return value.bearing
     return checks.instance("bearing", value, Bearing, WANTED)
+
+
+_ANGLES, _CLEARANCES = ("", " B", " C", " AC"), ("", "/C2", "/C3", "/C4", "/C5")
+"""Suffixes of contact angles, and of classes of clearance."""
+
+
+def name_of(bearing: Bearing) -> str:
+    """The text by which `bearing_of` makes a bearing; empty without one.
+
+    Of a bearing that a number gives but for its clearance, which is of no class, that number.
+    """
+    for name, one in catalogue().items():
+        if one.bearing == bearing:
+            return name
+    for name in (f"{basic}{angle}" for basic in _alike(bearing) for angle in _ANGLES):
+        made = _made(name)
+        if made and made.replace(radial_clearance=bearing.radial_clearance) == bearing:
+            whole = (f"{name}{suffix}" for suffix in _CLEARANCES)
+            return next((one for one in whole if _made(one) == bearing), name)
+    return ""
+
+
+def _made(name: str) -> Bearing | None:
+    try:
+        return bearing_of(name)
+    except ValueError:
+        return None
+
+
+def _alike(bearing: Bearing) -> Iterator[str]:
+    """Basic numbers of bearings about as large with about this rating: it follows the angle."""
+    rating = bearing.dynamic_load_rating or math.inf
+    for basic, size in boundaries().items():
+        middle = 0.5 * (size.bore + size.outside_diameter)
+        alike = abs(bearing.pitch_diameter / middle - 1.0) < 0.1
+        if alike and 0.7 < rating / size.dynamic_rating < 1.5:
+            yield basic

@@ -91,9 +91,10 @@ class Row:
             checks.keep(self, n_balls=count)
         for name in LENGTHS:
             checks.keep_number(self, name, optional=True, of=" of a row", above=0.0, unit="m")
-        if self.facing not in (-1, 1) or isinstance(self.facing, bool):
+        facing = checks.whole_number("facing of a row", self.facing, at_least=-1, at_most=1)
+        if not facing:
             raise checks.refuse("facing of a row", self.facing, "1 or -1")
-        checks.keep(self, facing=int(self.facing))
+        checks.keep(self, facing=facing)
         for name, most, unit in (
             ("place", 10.0, "m"),
             ("clearance", 1e-2, "m"),

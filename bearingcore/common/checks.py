@@ -29,17 +29,25 @@ def missing(field: str, wanted: str) -> MissingError:
 
 
 def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
-    """`value` if it is of a type, else FieldTypeError; `wanted` says so in other words."""
+    """`value` if it is of a type, else FieldTypeError; `wanted` says so in other words.
+
+    Without them the words are the type's own `WANTED`, where it has them.
+    """
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" else "a"
-    raise FieldTypeError(field, value, wanted or f"{article} {kind.__name__}")
+    wanted = wanted or getattr(kind, "WANTED", f"{article} {kind.__name__}")
+    raise FieldTypeError(field, value, wanted)
+
+
+def _is_number(value: object) -> bool:
+    """False of text and truth values too, which Python turns into numbers."""
+    return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
 
 
 def _error(value: object) -> type[FieldError]:
     """The error for what is no number: of words, None or a truth value it is their type."""
-    right = isinstance(value, SupportsFloat) and not isinstance(value, bool)
-    return FieldError if right else FieldTypeError
+    return FieldError if _is_number(value) else FieldTypeError
 
 
 def real_number(
@@ -62,7 +70,7 @@ def real_number(
     """
     given: object = value
     try:
-        if not isinstance(value, bool):  # Python would take it for 0 or 1
+        if _is_number(value):
             given = x = float(value)
             if at_least <= x <= at_most and above < x < below and math.isfinite(x):
                 return x
@@ -100,12 +108,12 @@ def choice(field: str, value: object, options: tuple[str, ...]) -> str:
 def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> int:
     """`value` as an int inside the limits, else ValueError. 14.0 counts as 14, True does not."""
     allowed = f"a whole number from {at_least} to {at_most}"
-    if isinstance(value, bool):
+    if not _is_number(value):
         raise FieldTypeError(field, value, allowed)
     try:
         x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
     except (TypeError, ValueError, OverflowError):
-        raise _error(value)(field, value, allowed) from None
+        raise refuse(field, value, allowed) from None
     if not at_least <= x <= at_most or x != round(x):
         raise refuse(field, x, allowed)
     return round(x)

@@ -244,7 +244,8 @@ def _short(value: Any) -> str:
         return ""
     if isinstance(value, str | tuple):
         text = repr(value)
-        return f"={text}" if len(text) <= 40 else ""
+        long = f" ({len(value)},)" if isinstance(value, tuple) else ""
+        return f"={text}" if len(text) <= 40 else long
     return f"={_digits(value)}" if np.ndim(value) == 0 and np.isreal(value) is True else ""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -19,6 +20,12 @@ from bearingcore.files.facts import Finding
 from bearingcore.files.table import MOST_BYTES, Table, read_table
 from bearingcore.files.units import kind_of
 from bearingcore.signals.recording import Recording
+
+NO_RECORD = re.compile(
+    r"\..*|(readme|licen[cs]e)\b.*|.*\.(md|rst|pdf|html?|py|ipynb|docx?|pptx?|png|jpe?g|svg)",
+    re.IGNORECASE,
+)
+"""Names of documents and pictures that people keep beside their records."""
 
 FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
 
@@ -95,7 +102,7 @@ def diagnose(
     ----------
     recording
         acceleration of the housing, one direction or two; or the path of a file that `read_table`
-        reads, or of a folder of such files.
+        reads, or of a folder of such files; documents and pictures beside them are left out.
     bearing
         its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
         angle count. None: that of the file's collection where it is a known one; else it is
@@ -142,9 +149,10 @@ def diagnose(
 def _of_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    files = [one for one in sorted(folder.iterdir()) if one.is_file() and one.name[0] != "."]
+    named = [one for one in sorted(folder.iterdir()) if not NO_RECORD.fullmatch(one.name)]
+    files = [one for one in named if one.is_file()]
     if not files:
-        raise checks.refuse("recording", str(folder), "a folder with files in it")
+        raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []
     sentences = []
     for one in files:

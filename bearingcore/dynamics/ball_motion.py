@@ -129,9 +129,8 @@ def resonances(scene: Scene, load: float) -> list[float]:
 
 
 @lru_cache_by_bytes(
-    512,
     32_000_000,
-    lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
+    lambda _, packed: floor_bytes(packed.scene.defects),
     lambda packed: (packed.scene, packed.dofs),
 )
 def heaviest_load(packed: PackedScene) -> float:

@@ -20,9 +20,8 @@ DAMPING_OVER_STIFFNESS = 1e-5
 
 # by all that the static state of a scene without its defects depends on
 @lru_cache_by_bytes(
-    512,
-    1_000_000,
-    lambda *_: 1000,
+    2_000_000,
+    lambda *_: 0,
     lambda packed: (packed.scene.bearing, packed.scene.load, packed.dofs),
 )
 def _mean_stiffness_a_ball(packed: PackedScene) -> float:

@@ -344,9 +344,8 @@ def highest_natural_frequency(scene: Scene) -> float:
 
 
 @lru_cache_by_bytes(
-    512,
     32_000_000,
-    lambda _, packed: 1000 + floor_bytes(packed.scene.defects),
+    lambda _, packed: floor_bytes(packed.scene.defects),
     lambda packed: (packed.scene, packed.dofs),
 )
 def highest_frequency_of(packed: PackedScene) -> float:

@@ -12,7 +12,7 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.lazy import cached_property
-from bearingcore.common.numbers import number, thousands, with_prefix
+from bearingcore.common.numbers import decibels, number, thousands, with_prefix
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.dynamics.ball_motion import (
     least_step_rate,
@@ -46,6 +46,9 @@ minutes of marching in two directions, hours in five."""
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
+SAME_BANDS = 1.0
+"""[dB] up to which two motions have the same spectrum in bands of a third of an octave."""
+
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
 """Doublings of the steps a second where contacts let go, at most; the part of a level up to which
 two motions are alike; and the level [m/s] below which nothing counts."""
@@ -66,7 +69,8 @@ class Motion:
     status
         how it ended. A motion that is not completed is NaN from where it broke off.
     detail
-        numbers of a status that has some, in words that follow it.
+        numbers of a status that has some, in words that follow it. Of a completed motion whose
+        contacts let go, how well bands of its spectrum are known where that is not within 1 dB.
     right_hand_side_calls
         how often the accelerations were evaluated.
     time : (n,) [s]
@@ -466,6 +470,8 @@ def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: 
         motion = at(rate)
         level = _level(motion)
         alike = abs(level - before) <= SAME_LEVEL * max(level, QUIET)
+        if alike and motion.completed and level > QUIET:
+            return replace(motion, detail=_bands_apart(motion, at(2.0 * rate)))
         if alike or not motion.completed:
             return motion
         before, rate = level, 2.0 * rate
@@ -476,6 +482,27 @@ def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: 
         "the vibration by more than a tenth",
         history=np.full_like(motion.history, math.nan),
     )
+
+
+def _bands_apart(motion: Motion, finer: Motion) -> str:
+    """What twice the steps change in a spectrum, in words; "" where that is little.
+
+    Compared are bands of a third of an octave that hold a part in 10,000 of the power or more, once
+    the motion has settled. Where contacts let go it may be chaotic: then no steps are enough.
+    """
+    if not finer.completed:
+        return "; its spectrum is not checked with twice the steps, which are too many"
+    since = 0.5 * float(motion.time[-1])
+    edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
+    power = []
+    for one in (motion, finer):
+        found = one.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+        power.append(np.add.reduceat(found.density, np.searchsorted(found.frequency, edges)[:-1]))
+    loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
+    apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
+    if apart <= SAME_BANDS:
+        return ""
+    return f"; its contacts let go, and bands of its spectrum are known to {decibels(apart)} only"
 
 
 def _level(motion: Motion) -> float:

@@ -45,13 +45,16 @@ PULSES = {
 _NOT_SIGNALS = PULSES | {
     "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
-    "load", "index", "sample", "samples", "row", "no", "gyro", "gyroscope", "gyr", "magnetic",
+    "load", "gyro", "gyroscope", "gyr", "magnetic",
     "magnetometer", "quat", "quaternion",
 }  # fmt: skip
+_COUNTS = {"index", "sample", "samples", "row", "no"}
+"""Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
+
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
     "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
-    "timedelta",
+    "timedelta", "ts",
 }  # fmt: skip
 _BEFORE_TIME = {
     "elapsed", "relative", "rel", "absolute", "abs", "sample", "sampling", "system", "local",
@@ -117,7 +120,7 @@ def column_of(name: str) -> Column:
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = (words & _NOT_SIGNALS or first == "mag") and (
+    other = (words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag") and (
         unit is None or unit in VOLTAGES
     )  # of a sensor for it
     if other or (unit is not None and unit not in UNITS):

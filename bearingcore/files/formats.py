@@ -25,7 +25,7 @@ from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
 from bearingcore.files.facts import is_steady
-from bearingcore.files.text import read_text
+from bearingcore.files.text import are_sensors, read_text
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 DEEPEST = 8
@@ -140,8 +140,16 @@ def _json(content: bytes) -> Any:
 def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
     """Lists of numbers, and lists of records by the records' names."""
     _check_depth(depth)
+    if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
+        value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
         records = [one for one in value if isinstance(one, dict)]
+        if sensor := _name_of_sensor(records):
+            several: dict[str, list[Any]] = {}
+            for one in records:
+                several.setdefault(one.pop(sensor), []).append(one)
+            _walk_json(several, path, found, depth + 1)
+            return
         value = {name: [one.get(name) for one in records] for name in records[0]}
     if isinstance(value, dict):
         for name, inside in value.items():
@@ -151,6 +159,15 @@ def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
         found.add(path or "array", np.array(value, dtype=float))
     except (TypeError, ValueError):
         found.add(path or "array", np.asarray(value, dtype=object))
+
+
+def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
+    """The name under which records of several sensors say of which they are; else empty."""
+    for name, first in records[0].items():
+        words = [one.get(name) for one in records] if isinstance(first, str) else [None]
+        if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
+            return name
+    return ""
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:

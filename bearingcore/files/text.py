@@ -19,12 +19,19 @@ from itertools import islice
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import thousands
 from bearingcore.files.channels import TIME, column_of
-from bearingcore.files.facts import named_in, names_a_fact, sample_rate_in, units_said
+from bearingcore.files.facts import (
+    GREATEST_STATED,
+    named_in,
+    names_a_fact,
+    sample_rate_in,
+    units_said,
+)
 from bearingcore.files.units import UNITS, unit_in, unit_named
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
@@ -113,14 +120,15 @@ def read_text(
     most_rows = most_numbers // width + 1
     body, notes = _without_a_cut_line(content[begin:], style)
     said: list[str] = []
-    read = _numbers(body, style, most_rows)
-    if read is None:
+    found = _numbers(body, style, most_rows)
+    if found is None:
         above = content.count(b"\n", 0, begin) + 1
         body, more, said = _mended(name, body, style, above)
         notes += more
-        read = _numbers(body, style, most_rows)
-        if read is None:
+        found = _numbers(body, style, most_rows)
+        if found is None:
             raise checks.refuse("file", name, READABLE)
+    read, sensors = found
     if read.size > most_numbers:
         raise checks.refuse(
             f"count of numbers in {name}",
@@ -129,12 +137,114 @@ def read_text(
         )
     headings = _headings(remarks, style, read)
     if headings and any(column_of(name).role == TIME for name in headings):
-        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
+        whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
+        read, sensors = read[whole], None if sensors is None else sensors[whole]
     kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if len(kept) < width and kept:
         read = read[:, kept]
         headings = headings and [headings[i] for i in kept]
-    return _about(read, headings, remarks + said, [kept.index(i) for i in style.stamps], notes)
+    stamps = [kept.index(i) for i in style.stamps]
+    if headings is None:
+        read, lines, more = _without_start(read)
+        said, notes = said + lines, notes + more
+    elif sensors is None:
+        sensors = _numbers_of_sensors(read, headings)
+    if sensors is not None:
+        read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
+        which = ", ".join(dict.fromkeys(sensors))
+        notes.append(f"Rows of several sensors ({which}) are put side by side.")
+    return _about(read, headings, remarks + said, stamps, notes)
+
+
+_SINCE_1970 = (1e9, 2.2e9)
+"""Seconds since 1970 from 2001 to 2039."""
+
+FAR_ABOVE = 50.0
+"""Times all that follows: a number that is no sample among them."""
+
+
+def _without_start(columns: Array) -> tuple[Array, list[str], list[str]]:
+    """Numbers without lines at the beginning that say start, count and rate; what they say.
+
+    Wristbands of Empatica write the start, in seconds since 1970, and then the rate, in each
+    column; others the count of samples, or what may be the rate.
+    """
+    start = False
+    lines: list[str] = []
+    used: list[str] = []
+    while len(columns) > FEWEST_SAMPLES and len(used) < 3:
+        value = float(columns[0, 0])
+        if not (columns[0] == value).all() or value != round(value):
+            break
+        rest = FAR_ABOVE * float(np.nanmax(np.abs(columns[3:]), initial=0.0))
+        if start and 1.0 <= value <= GREATEST_STATED:
+            lines.append(f"sample rate {value:.10g} Hz")
+        elif value <= rest or value < FEWEST_SAMPLES or not rest:
+            break
+        elif not _SINCE_1970[0] < value < _SINCE_1970[1] and len(columns) - value not in (1, 2):
+            lines.append(f"{value:.10g} Hz")
+        start = not used and _SINCE_1970[0] < value < _SINCE_1970[1]
+        used.append(f"{value:.10g}")
+        columns = columns[1:]
+    words = "They say start, count or rate, and are no samples"
+    return columns, lines, [f"Above the numbers: {', '.join(used)}. {words}."] if used else []
+
+
+_SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|num|number|index))?")
+
+
+def _numbers_of_sensors(columns: Array, headings: Sequence[str]) -> NDArray[Any] | None:
+    """Names of the sensors of all rows where a column counts them; None where none does."""
+    for i, heading in enumerate(headings):
+        if _SENSOR.fullmatch(heading.strip()) and len(headings) > 1:
+            names = np.array([f"{heading} {value:g}" for value in columns[:, i].tolist()])
+            if are_sensors(names):
+                return names
+    return None
+
+
+def are_sensors(names: NDArray[Any]) -> bool:
+    """Whether words of all rows name the sensors or records that the rows are of, in turn or as
+    blocks of one length.
+    """
+    found, counts = np.unique(names, return_counts=True)
+    if not 1 < len(found) <= MOST_SIGNALS_MIXED or counts.min() < FEWEST_SAMPLES:
+        return False
+    changes = float((names[1:] != names[:-1]).mean())
+    return changes > MOST_CHANGES or counts.min() == counts.max()
+
+
+def _side_by_side(
+    name: str,
+    columns: Array,
+    headings: Sequence[str] | None,
+    stamps: Sequence[int],
+    sensors: NDArray[Any],
+) -> tuple[Array, list[str], list[int]]:
+    """Rows of several sensors as columns of each; times, and what all have alike, once."""
+    names = list(dict.fromkeys(sensors.tolist()))
+    several = [columns[sensors == one] for one in names]
+    size = min(map(len, several))
+    if max(map(len, several)) > size + 1:  # the last row may be of the first
+        raise checks.refuse(
+            f"column of {', '.join(names[:4])} in {name}",
+            "words that change from row to row",
+            "as many rows of each: bring those of each word into columns or files of their own",
+        )
+    several = [part[:size] for part in several]
+    made: list[Array] = []
+    heads: list[str] = []
+    times = []
+    for i, heading in enumerate(headings or [f"column {k + 1}" for k in range(columns.shape[1])]):
+        if _SENSOR.fullmatch(heading.strip()):
+            continue
+        times += [len(made)] * (i in stamps)
+        own = [part[:, i] for part in several]
+        once = i in stamps or column_of(heading).role == TIME
+        once = once or all(np.array_equal(one, own[0], equal_nan=True) for one in own)
+        made += own[:1] if once else own
+        heads += [heading] if once else [f"{one}: {heading}" for one in names]
+    return np.column_stack(made), heads, times
 
 
 def _of_two_bytes(start: bytes) -> str:
@@ -298,7 +408,9 @@ class _Style:
         if self.delimiter == "," and _QUOTED_DECIMALS.search(text):
             text = re.sub(r'("[-+]?\d*),(\d+(?:[eE][-+]?\d+)?")', r"\1.\2", text)
         if '"' in text:
-            text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text).replace('"', "")
+            if not (self.decimal_comma and _QUOTED_DECIMALS.search(text)):
+                text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text)
+            text = text.replace('"', "")
         if " sec" in text:
             text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
@@ -658,8 +770,13 @@ def _counts_rows(column: Array) -> bool:
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(body: bytes, style: _Style, most_rows: int) -> Array | None:
-    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
+def _numbers(
+    body: bytes, style: _Style, most_rows: int
+) -> tuple[Array, NDArray[Any] | None] | None:
+    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps.
+
+    With the names (n,) of the sensors that rows are of, where columns of words hold those.
+    """
     import pandas as pd
 
     width = style.width
@@ -684,23 +801,18 @@ def _numbers(body: bytes, style: _Style, most_rows: int) -> Array | None:
         )
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
+    sensors = None
     for index in style.words:
-        words = frame[index]
-        changes = float((words != words.shift()).mean())
-        if changes > MOST_CHANGES and 1 < words.nunique() <= MOST_SIGNALS_MIXED:
-            raise checks.refuse(
-                f"column {index + 1}",
-                f"words that change from row to row ({', '.join(map(str, words.unique()[:4]))})",
-                "rows of one signal alone: bring those of each word into columns or files of their "
-                "own",
-            )
+        words = frame[index].fillna("").to_numpy(dtype=str)
+        if are_sensors(words):
+            sensors = words if sensors is None else np.char.add(np.char.add(sensors, " "), words)
         frame[index] = np.nan
     columns = frame.to_numpy(dtype=float)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
     lines = io.BytesIO(body)
     if unsure and next(_wrong_lines(lines, style), None) is not None:
         return None  # pandas fills short lines
-    return columns[:, :width]
+    return columns[:, :width], sensors
 
 
 def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, str, str]]:

@@ -218,9 +218,8 @@ def floor_bytes(defects: tuple[Defect, ...]) -> int:
     return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
 
 
-# of a rough floor a table holds up to two million numbers: 256 of them would be 4 GB
+# of a rough floor a table holds up to two million numbers: a count of them would be no bound
 @lru_cache_by_bytes(
-    256,
     64_000_000,
     lambda found, defects, _: sum(part.nbytes for part in found) + floor_bytes(defects),
 )

@@ -80,7 +80,7 @@ class RoughFloor:
         return np.maximum(depth + np.interp(angle * radius, place, heights), 0.0)
 
 
-@lru_cache_by_bytes(16, 64_000_000, lambda heights, *_: heights.nbytes)
+@lru_cache_by_bytes(64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> Array:
     """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package

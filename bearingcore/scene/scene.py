@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from bearingcore.bearings.bearing import Bearing
 from bearingcore.bearings.kind import DIRECTIONS
@@ -83,6 +83,9 @@ class Scene:
         naming the field, its value and what is allowed.
     """
 
+    WANTED: ClassVar[str] = 'a Scene, such as scene_of("6205") or presets["fan-rig"]'
+    """What is wanted where a scene is, for `checks.instance`."""
+
     bearing: Bearing
     defect: Defect | tuple[Defect, ...]
     load: Load
@@ -104,10 +107,12 @@ class Scene:
         if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
             checks.keep(self, dofs=check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
-            several = tuple(self.defect) if isinstance(self.defect, Iterable) else (self.defect,)
+            several = (
+                tuple(self.defect) if isinstance(self.defect, tuple | list) else (self.defect,)
+            )
             for defect in several:
                 checks.instance("defect", defect, Defect, "a Defect or a tuple of them")
-            checks.keep(self, defect=several)
+            checks.keep(self, defect=tuple(several))
         checks.keep(self, bearing=bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)

@@ -74,7 +74,7 @@ from bearingcore.statics.race_loads import RaceLoads, race_loads, snapshot_loads
 
 POSITIONS = ("load line", "all")
 """Over which places of the balls loads are averaged: one of them on the line of the radial load, as
-the standard's users do, or everywhere, as it is."""
+the standard's examples do, or everywhere, as it is."""
 
 TURNING = ("inner", "outer")
 
@@ -217,7 +217,7 @@ def life(
     scene: Scene,
     dynamic_load_rating: float | None = None,
     *,
-    positions: str | None = None,
+    positions: str = "all",
     turning_race: str = "inner",
 ) -> Life:
     """Reference rating life L_10r of the scene's bearing, with the loads its defects leave it.
@@ -231,11 +231,11 @@ def life(
         `dynamic_load_rating(bearing)` gives that of ISO 281. None: the bearing's own, which
         bearings have that are known by their designation.
     positions
-        "load line": loads with a ball on the line of the radial load (cage angle 0 without a radial
-        load), as the standard's examples and commercial codes take them; for a healthy bearing
-        of rows alike only. "all": averaged over all cage angles, and over all shaft angles where a
-        defect turns with the shaft. None: the first where it may be, else the second. The two
-        differ by up to some 3 % with seven balls; take "all" where lives are compared.
+        "all": loads averaged over all cage angles, and over all shaft angles where a defect turns
+        with the shaft: a cage that turns comes to all of them, and a healthy bearing has the life
+        that a damaged one is compared with. "load line": with a ball on the line of the radial load
+        (cage angle 0 without one), as the standard's examples and commercial codes take them; for
+        a healthy bearing of rows alike only. The two differ by up to some 3 % with seven balls.
     turning_race
         the race that turns against the load: "inner", as in a scene with a defect; "outer" for a
         healthy bearing whose load turns with the shaft (an imbalance), or whose hub turns.
@@ -270,8 +270,6 @@ def life(
     C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
-    if positions is None:
-        positions = "all" if damaged or not alike else "load line"
     checks.choice("positions", positions, POSITIONS)
     checks.choice("turning_race", turning_race, TURNING)
     if damaged and positions != "all":

@@ -251,7 +251,7 @@ def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
 
 
 # of rough floors the tables of a map may take a gigabyte
-@lru_cache_by_bytes(4, 256_000_000, _bytes_of_paths)
+@lru_cache_by_bytes(128_000_000, _bytes_of_paths)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> _Paths:

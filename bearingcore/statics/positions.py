@@ -167,7 +167,6 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
 
 
 @lru_cache_by_bytes(
-    64,
     16_000_000,
     lambda found, packed, _: 24 * found.weights.size + floor_bytes(packed.scene.defects),
     lambda packed, n: (packed.scene, n),

@@ -466,7 +466,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """
     own = scene.bearing.dynamic_load_rating
     rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
-    found = life(scene, rating, positions="all")
+    found = life(scene, rating)
     turns = 1e6 * found.million_revolutions
     known = math.isfinite(turns)
     numbers["life_turns"] = np.array(turns if known else math.nan)

@@ -28,7 +28,7 @@ from bearing_explorer.kit.views.python_lines import FILE, scene_code
 from bearing_explorer.page import SECTIONS
 from scipy.io import wavfile
 
-from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
+from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets, scene_of
 from tests.helpers.measuring import at, measuring, signal
 from tests.helpers.timing import measure_once
 
@@ -205,7 +205,21 @@ def test_every_scene_can_be_written_in_python(scene: Scene) -> None:
     import math
 
     code = scene_code(scene)
-    assert eval(code, {"math": math, "presets": presets, "Scene": Scene}) == scene
+    names = {"math": math, "presets": presets, "Scene": Scene, "scene_of": scene_of}
+    assert eval(code, names) == scene
+
+
+@pytest.mark.parametrize(
+    ("code", "scene"),
+    [
+        ('scene_of("6208")', scene_of("6208")),
+        ('scene_of("7208 B").replace(fy=-1000.0)', scene_of("7208 B").replace(fy=-1000.0)),
+        ('scene_of("6208/C3")', scene_of("6208/C3")),
+        ('scene_of("209, Harris")', scene_of("209, Harris")),
+    ],
+)
+def test_a_bearing_by_its_number_is_written_so(code: str, scene: Scene) -> None:
+    assert scene_code(scene) == code
 
 
 def test_a_long_floor_comes_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -218,6 +218,12 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     assert says in words
     assert (PRACTICE in words) == (fault == "outer race")
     assert (ONE_RECORD in words) == (fault == "outer race" and change is None)
+    if fault == "outer race":
+        unsure = next_steps(dataclasses.replace(found, probability=0.6), question, zone, grown)
+        assert "confirm it" in unsure.lower()
+        assert "onfirm it" not in words
     if fault == "cannot tell":
+        dropped = dataclasses.replace(found, status=DiagnosisStatus.DROPPED_OUT)
+        assert next_steps(dropped, question, zone, grown).startswith("Check sensor, cable")
         open_speed = dataclasses.replace(found, status=DiagnosisStatus.SPEED_OPEN)
         assert next_steps(open_speed, question, zone).startswith("Read the shaft speed")

@@ -17,6 +17,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -133,6 +134,8 @@ def main() -> None:
     asked.add_argument("--minutes", type=float, default=1e3)
     asked.add_argument("--stages", type=int, default=7, help="so many groups of tests at most")
     given = asked.parse_args()
+    # one that is ended from outside puts the tree right before it goes
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     tree, results = given.work / "tree", given.work / "results.json"
     if not tree.exists():
         left_out = shutil.ignore_patterns(".git", "__pycache__", "build")

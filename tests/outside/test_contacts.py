@@ -173,7 +173,7 @@ def test_lives_of_balls(kind: str) -> None:
     Q_ei = np.mean(loads**3, axis=1) ** (1.0 / 3.0)
     Q_ee = np.mean(loads ** (10.0 / 3.0), axis=1) ** 0.3
     worn = (Q_ei / Q_ci) ** (10.0 / 3.0) + (Q_ee / Q_ce) ** (10.0 / 3.0)
-    found = life(case.scene.healthy(), 30e3)
+    found = life(case.scene.healthy(), 30e3, positions="load line")
     assert found.million_revolutions == pytest.approx(worn.sum() ** -0.9, rel=1e-5)
     turns_an_hour = case.scene.shaft_speed / (2.0 * math.pi) * 3600.0
     assert found.hours == pytest.approx(worn.sum() ** -0.9 * 1e6 / turns_an_hour, rel=1e-5)

@@ -108,7 +108,7 @@ def test_life_of_a_public_program_and_of_the_standard(
     sizes: tuple[int, float, float, float], C: float, load: float, clearance: float, printed: float
 ) -> None:
     assert reference_life(sizes, C, load, clearance) == pytest.approx(printed, rel=1e-5)
-    found = life(scene_of(sizes, load, clearance), C)
+    found = life(scene_of(sizes, load, clearance), C, positions="load line")
     assert found.million_revolutions == pytest.approx(printed, rel=0.01)
     assert found.equivalent_load == pytest.approx(C * printed ** (-3.0 / 10.0), rel=0.01)  # P_ref
 

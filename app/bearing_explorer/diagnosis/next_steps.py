@@ -20,6 +20,28 @@ PRACTICE = (
     "These intervals are a rule of thumb: neither computed nor checked against a standard. A "
     "machine that must not fail needs shorter ones."
 )
+UNSURE = "The part is not sure: confirm it by a second record where the process allows."
+
+CLOSER = (
+    "This record decides nothing about the bearing: measure again, with the sensor closer to it, "
+    "at a higher sample rate, or for longer."
+)
+WHAT_HELPS = {
+    DiagnosisStatus.SPEED_OPEN: "Read the shaft speed from a tachometer, a stroboscope or the "
+    "drive: with it this record may be enough.",
+    DiagnosisStatus.BEARING_OPEN: "Find out which bearing it is: with it this record may be "
+    "enough.",
+    DiagnosisStatus.DROPPED_OUT: "Check sensor, cable and recorder, and measure again: this record "
+    "has gaps.",
+    DiagnosisStatus.CLIPPED: "Measure again with a wider range: the peaks of this record are cut "
+    "off.",
+    DiagnosisStatus.MAGNETIC: "Measure again at another speed, or look whether the lines end at "
+    "once when the motor is switched off.",
+    DiagnosisStatus.OTHER_SOURCE: "Check which bearing it is and its speed, look for what else "
+    "turns or strikes nearby, and measure again closer to the bearing.",
+}
+"""What helps where no part is named, by the reason."""
+
 ALIKE = "at the same point, speed and load"
 
 
@@ -41,6 +63,8 @@ def next_steps(
         return _without_a_part(found, zone, change)
     part = the(found.fault)
     words = [_how_soon(part, zone, change, found.probability < LIKELY)]
+    if found.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
+        words.append(UNSURE)
     if records > 1:
         words.append(
             f"Over {records} records the vibration became {number(change, 2)} times that of the "
@@ -75,16 +99,8 @@ def _how_soon(part: str, zone: str, change: float, unsure: bool) -> str:
 def _without_a_part(found: Diagnosis, zone: str, change: float) -> str:
     if found.fault == NONE_SEEN:
         words = "Measure again at the usual interval."
-    elif found.status == DiagnosisStatus.SPEED_OPEN:
-        words = (
-            "Read the shaft speed from a tachometer, a stroboscope or the drive: with it this "
-            "record may be enough."
-        )
     else:
-        words = (
-            "This record decides nothing about the bearing: measure again, with the sensor closer "
-            "to it, at a higher sample rate, or for longer."
-        )
+        words = WHAT_HELPS.get(found.status, CLOSER)
     if zone in ("C", "D"):
         soon = "now" if zone == "D" else "soon"
         words += (

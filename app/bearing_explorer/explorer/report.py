@@ -19,6 +19,9 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.explorer.views.bearing_editor import facts_of
+from bearing_explorer.explorer.views.displacement import Displacement
+from bearing_explorer.explorer.views.life import facts_of as facts_of_life
+from bearing_explorer.explorer.views.side_by_side import side_by_side_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import extent_words, row_words, with_elements_of
@@ -90,6 +93,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
         f"{html_text(style.in_degrees(results.cage_angle))}.</p>",
         f"<p class='{'good' if said['mood'] == 'good' else 'bad'}'>{html_text(said['words'])}; "
         f"{html_text('; '.join(said['details'][:-1]))}.</p></section>",
+        _side_by_side(results),
         "<section><h2>Warnings</h2>",
         _list([row["sentence"] for row in crossed]) if crossed else "<p>No limit is exceeded.</p>",
         html_table(
@@ -123,6 +127,14 @@ def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: st
 def _compared(results: Results) -> str:
     names = style.list_words([f"“{one.name}”" for one in results.compared])
     return html_text(f"Also drawn: {names}. ") if names else ""
+
+
+def _side_by_side(results: Results) -> str:
+    """What was given that differs, life, pressure, film and displacement of compared scenes."""
+    if not results.compared:
+        return ""
+    table = side_by_side_html(results, facts_of_life, Displacement.rows)
+    return f"<section><h2>Side by side</h2>{table}</section>"
 
 
 def _changes(scene: Scene, about: About) -> str:

@@ -122,6 +122,7 @@ class Session:
         self._drawn_mark = 0
         self._slow_cost = self._quick_cost = math.inf
         self._slow_at = self._limits_at = self._moved_at = -math.inf
+        self._limit_rows: list[dict[str, Any]] = []
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
         self._tasks: set[asyncio.Task[None]] = set()
@@ -395,8 +396,9 @@ class Session:
                 drawing.view.put_head(picture.content)
                 drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
             if picture.limits is not None:
-                self.limits.put(rows=rows_of(picture.limits), summary=summary(picture.limits))
-            line = judged(picture.status, self.limits.rows)
+                self._limit_rows = rows_of(picture.limits)
+                self.limits.put(rows=self._limit_rows, summary=summary(picture.limits))
+            line = judged(picture.status, self._limit_rows)
             self.status.put(line={**line, "tab": self.tabs.active})
 
         await self._send(change)

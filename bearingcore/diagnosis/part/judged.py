@@ -78,6 +78,9 @@ SLOWER, FAINTER = (2, 3), 0.7
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
 
+GAPS = 0.25
+"""Of the lines of a multiple's comb, that those in between reach where they are of one comb."""
+
 SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the records measured), and the share of the
 slip by which e times fewer races are off: beyond the slip are 2 %. See `_race_or_ball`."""
@@ -475,6 +478,8 @@ class _Comparison:
             kurtosis=one.kurtosis,
         )
         lead = min(own.lead, self._above_rivals(own))
+        if lines.part != BALL:
+            lead = min(lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
         return replace(own, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
@@ -528,6 +533,21 @@ def _race_or_ball(away: float, slip: float) -> float:
     reach = SLIPS * slip
     race = math.exp(-abs(away) / reach) / (2.0 * reach)
     return math.log(race * (LAG + AHEAD) / SELDOM)
+
+
+def _above_gaps(depth: NDArray[np.float64]) -> float:
+    """By how much [dB] lines (HARMONICS,) are above gaps between those of a multiple's comb.
+
+    Blows show in their first line; beats of tones, as of an inverter, at twice or three times it
+    are lines that leave others out.
+    """
+    number = np.arange(1, len(depth) + 1)
+    above = [
+        max(float(depth[number % part != 0].mean()), 1e-9)
+        / max(float(depth[number % part == 0].mean()), 1e-9)
+        for part in SLOWER
+    ]
+    return 20.0 * math.log10(min(above) / GAPS)
 
 
 def _or_sidebands(

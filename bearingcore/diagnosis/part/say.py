@@ -19,6 +19,9 @@ from bearingcore.diagnosis.part.parts import BALL
 from bearingcore.diagnosis.part.probability import DEVIATIONS
 from bearingcore.diagnosis.part.status import DiagnosisStatus
 
+FAR = 0.01
+"""Of a race's frequency, by which its lines are off in 2 of 52 measured records that name one."""
+
 
 def dropout_message(share: float) -> str:
     """Status where a `share` of the samples dropped out, too many to analyse the rest."""
@@ -77,17 +80,26 @@ def other_unit(speed: float, other: float) -> str:
 def damaged(own: PartEvidence) -> str:
     """A part is named."""
     shown = int((own.harmonics > own.noise).sum())
+    broad = own.part == BALL and own.deviations >= DEVIATIONS
     clear = (
         f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
-        if own.part == BALL and own.deviations >= DEVIATIONS
+        if broad
         else f"{decibels(own.level)} above local noise, {shown} of {len(own.harmonics)} "
         "harmonics clear"
     )
-    return (
+    words = (
         f"Damage on the {own.part}: impacts at {number(own.frequency, 4)} Hz "
         f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), {clear}, "
         f"demodulation band {span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
     )
+    if broad and not own.modulated:
+        words += (
+            " They show no sidebands of the cage: blows of another source that wander around this "
+            "frequency look alike."
+        )
+    if own.part != BALL and abs(own.slip) > FAR:
+        words += " Lines of a race are seldom so far off: check bearing and speed."
+    return words
 
 
 def perhaps_a_ball() -> str:

@@ -20,6 +20,7 @@ from bearingcore.bearings.designation import (
 )
 from bearingcore.bearings.designation_tables import boundaries, clearance, series_of
 from bearingcore.bearings.inside import (
+    BALL_SIZES,
     MEASURED,
     OTHER_MAKER,
     balls_from_ratings,
@@ -172,6 +173,12 @@ def test_estimated_bearings_are_rated_as_the_catalogue_rates_them() -> None:
         if found.kind in (DEEP_GROOVE, ANGULAR_CONTACT):
             own = dynamic_load_rating(found.bearing)
             assert own == pytest.approx(found.dynamic_load_rating, rel=0.04), basic
+
+
+def test_balls_are_of_the_sizes_of_iso_3290() -> None:
+    """Half millimetres and 64ths of an inch."""
+    steps = np.divide.outer(np.array(BALL_SIZES), (0.5e-3, 25.4e-3 / 64.0))
+    assert np.abs(steps - np.rint(steps)).min(axis=1) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_rule_finds_balls_again() -> None:

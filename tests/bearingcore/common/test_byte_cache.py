@@ -11,22 +11,22 @@ from bearingcore.scene.defect import path_tables
 def test_results_are_kept_up_to_a_number_of_bytes() -> None:
     asked: list[int] = []
 
-    @lru_cache_by_bytes(100, 1000, lambda found, n: n)
+    @lru_cache_by_bytes(1_000_000, lambda found, n: 1000 * n)
     def made(n: int) -> np.ndarray:
         asked.append(n)
         return np.zeros(n)
 
     assert made(400) is made(400)
     assert asked == [400]
-    made(401), made(402)  # together more than a thousand: the oldest goes
+    made(401), made(402)  # together more than a million: the oldest goes
     made(400)
     assert asked == [400, 401, 402, 400]
-    made(600), made(600)
-    assert asked[-2:] == [600, 600], "what is larger than half of all is not kept"
+    made(1000), made(1000)
+    assert asked[-2:] == [1000, 1000], "what is larger than all, with its overhead, is not kept"
 
 
 def test_errors_are_not_kept() -> None:
-    @lru_cache_by_bytes(2, 1000, lambda found, n: 1)
+    @lru_cache_by_bytes(10_000, lambda found, n: 1)
     def refused(n: int) -> int:
         raise ValueError(n)
 

@@ -7,6 +7,7 @@ import pytest
 
 import bearingcore as core
 from bearingcore.bearings.named import bearing_of
+from bearingcore.bearings.rows import Row
 from bearingcore.common import checks
 from bearingcore.dynamics.ross_element import to_ross
 from bearingcore.errors import FieldError
@@ -14,7 +15,7 @@ from bearingcore.errors import FieldError
 SCENE = core.presets["6205"]
 BEARING = SCENE.bearing
 RECORDING = core.Recording(np.random.default_rng(1).normal(size=(4096, 1)), 4096.0, ("y",))
-NOT_A_SCENE = ("scene", "a Scene")
+NOT_A_SCENE = ("scene", 'a Scene, such as scene_of("6205")')
 WRONG: list[tuple[Callable[[], object], str, str]] = [
     *(
         (lambda of=of: of("6205"), *NOT_A_SCENE)
@@ -43,6 +44,14 @@ WRONG: list[tuple[Callable[[], object], str, str]] = [
     (lambda: SCENE.replace(bearing=6205), "bearing", "a designation"),
     (lambda: SCENE.replace(defect=0.2), "defect", "a Defect"),
     (lambda: SCENE.replace(load=(0.0, -100.0)), "load", "a Load"),
+    (lambda: SCENE.replace(defect={}), "defect", "a Defect"),
+    *((lambda name=name: SCENE.replace(**{name: "1"}), name, "number") for name in (
+        "fy", "shaft_speed", "extent", "row", "n_balls", "density", "inner_mass",
+    )),
+    (lambda: SCENE.replace(depth=b"1"), "depth", "a finite number"),
+    (lambda: SCENE.replace(fy=np.bool_(True)), "fy", "a finite number"),
+    (lambda: BEARING.replace(estimated=1), "estimated", "n_balls"),
+    (lambda: Row(facing="1"), "facing of a row", "a whole number"),
     (lambda: SCENE.replace(contact_law=3), "contact_law", "published"),
     (lambda: core.equilibrium(SCENE, "all"), "cage_angles", "finite numbers"),
     (lambda: checks.whole_number("n", "abc", at_least=1, at_most=9), "n", "a whole number"),

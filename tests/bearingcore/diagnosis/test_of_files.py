@@ -68,16 +68,17 @@ def test_a_folder_is_a_table_of_answers_and_says_what_was_not_read(tmp_path: Pat
     write(tmp_path / "b_1800rpm.csv", "time (s),vertical (m/s²)", TIME, SIGNAL)
     noise = np.random.default_rng(3).standard_normal(len(TIME))
     write(tmp_path / "a_1800rpm.csv", "time (s),vertical (m/s²)", TIME, noise)
-    (tmp_path / "readme.txt").write_text("Measured on a Monday.\n", encoding="utf-8")
-    (tmp_path / ".hidden").write_text("1\n", encoding="utf-8")
+    for name in ("notes.txt", ".hidden", "README.md", "readme.txt", "rig.png"):
+        (tmp_path / name).write_text("Measured on a Monday.\n", encoding="utf-8")
     found = diagnose(tmp_path, "6205")
     table = found.table()
-    assert list(table["file"]) == ["a_1800rpm.csv", "b_1800rpm.csv", "readme.txt"]
+    assert list(table["file"]) == ["a_1800rpm.csv", "b_1800rpm.csv", "notes.txt"]
     assert table["fault"][1] == "outer race"
     assert table["fault"][0] != "outer race"
     assert table["fault"][2] == "not read"
     assert found.answers[2] is None
-    assert "readme.txt" in found.sentences[2]
+    assert "notes.txt" in found.sentences[2]
+    assert repr(found).startswith("FolderDiagnosis(names")
     assert np.isnan(table["probability"][2])
     assert table["sentence"][1] == found.answers[1].sentence
     printed = " ".join(str(found).split())
@@ -86,5 +87,5 @@ def test_a_folder_is_a_table_of_answers_and_says_what_was_not_read(tmp_path: Pat
 
 
 def test_an_empty_folder_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="a folder with files in it"):
+    with pytest.raises(ValueError, match="a folder with records in it"):
         diagnose(tmp_path, "6205")

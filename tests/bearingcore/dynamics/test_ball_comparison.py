@@ -29,6 +29,7 @@ def test_up_to_where_massless_balls_will_do() -> None:
     inside = found.edges[1:] <= found.massless_up_to
     assert abs(found.added[inside]).max() <= 1.0
     assert "massless: within 1 dB up to" in found.sentence
+    assert "0.1 dB" in compare_motions(*motions).sentence  # as everywhere else
     strict = compare_motions(*motions, budget=1e-6)
     assert math.isnan(strict.massless_up_to)
     assert "more than 1·10⁻⁶ dB off from 300 Hz on" in strict.sentence

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Scene, orbit, presets, simulate, spectrum
-from bearingcore.dynamics.orbit import common_ball_passes
+from bearingcore.dynamics.damping import packed_motion
+from bearingcore.dynamics.orbit import _Shooting, _state_at_start, common_ball_passes
 from bearingcore.dynamics.status import OrbitStatus
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
@@ -59,6 +60,31 @@ def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_
     assert (marched_period(scene) == 1) == found.stable
 
 
+@pytest.mark.parametrize(
+    ("name", "law", "off"),
+    [
+        ("fan-rig", "published", 1e-6),
+        ("7208-25deg", "published", 1e-6),
+        # steps of integration see each jump of the damper at their own times
+        ("7208-25deg", "no tension", 0.015),
+    ],
+)
+def test_multipliers_are_of_the_derivative_of_a_period(name: str, law: str, off: float) -> None:
+    """By differences of the motion over the orbit's period, from states beside it."""
+    scene = presets[name].replace(contact_damping=130.0, contact_law=law)
+    found = orbit(scene)
+    shooting = _Shooting(packed_motion(scene), found.period, len(found.history) - 1)
+    y = shooting.own(_state_at_start(found, found.dofs))
+    slopes = np.empty((y.size, y.size))
+    for column, h in zip(slopes.T, np.diag(1e-11 / shooting.scale), strict=True):
+        column[:] = (shooting.marched(y + h) - shooting.marched(y - h)) / (2.0 * h.max())
+    apart = (slopes - shooting.with_tangent(y)[1]) * np.divide.outer(shooting.scale, shooting.scale)
+    assert np.abs(apart).max() < off
+    assert found.largest_multiplier == pytest.approx(
+        np.abs(np.linalg.eigvals(slopes)).max(), rel=1e-3
+    )
+
+
 def test_where_no_orbit_is_found_none_is_claimed() -> None:
     """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
     scene = at(100.0, 12.9)
@@ -70,18 +96,19 @@ def test_where_no_orbit_is_found_none_is_claimed() -> None:
 def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None:
     found = orbit(scene)
     n = round(1.4 * 65536.0)
-    tiled = spectrum(found.outer_acceleration(np.arange(n) / 65536.0), 65536.0)
-    lines = found.spectrum()
-    tiled = tiled.up_to(lines.frequency[-1])
-    assert len(lines.frequency) > 150, "to 0.15 of 32,768 steps a second"
-    np.testing.assert_array_equal(lines.frequency, tiled.frequency)
-    band = (tiled.frequency >= 300.0) & (tiled.frequency <= 2100.0)
-    ours, theirs = lines.density[band], tiled.density[band]
+    signal = found.outer_acceleration(np.arange(n) / 65536.0)
+    assert len(found.spectrum().frequency) > 150, "to 0.15 of 32,768 steps a second"
     # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes,
     # and what samples of the jumps as balls touch fold back, which lines do not
-    heard = theirs > 1e-4 * theirs.max(axis=0)
-    assert heard.sum() > 30
-    assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < 0.02
+    for resolution, highest, least, off in ((32.0, 2100.0, 30, 0.02), (256.0, math.inf, 20, 0.1)):
+        lines = found.spectrum(resolution=resolution)
+        tiled = spectrum(signal, 65536.0, resolution).up_to(lines.frequency[-1])
+        np.testing.assert_array_equal(lines.frequency, tiled.frequency)
+        band = (tiled.frequency >= 300.0) & (tiled.frequency <= highest)
+        ours, theirs = lines.density[band], tiled.density[band]
+        heard = theirs > 1e-4 * theirs.max(axis=0)
+        assert heard.sum() > least
+        assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < off
 
 
 def test_an_orbit_jumps_where_the_march_does() -> None:

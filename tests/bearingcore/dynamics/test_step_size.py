@@ -39,3 +39,21 @@ def test_a_step_longer_than_the_passage_misses_the_defect() -> None:
     finer = simulate(scene, 0.1, RATE, step_rate=4.0 * seen.step_rate).outer_acceleration
     level = np.sqrt(np.mean(finer**2))
     assert np.sqrt(np.mean((seen.outer_acceleration - finer) ** 2)) < 0.05 * level
+
+
+@pytest.mark.parametrize(("load", "known"), [(2.0, False), (100.0, True)])
+def test_bands_of_contacts_that_let_go_are_marked_where_steps_change_them(load, known):
+    scene = FAN_RIG.replace(contact_law="no tension", fy=-load)
+    motion = simulate(scene, 0.5, RATE)
+    assert motion.completed
+    assert motion.reason.startswith("completed; its contacts let go") != known
+    finer = simulate(scene, 0.5, RATE, step_rate=4.0 * motion.step_rate)
+    apart = []
+    for middle in 6000.0 * 2.0 ** -np.arange(0.0, 5.0, 1.0 / 3.0):
+        low, high = 2.0 ** (-1.0 / 6.0) * middle, 2.0 ** (1.0 / 6.0) * middle
+        power = [
+            one.density[(one.frequency > low) & (one.frequency < high)].sum()
+            for one in (motion.spectrum(since=0.25), finer.spectrum(since=0.25))
+        ]
+        apart.append(abs(10.0 * math.log10(power[0] / power[1])))
+    assert (max(apart) < 1.0) == known

@@ -1,5 +1,6 @@
 """Files as programs, loggers and instruments lay them out, and what must come out of them."""
 
+import csv
 import gzip
 import io
 import json
@@ -389,11 +390,46 @@ def test_words_in_place_of_numbers_are_missing_numbers(share: float) -> None:
         read("\n".join(coded))
 
 
-def test_rows_of_several_sensors_are_not_one_signal() -> None:
-    mixed = "\n".join(f"{i // 2 / RATE:.6f},{'DE' if i % 2 else 'FE'},{a:.4f}" for i, a in
-                      enumerate(SIGNAL.ravel()))  # fmt: skip
-    with pytest.raises(ValueError, match=r"row to row \(FE, DE\).*columns or files of their own"):
-        read("t,place,acc\n" + mixed)
+BOTH = FRAME.assign(other=SIGNAL[:, 1])
+LONG = BOTH.melt("time", var_name="place", value_name="v [g]")
+LONG["place"] = LONG.place.replace({"acc": "DE", "other": "NDE"})
+OF_SENSORS = {
+    "blocks": LONG.to_csv(index=False),
+    "in turn": LONG.sort_values("time", kind="stable").to_csv(index=False),
+    "times apart": LONG.sort_values("time", kind="stable")
+    .assign(time=np.arange(2 * N) / (2.0 * RATE)).to_csv(index=False),
+    "no times": LONG.drop(columns="time").to_csv(index=False),
+    "numbers": LONG.sort_values("time", kind="stable")
+    .assign(place=[1, 2] * N).rename(columns={"place": "sensor_id"}).to_csv(index=False),
+    "records": LONG.to_json(orient="records", lines=True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("content", OF_SENSORS.values(), ids=list(OF_SENSORS))
+def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
+    made = read(content)
+    signals = [i for i, one in enumerate(made.contents.columns) if one.role == "signal"]
+    np.testing.assert_allclose(made.columns[:, signals], SIGNAL, atol=1e-9)
+    assert made.contents.choice.question, "which place is at the bearing?"
+    rate = made.contents.sample_rate
+    assert rate is None or rate.value == pytest.approx(RATE)
+
+
+def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"DE.*as many rows of each"):
+        read(LONG.iloc[: 3 * N // 2].sort_values("v [g]").to_csv(index=False))
+
+
+@pytest.mark.parametrize(
+    ("begin", "rate"),
+    [("1712345678\n64\n", 64.0), ("12000\n", 12e3), (f"{N}\n12000\n", 12e3), (f"{N}\n", None)],
+)
+def test_numbers_above_a_column_are_no_samples(begin: str, rate: float | None) -> None:
+    made = read(begin + rows(SIGNAL[:, 0]).decode())
+    np.testing.assert_array_equal(made.columns[:, 0], SIGNAL[:, 0])
+    found = made.contents.sample_rate
+    assert (found and (found.value, found.stated)) == (rate and (rate, False))
+    assert "are no samples" in made.notes[0]
 
 
 def test_a_column_with_one_number_is_a_fact() -> None:
@@ -610,6 +646,8 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (pd.DataFrame({"when": DATES, "acc": ALONE}).to_csv(), RATE),
     (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),
     ("Unnamed: 0" + FRAME.to_csv(), RATE),
+    (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
+    *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
     (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
     # times are known by name and unit in any column
     *((rows(ALONE, TIME * a_second, heading=f"acc [g],{heading}"), RATE) for heading, a_second in (

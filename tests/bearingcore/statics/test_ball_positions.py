@@ -66,12 +66,19 @@ def test_balls_and_ring_balance_at_speed(name: str) -> None:
 
 
 def test_centrifugal_loads_as_published() -> None:
-    """Fan rig at 7 Hz 0.0154 N (7850 kg/m³); 6205 at 1796 rpm 0.224 N, at 15,000 rpm 15.62 N."""
+    """Fan rig at 7 Hz 0.0154 N (7850 kg/m³); 6205 at 1796 rpm 0.224 N, at 15,000 rpm 15.62 N.
+
+    An NU 208's roller of 11 x 11 mm, cage at 0.5 (1 − 11/60.5) of 3000 rpm: closed form.
+    """
     bearing = presets["6205"].bearing
     assert bearing.centrifugal_load(15_000 * math.pi / 30.0) == pytest.approx(15.62, abs=0.01)
     assert bearing.centrifugal_load(1796 * math.pi / 30.0) == pytest.approx(0.224, abs=0.001)
     fan = presets["fan-rig"].bearing.replace(density=7850.0)
     assert fan.centrifugal_load(2.0 * math.pi * 7.0) == pytest.approx(0.0154, abs=1e-4)
+    roller = presets["nu208"].bearing
+    mass, cage = math.pi / 4.0 * 0.011**3 * 7800.0, 50.0 * math.pi * (1.0 - 11.0 / 60.5)
+    assert roller.ball_mass == pytest.approx(mass)
+    assert roller.centrifugal_load(100.0 * math.pi) == pytest.approx(mass * cage**2 * 30.25e-3)
 
 
 @witness(

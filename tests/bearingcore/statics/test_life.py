@@ -51,7 +51,7 @@ def test_commercial_code(
     clearance: float, load: dict[str, float], printed: float, tolerance: float
 ) -> None:
     """Printed in GitHub, minzhun/ISO16281, `Test_BallBearing.py`: C_r 23,400 N."""
-    found = life(seven_balls(clearance, **load), RATING)
+    found = life(seven_balls(clearance, **load), RATING, positions="load line")
     assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
     assert found.known
 
@@ -107,7 +107,9 @@ def test_defects_of_both_races_by_counting() -> None:
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
     scene = presets["6205"].healthy()
-    inner, outer = life(scene, 14e3), life(scene, 14e3, turning_race="outer")
+    inner, outer = (
+        life(scene, 14e3, positions="load line", turning_race=race) for race in ("inner", "outer")
+    )
     Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
     cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
     assert (inner.inner_load, inner.outer_load) == pytest.approx((cubic, tenthirds), rel=1e-12)
@@ -117,6 +119,8 @@ def test_both_means_of_the_standard_change_places_with_the_turning_race() -> Non
 def test_hours() -> None:
     found = life(presets["6206"], 19_500.0)
     assert found.hours == pytest.approx(found.million_revolutions * 1e6 / (1470.0 * 60.0))
+    sound = life(presets["6206"].healthy(), 19_500.0)
+    assert sound.million_revolutions == found.healthy_million_revolutions, "the same cage angles"
     standing = life(presets["6206"].replace(shaft_speed=0.0), 19_500.0)
     assert math.isnan(standing.hours)
     assert standing.million_revolutions == found.million_revolutions

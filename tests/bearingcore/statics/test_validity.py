@@ -133,12 +133,17 @@ def test_a_stiffness_that_does_not_go_with_the_drawing_is_told() -> None:
 
 
 def test_steps_in_a_defect_by_hand() -> None:
-    """6205: 1.3° at the cage's 74.95 rad/s are 0.3027 ms, at 131072 Hz 39.7 steps."""
+    """6205: 1.3° at the cage's 74.95 rad/s are 0.3027 ms, at 131072 Hz 39.7 steps.
+
+    On the inner race, at 188.1 − 74.95 rad/s, 26.3.
+    """
     scene = presets["6205"]
     limit = found(scene, "time steps in a defect", step_rate=131072.0)
     assert limit.value == pytest.approx(39.7, abs=0.05)
     assert not limit.crossed
     assert found(scene, "time steps in a defect", step_rate=65536.0).crossed
+    inner = found(scene.replace(race="inner"), "time steps in a defect", step_rate=131072.0)
+    assert inner.value == pytest.approx(26.3, abs=0.05)
 
 
 def test_the_default_steps_of_a_motion_are_enough() -> None:

@@ -112,8 +112,8 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     lasting = healthy = None
     if rating is not None:
         try:
-            lasting = life(scene, rating, positions="all")
-            healthy = life(scene.healthy(), rating, positions="all")
+            lasting = life(scene, rating)
+            healthy = life(scene.healthy(), rating)
         except ValueError as error:
             no_life = sentence_of(error)
     state = _state_of_contacts(scene)

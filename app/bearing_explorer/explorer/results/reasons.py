@@ -270,7 +270,7 @@ def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:
-        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)} (in all fifteen)."
+        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)}."
     kind = scene.bearing.kind
     why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
     if scene.active_dofs != kind.needed_directions:

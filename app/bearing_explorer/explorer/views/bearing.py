@@ -68,7 +68,8 @@ _BAR_WORDS = """
 const text = si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
-return row.most || room > 7*text.length ? text : ''
+room += 2*Math.min(Math.abs(row.right), 4)  // numbers of neighbours are further apart than bars
+return row.most || room > 6.8*text.length ? text : ''
 """
 _BALL_WORDS = """
 let wide = Infinity  // two digits and the ring need 16 pixels
@@ -561,7 +562,7 @@ class Shapes:
             "right": NUMBER_RIGHT * np.cos(angle),
             "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
             "room": np.full(angle.size, min(2.0 * math.pi * (start + 0.1) / angle.size, SIDE_ROOM)),
-            "most": load == np.max(load, initial=0.0, where=np.isfinite(load)),
+            "most": np.arange(load.size) == np.argmax(np.nan_to_num(load)),
             "x0": start * np.cos(angle),
             "y0": start * np.sin(angle),
             "x1": end * np.cos(angle),

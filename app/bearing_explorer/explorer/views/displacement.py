@@ -10,6 +10,12 @@ import numpy as np
 
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.side_by_side import (
+    THIS_SCENE,
+    Rows,
+    scenes_of,
+    side_by_side_html,
+)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
@@ -18,7 +24,6 @@ from bearingcore import DOF_NAMES
 from bearingcore.common import ResultTable
 from bearingcore.scene import DOF_SYMBOLS
 
-_THIS_SCENE = "this scene"
 _UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
 """Unit of the displacement along each direction, and what one of SI is in it."""
 _FACTORS = np.array([factor for _, factor in _UNITS])
@@ -49,11 +54,19 @@ class Displacement(View):
         return self._numbers
 
     def show(self, results: Results) -> None:
-        self._numbers.put(text="".join(self.html(one) for one in _scenes(results)))
+        compared = bool(results.compared)
+        html = side_by_side_html(results, self.rows) if compared else self.html(results)
+        self._numbers.put(text=html)
 
-    def html(self, named: tuple[str, Results]) -> str:
-        """The table of a scene, under its name where it has one."""
-        name, results = named
+    @staticmethod
+    def rows(results: Results) -> Rows:
+        """Its numbers one below the other, to stand beside those of other scenes."""
+        for when, line in zip(_WHEN, displacements(results).tolist(), strict=True):
+            for dof, (unit, _), value in zip(DOF_NAMES, _UNITS, line, strict=True):
+                yield f"Displacement {DOF_SYMBOLS[dof]}, {when} ({unit})", _digits(value)
+
+    def html(self, results: Results) -> str:
+        """The table of a scene."""
         heads = (
             "",
             *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
@@ -64,7 +77,7 @@ class Displacement(View):
             (html_text(when), *(_digits(value) for value in line))
             for when, line in zip(_WHEN, np.hstack(shown).tolist(), strict=True)
         )
-        return _headed(name, html_table(heads, rows, named=True))
+        return html_table(heads, rows, named=True)
 
     def sentence(self, results: Results) -> str:
         if not results.now.converged[0]:
@@ -86,14 +99,14 @@ class Displacement(View):
         return f"{words}. {results.scene.tilt_words()}".rstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        scenes = list(_scenes(results))
+        scenes = list(scenes_of(results))
         values = np.concatenate([displacements(one) for _, one in scenes])
         names = [
             f"{dof}_{'um' if unit == 'µm' else unit}"
             for dof, (unit, _) in zip(DOF_NAMES, _UNITS, strict=True)
         ]
         return {
-            "scene": np.repeat([name or _THIS_SCENE for name, _ in scenes], len(_WHEN)),
+            "scene": np.repeat([name or THIS_SCENE for name, _ in scenes], len(_WHEN)),
             "when": np.tile(_WHEN, len(scenes)),
             **dict(zip(names, values.T, strict=True)),
         }
@@ -111,14 +124,19 @@ class OperatingPoint(Displacement):
         f"{reasons.STIFF_WHERE_HELD}"
     )
 
-    def html(self, named: tuple[str, Results]) -> str:
-        """The tables of a scene, under its name where it has one."""
-        results = named[1]
-        return (
-            super().html(named)
-            + _stiffness_html(_WHEN[0], results.now.stiffness_table(0))
-            + _stiffness_html("mean in time", results.ranges.state.stiffness_table())
-        )
+    @staticmethod
+    def rows(results: Results) -> Rows:
+        yield from Displacement.rows(results)
+        for when, table in _stiffnesses(results):
+            lines = _stiffness(table)
+            for i, k in zip(*np.triu_indices(len(DOF_NAMES)), strict=True):
+                name = "".join(DOF_SYMBOLS[DOF_NAMES[one]] for one in (i, k))
+                yield f"Stiffness k<sub>{name}</sub>, {when}", _digits(float(lines[i, k]), 5)
+
+    def html(self, results: Results) -> str:
+        """The tables of a scene."""
+        stiffness = (_stiffness_html(*one) for one in _stiffnesses(results))
+        return super().html(results) + "".join(stiffness)
 
     def sentence(self, results: Results) -> str:
         state = results.ranges.state
@@ -126,12 +144,12 @@ class OperatingPoint(Displacement):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         found: dict[str, list[Any]] = {"scene": [], "when": []}
-        for name, one in _scenes(results):
+        for name, one in scenes_of(results):
             over = one.ranges.state
             moved = over.displacement_table().named()["mean"], one.now.displacement[0]
             tables = over.stiffness_table(), one.now.stiffness_table(0)
             for when, displacement, table in zip(("mean", _WHEN[0]), moved, tables, strict=True):
-                found["scene"] += len(DOF_NAMES) * [name or _THIS_SCENE]
+                found["scene"] += len(DOF_NAMES) * [name or THIS_SCENE]
                 found["when"] += len(DOF_NAMES) * [when]
                 columns = table.named() | {"displacement_in_si": displacement}
                 for column, values in columns.items():
@@ -139,14 +157,24 @@ class OperatingPoint(Displacement):
         return {column: np.array(values) for column, values in found.items()}
 
 
+def _stiffnesses(results: Results) -> Iterable[tuple[str, ResultTable]]:
+    yield _WHEN[0], results.now.stiffness_table(0)
+    yield "mean in time", results.ranges.state.stiffness_table()
+
+
+def _stiffness(table: ResultTable) -> np.ndarray:
+    """(5, 5) without rounding noise."""
+    _, *columns = table.named().values()
+    return _without_noise(np.stack(columns, axis=1))
+
+
 def _stiffness_html(when: str, table: ResultTable) -> str:
-    load, *columns = table.named().values()
     rows = (
         (html_text(str(one)), *(_digits(float(value), 5) for value in line))
-        for one, line in zip(load, _without_noise(np.stack(columns, axis=1)), strict=True)
+        for one, line in zip(table["load"], _stiffness(table), strict=True)
     )
     per = (f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})" for dof in DOF_NAMES)
-    return _headed(f"Stiffness {when}", html_table(("", *per), rows, named=True))
+    return f"<h3>Stiffness {when}</h3>{html_table(('', *per), rows, named=True)}"
 
 
 def _without_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
@@ -160,19 +188,6 @@ def displacements(results: Results) -> np.ndarray:
     over = results.ranges.state.displacement_table().named()
     rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
     return _without_noise(np.array(rows, dtype=float) * _FACTORS)
-
-
-def _scenes(results: Results) -> Iterable[tuple[str, Results]]:
-    """The scene, and those that it is compared with, each with a name where there are several."""
-    compared = [
-        (one.name, other)
-        for one, other in zip(results.compared, results.compared_results, strict=True)
-    ]
-    return [(_THIS_SCENE if compared else "", results), *compared]
-
-
-def _headed(name: str, table: str) -> str:
-    return f"<h3>{html_text(name)}</h3>{table}" if name else table
 
 
 def _digits(value: float, digits: int = 4) -> str:

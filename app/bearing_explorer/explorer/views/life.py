@@ -17,6 +17,12 @@ from bearing_explorer.explorer.results.endurance import (
     LifeInputs,
 )
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.side_by_side import (
+    Rows,
+    scenes_of,
+    side_by_side,
+    side_by_side_html,
+)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -100,6 +106,10 @@ class LifeOfBearing(View):
     )
     in_report = False
 
+    @property
+    def compares(self) -> bool:
+        return True
+
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
         self._fields = Fields(self.take)
@@ -115,7 +125,9 @@ class LifeOfBearing(View):
         self._fields.put(self._values())
         self._answers = LiveFacts(styles={"flex": "2 1 340px"})
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
-        return row(form, self._answers, styles={"align-items": "start", "gap": "10px 34px"})
+        # on a phone the answers are above what they are asked with
+        ways = {"flex-wrap": "wrap-reverse", "align-items": "flex-end", "gap": "10px 34px"}
+        return row(form, self._answers, styles=ways)
 
     def take(self, name: str) -> None:
         """Take a number that was typed; a refused one changes nothing and gets a sentence."""
@@ -132,7 +144,8 @@ class LifeOfBearing(View):
             self.parts.set_life_inputs(self.inputs)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        _ = results.endurance  # computed here, in a thread
+        for _, one in scenes_of(results):
+            _ = one.endurance  # computed here, in a thread
         return {}, {}
 
     def sentence(self, results: Results) -> str:
@@ -145,7 +158,7 @@ class LifeOfBearing(View):
         return f"{healthy}{found.healthy.sentence}"
 
     def show(self, results: Results) -> None:
-        self._answers.put(text=groups_html(groups_of(results)))
+        self._answers.put(text=answers_html(results))
         if not self._refusal.visible:
             self._fields.put(self._values())
 
@@ -157,6 +170,10 @@ class LifeOfBearing(View):
         return texts
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
+        if results.compared:
+            heads = ("quantity", *(name for name, _ in scenes_of(results)))
+            columns = zip(*side_by_side(results, facts_of), strict=True)
+            return dict(zip(heads, map(np.array, columns), strict=True))
         groups = groups_of(results)
         rows = [
             (group.title, fact.name, fact.value)
@@ -174,6 +191,23 @@ def read(field: Field, given: object) -> float | None:
         return None
     words = f"The {field.label.lower()}"
     return number_of(text, words, field.unit, field.least, field.most) * field.unit_si
+
+
+def answers_html(results: Results) -> str:
+    """The answers; of several scenes one table, and what is assumed of each below it."""
+    if not results.compared:
+        return groups_html(groups_of(results))
+    words = [
+        FactGroup(html.escape(name), " ".join(group.words for group in groups_of(one)), [])
+        for name, one in scenes_of(results)
+    ]
+    return side_by_side_html(results, facts_of) + groups_html(words)
+
+
+def facts_of(results: Results) -> Rows:
+    """Names, as HTML, and values of all facts; those of pressure and film say which they are."""
+    for group, about in zip(groups_of(results), ("", "Pressure: ", "Film: "), strict=False):
+        yield from ((about + fact.name, fact.value) for fact in group.facts)
 
 
 def groups_of(results: Results) -> list[FactGroup]:

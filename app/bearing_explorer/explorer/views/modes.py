@@ -84,8 +84,9 @@ class NaturalFrequencies(View):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns. Blue x, orange y. A mode is named after the "
-        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Black: now. "
-        "With a defect of the inner race lines are those of the turn of now, bands of all turns."
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Upright: "
+        "now. With a defect of the inner race lines are those of the turn of now, bands of all "
+        "turns."
     )
     needs = frozenset({"modes", "bands", "ranges"})
 

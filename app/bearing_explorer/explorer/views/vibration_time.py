@@ -47,8 +47,8 @@ class VibrationInTime(PassageView):
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
     about = (
-        "Above: acceleration of the housing, blue x, orange y; of compared scenes x is thin. "
-        "Below: load of the balls that enter or leave the defect; thin: their static loads."
+        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
+        "or leave the defect; thin: their static loads."
     )
     needs = frozenset({"excerpt"})
     prefix = "vibration"

@@ -20,7 +20,7 @@ MOST_COMPARED = len(COLORS)
 WITHOUT_DEFECT = "the bearing without its defect"
 """The scene that is drawn in grey."""
 
-THIN = "thin: horizontal"
+THIN = "thin: x, horizontal"
 """Tag of a figure that has two curves a scene, with the horizontal one thin; its key says so."""
 
 _SLOT = "_compared_"

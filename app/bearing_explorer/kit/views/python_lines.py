@@ -5,9 +5,11 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from bearingcore import Defect, Scene, presets
+from bearingcore import Defect, Scene, presets, scene_of
+from bearingcore.bearings import name_of
 
 if TYPE_CHECKING:
     from bearing_explorer.kit.views.base import C, View
@@ -36,7 +38,7 @@ def lines_of(view: View[C], content: C) -> str:
         if view.figures or view.computes:
             body.append("drawn.show()  # in the browser")
     text = "\n".join(body)
-    known = ("Recording", "Scene", "join_tables", "presets", "read_table", "simulate")
+    known = ("Recording", "Scene", "join_tables", "presets", "read_table", "scene_of", "simulate")
     core = [name for name in known
             if f"{name}(" in text or f"{name}[" in text or f"{name}." in text]  # fmt: skip
     imports = [
@@ -60,22 +62,29 @@ def changed_fields(value: Any, usual: Any) -> dict[str, Any]:
 
 
 def scene_code(scene: Scene) -> str:
-    """An expression that makes `scene`: a preset with changes where that is the very same."""
-    name = min(presets, key=lambda one: len(_differences(scene, presets[one])))
-    changes = _differences(scene, presets[name])
+    """An expression that makes `scene`: a bearing by name, or a preset, with the fewest changes.
+
+    Only where that is the very same; else the whole scene as a file has it.
+    """
+    bases = {f"presets[{code_of(one)}]": base for one, base in presets.items()}
+    with suppress(ValueError):  # a bearing without a rating
+        if known := name_of(scene.bearing):
+            bases = {f"scene_of({code_of(known)})": scene_of(known)} | bases
+    name = min(bases, key=lambda one: len(_differences(scene, bases[one])))
+    changes = _differences(scene, bases[name])
     plain = all(value is None or isinstance(value, str | int | float) or
                 (isinstance(value, tuple) and all(isinstance(one, str) for one in value))
                 for value in changes.values())  # fmt: skip
     try:
-        same = plain and presets[name].replace(**changes) == scene
+        same = plain and bases[name].replace(**changes) == scene
     except ValueError:
         same = False
     if same:
         given = [f"{field}={_field_code(field, value)}" for field, value in changes.items()]
         if not given:
-            return f'presets["{name}"]'
-        line = f'presets["{name}"].replace({", ".join(given)})'
-        broken = f'presets["{name}"].replace(\n    ' + ",\n    ".join(given) + ",\n)"
+            return name
+        line = f"{name}.replace({', '.join(given)})"
+        broken = f"{name}.replace(\n    " + ",\n    ".join(given) + ",\n)"
         return line if len(line) <= 80 else broken
     text = scene.to_toml()
     if len(text) > LONGEST_SCENE:

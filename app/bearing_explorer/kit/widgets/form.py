@@ -18,6 +18,10 @@ SEARCHED = 20
 _ROW = ":host { flex-wrap: wrap; align-items: end; gap: 8px 14px; min-width: 0 !important; }"
 
 
+_OWN_LINE = "@media (max-width: 820px) { :host { flex: 1 0 100%; } }"
+"""On a phone: what belongs to a list, from where and to where, is together in the next line."""
+
+
 class FieldSpec(TypedDict, total=False):
     """A field of a form, or a choice above a figure.
 
@@ -139,7 +143,7 @@ class SearchedSelect(pn.Column):
             "", placeholder=f"Search {len(options)}", css_classes=["search"], align="start"
         )
         search.param.watch(lambda event: self._filter(event.new), "value_input")
-        super().__init__(search, select, align="end", margin=0)
+        super().__init__(search, select, align="end", margin=0, stylesheets=[_OWN_LINE])
 
     def _filter(self, text: str) -> None:
         words = text[:LONGEST_TEXT].lower().split()

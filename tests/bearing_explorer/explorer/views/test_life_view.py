@@ -30,7 +30,7 @@ def facts(name: str, **given: float) -> dict[str, dict[str, str]]:
 def test_the_numbers_are_those_of_the_core() -> None:
     scene = presets["6205"]
     said = facts("6205")
-    lasts = life(scene.healthy(), dynamic_load_rating(scene.bearing), positions="all")
+    lasts = life(scene.healthy(), dynamic_load_rating(scene.bearing))
     healthy = said["Life of the healthy bearing"]
     assert "computed from the dimensions by ISO 281" in healthy["Dynamic load rating C<sub>r</sub>"]
     turns = number(healthy["Life L<sub>10r</sub>"])
@@ -41,7 +41,7 @@ def test_the_numbers_are_those_of_the_core() -> None:
     expected = contact_pressures(scene).inner.greatest_pressure
     assert inner == pytest.approx(expected / 1e9, rel=1e-2)
     assert "upper limit" in healthy["words"], "what the standard leaves out is said"
-    damaged = life(scene, dynamic_load_rating(scene.bearing), positions="all")
+    damaged = life(scene, dynamic_load_rating(scene.bearing))
     assert f"{100.0 * damaged.share_of_healthy:.0f} % of that" in healthy["words"]
 
 

@@ -356,6 +356,42 @@ def test_dropouts_are_left_out(damaged, healthy):
         found.of("ball")
 
 
+@pytest.mark.parametrize("fill", ["held", "drawn", "repeated", "zero"])
+def test_gaps_at_every_pass_are_no_damage(damaged, healthy, fill):
+    """A recorder that loses ten samples as often as balls pass, however it fills them."""
+
+    def torn(signal: np.ndarray) -> np.ndarray:
+        torn = signal.copy()
+        for begin in (np.arange(0.01, 3.99, 1.0 / MOTOR.lines["outer race"]) * MOTOR.rate).astype(
+            int
+        ):
+            gap = slice(begin, begin + 10)
+            before, after = torn[begin - 10 : begin].copy(), signal[begin + 10]
+            torn[gap] = {
+                "held": before[-1],
+                "drawn": np.linspace(before[-1], after, 12)[1:-1],
+                "repeated": before,
+                "zero": 0.0,
+            }[fill]
+        return torn
+
+    assert not answer(torn(healthy)).names_a_part
+    found = answer(torn(damaged["inner race"]))
+    assert found.fault == "inner race"
+    assert "were not measured but held" in found.sentence
+
+
+def test_beats_of_an_inverter_are_no_race():
+    """A carrier with sidebands six times the feeding frequency apart: two outer races' lines."""
+    machine = dataclasses.replace(MOTOR, n_balls=8, ratio=0.2337)
+    signal = background(machine, np.random.default_rng(14))
+    time, loud = np.arange(len(signal)) / machine.rate, signal.std()
+    for side, height in ((-2, 0.4), (-1, 1.5), (0, 2.0), (1, 1.5), (2, 0.4)):
+        at = 2700.0 + side * 2.0 * 0.99 * machine.lines["outer race"]
+        signal += height * loud * np.cos(TURN * at * time + side)
+    assert not answer(signal, machine).names_a_part
+
+
 def test_a_few_great_blows_hide_no_damage_and_make_none(damaged, healthy):
     def hit(signal: np.ndarray) -> np.ndarray:
         signal = signal.copy()

@@ -165,7 +165,10 @@ def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
 def end_names(
     drawn: dict[str, NDArray[np.float64]], shown: tuple[float, float], top: float
 ) -> list[tuple[float, float, int]]:
-    """Names of the curves at their right ends: above the upper one, below the lower one."""
+    """Names of the curves at their right ends: above the upper one, below the lower one.
+
+    Where that is out of view the name of the lower one is above it, if there is room.
+    """
     at_end = drawn["frequency"] > END * top
     ends = {
         dof: drawn[dof][at_end]
@@ -178,6 +181,14 @@ def end_names(
         dof: float(end.max()) + room if dof == upper else float(end.min()) - room
         for dof, end in ends.items()
     }
+    for dof, end in ends.items():
+        above = float(end.max()) + room
+        if (
+            dof != upper
+            and places[dof] < shown[0] + room
+            and above < float(ends[upper].min()) - room
+        ):
+            places[dof] = above
     return [
         (top, min(max(y, least), shown[1] - 4.0 * room), SHOWN.index(dof))
         for dof, y in places.items()

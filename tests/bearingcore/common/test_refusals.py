@@ -6,14 +6,12 @@ A refusal a line: what is asked, and what is said. `test_bad_input.py` has the f
 
 import copy
 import dataclasses
-import io
 import math
 from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 import pytest
-from scipy.io import savemat
 
 import bearingcore as core
 from bearingcore.bearings.frequencies import bearing_of_frequencies
@@ -31,6 +29,7 @@ from bearingcore.files.floor import read_floor
 from bearingcore.files.text import read_text
 from bearingcore.signals.indicators import severity_zone
 from bearingcore.signals.spectrograms import order_map, spectrogram
+from tests.helpers.saved import matlab
 
 NAN, INF = math.nan, math.inf
 DRAWN, RIG, LIEW_LIM = (core.presets[name] for name in ("6205", "fan-rig", "liew-lim"))
@@ -71,12 +70,6 @@ def taken(*asked: object) -> core.Recording:
 def nested(depth: int) -> dict[str, object]:
     """Structs inside one another."""
     return {"s": nested(depth - 1)} if depth else {"a": TWO}
-
-
-def matlab(**variables: object) -> bytes:
-    file = io.BytesIO()
-    savemat(file, variables)
-    return file.getvalue()
 
 
 def data(part: str = "", **changes: object) -> core.Scene:

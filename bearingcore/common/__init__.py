@@ -1,7 +1,6 @@
 """Used by every layer: checks of input, progress of long work."""
 
 from bearingcore.common.checks import choice as choice
-from bearingcore.common.checks import real_number as real_number
 from bearingcore.common.checks import refuse as refuse
 from bearingcore.common.lazy import cached_property as cached_property
 from bearingcore.common.numbers import PREFIXES as PREFIXES

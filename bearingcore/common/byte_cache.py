@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from functools import wraps
 from threading import Lock
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 from cachetools import LRUCache, cached
 from cachetools.keys import hashkey
@@ -37,7 +37,7 @@ def lru_cache_by_bytes(
         what a result belongs to, of the arguments; None: the arguments themselves, which are kept.
     """
 
-    def of(*arguments: P.args, **named: P.kwargs) -> Hashable:
+    def of(*arguments: Any, **named: Any) -> Hashable:
         return hashkey(key(*arguments, **named)) if key else hashkey(*arguments, **named)
 
     def decorate(function: Callable[P, Result]) -> Callable[P, Result]:

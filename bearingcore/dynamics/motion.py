@@ -485,7 +485,7 @@ def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: 
 
 
 def _bands_apart(motion: Motion, finer: Motion) -> str:
-    """What twice the steps change in a spectrum, in words; "" where that is little.
+    """Changes of a spectrum by twice the steps, in words; "" where that is little.
 
     Compared are bands of a third of an octave that hold a part in 10,000 of the power or more, once
     the motion has settled. Where contacts let go it may be chaotic: then no steps are enough.

@@ -84,7 +84,7 @@ class Scene:
     """
 
     WANTED: ClassVar[str] = 'a Scene, such as scene_of("6205") or presets["fan-rig"]'
-    """What is wanted where a scene is, for `checks.instance`."""
+    """Words for one where a scene is wanted, for `checks.instance`."""
 
     bearing: Bearing
     defect: Defect | tuple[Defect, ...]

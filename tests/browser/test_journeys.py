@@ -543,6 +543,10 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("The inner race is damaged"))
+    visitor.steady()
+    before = visitor.figures()
+    visitor.choose("Zoom to", "inner race, 2×")
+    visitor.wait(lambda: visitor.figures() != before)
     visitor.open("?v=1&preset=6205&extent_deg=0&tab=diagnosis")
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("No damage seen"))
@@ -553,12 +557,23 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk: Visitor,
 ) -> None:
     desk.begin("Accuracy")
-    desk.reads(re.compile("Measured: "))
+    desk.reads(re.compile("Shipped"))
     desk.reads(re.compile("Fastest within 0.1 dB"))
-    desk.choose("Charts of", "Statics")
-    expect(desk.main.get_by_text(re.compile("Solvers, against energy minima"))).to_be_visible()
-    desk.look_over()
-    desk.wait(lambda: "blank" not in desk.figures())
+    for charts, words in (
+        ("Stability", "The factor by which a ball pass"),
+        ("Statics", "Solvers, against energy minima"),
+    ):
+        desk.choose("Charts of", charts)
+        expect(desk.main.get_by_text(re.compile(words))).to_be_visible()
+        desk.look_over()
+        desk.wait(lambda: "blank" not in desk.figures())
+    desk.choose("Charts of", "Motion")
+    desk.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
+    before = desk.figures()
+    desk.press("Measure on this machine")
+    desk.reads(re.compile(r"\d+ points after"))
+    desk.reads(re.compile("Measured on this machine"))
+    desk.wait(lambda: desk.figures() != before)
     desk.press("Compare simpler models", desk.main)
     desk.reads(re.compile(r"\d+ models after"))
     rows = desk.main.get_by_role("table").get_by_role("row")

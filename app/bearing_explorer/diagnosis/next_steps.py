@@ -40,7 +40,7 @@ WHAT_HELPS = {
     DiagnosisStatus.OTHER_SOURCE: "Check which bearing it is and its speed, look for what else "
     "turns or strikes nearby, and measure again closer to the bearing.",
 }
-"""What helps where no part is named, by the reason."""
+"""Remedies where no part is named, by the reason."""
 
 ALIKE = "at the same point, speed and load"
 

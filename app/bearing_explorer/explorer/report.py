@@ -130,7 +130,7 @@ def _compared(results: Results) -> str:
 
 
 def _side_by_side(results: Results) -> str:
-    """What was given that differs, life, pressure, film and displacement of compared scenes."""
+    """Given numbers that differ, life, pressure, film and displacement of compared scenes."""
     if not results.compared:
         return ""
     table = side_by_side_html(results, facts_of_life, Displacement.rows)

@@ -66,10 +66,14 @@ class SettledMotion(NamedTuple):
 
 
 class Ending(NamedTuple):
-    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled."""
+    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled.
+
+    `doubt`: how well bands of the spectrum of a completed motion are known, see `Motion.detail`.
+    """
 
     fault: str
     since: float
+    doubt: str
 
 
 # What a motion costs
@@ -165,7 +169,9 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
 def ending(scene: Scene, how: Marching) -> Ending:
     """The end of the motion."""
     found, since = motion(scene, how)
-    return Ending("" if found.completed else found.reason, since)
+    if found.completed:
+        return Ending("", since, found.detail)
+    return Ending(found.reason, since, "")
 
 
 @cached

@@ -411,6 +411,11 @@ class Results(Content):
         return motions.ending(self.scene, self.marching).fault
 
     @property
+    def doubt(self) -> str:
+        """Words on bands of the spectrum that are not known within 1 dB; or empty."""
+        return motions.ending(self.scene, self.marching).doubt
+
+    @property
     def settled_since(self) -> float:
         """Time [s] of the motion after which it counts as settled."""
         return motions.ending(self.scene, self.marching).since

@@ -63,7 +63,6 @@ from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
-from bearingcore.common import real_number
 from bearingcore.fields import SCENE_PARTS, Field, Range
 from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
@@ -558,7 +557,7 @@ _SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, partial(real_number, "rating")),
+    Entry("rating", "dynamic_load_rating", "{!r}".format, lambda text: _parsed(text, "rating")[0]),
 ]
 _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
 """Entries of each part of a scene."""

@@ -58,7 +58,7 @@ def side_by_side_html(results: Results, *answers: Callable[[Results], Rows]) -> 
 
 
 def _given(scene: Scene) -> dict[str, str]:
-    """What was given of a scene and decides answers at rest, as the page shows it."""
+    """Given numbers of a scene that decide its answers at rest, as the page shows them."""
     values = values_of(scene)
     return {
         f"{field.read_label} {field.read_symbol_html}": (

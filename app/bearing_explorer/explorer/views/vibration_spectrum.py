@@ -281,8 +281,7 @@ def loudest_words(results: Results) -> str:
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
     text += with_elements_of(results.scene.bearing, f"; balls pass a point {passing}{estimated}")
-    if results.motion.completed and results.motion.detail:
-        text += results.motion.detail
+    text += results.doubt
     if results.moving:
         return f"{text}."
     start = style.with_prefix(results.settled_since, "s")

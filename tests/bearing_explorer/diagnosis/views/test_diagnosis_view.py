@@ -1,6 +1,7 @@
 """The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
 
 import dataclasses
+import math
 import re
 from functools import cache
 

@@ -47,6 +47,10 @@ CATALOGUE_COLUMNS = (
 
 USUAL_CLEARANCE_UM = 10.0
 
+MOST_BYTES = 2**20
+MOST_BEARINGS = 2000
+LONGEST_NAME, LONGEST_NOTE = 80, 2000
+
 _SEPARATORS = (";", "\t", ",")
 """Of columns; the most frequent one in the headings is taken."""
 
@@ -100,6 +104,10 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     separator = max(_SEPARATORS, key=lines[0][1].count)
     rows = [(number, _cells(number, line, separator)) for number, line in lines]
     headings = _headings(*rows[0])
+    if len(rows) - 1 > MOST_BEARINGS:
+        raise checks.refuse(
+            "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
+        )
     found: dict[str, CatalogueBearing] = {}
     for number, cells in rows[1:]:
         at = f"table of bearings: line {number}"
@@ -113,6 +121,9 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
 
 
 def _text(table: str | bytes) -> str:
+    size = len(table)
+    if size > MOST_BYTES:
+        raise checks.refuse("table of bearings", f"{size} bytes long", f"at most {MOST_BYTES}")
     if isinstance(table, str):
         return table.removeprefix("\ufeff")
     try:
@@ -210,8 +221,10 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
         return ratio * ball
 
     name, note = texts["name"], texts.get("note", "")
-    if not name:
-        raise refused("name", "a name")
+    if not name or len(name) > LONGEST_NAME:
+        raise refused("name", f"a name of 1 to {LONGEST_NAME} characters")
+    if len(note) > LONGEST_NOTE:
+        raise refused("note", f"at most {LONGEST_NOTE} characters")
     balls, ball, pitch = (number(column) or 0.0 for column in NEEDED_COLUMNS[1:])
     inner, outer = map(groove, USUAL_GROOVES)
     angle, clearance, rating = map(

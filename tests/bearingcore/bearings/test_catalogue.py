@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bearingcore import presets
-from bearingcore.bearings.catalogue import catalogue, read_catalogue
+from bearingcore.bearings.catalogue import MOST_BEARINGS, MOST_BYTES, catalogue, read_catalogue
 from bearingcore.statics.life import dynamic_load_rating
 
 HEAD = "name;balls;ball_diameter_mm;pitch_diameter_mm"
@@ -103,6 +103,8 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
         (f"{HEAD};diametral_clearance_um\na;9;7;39;-8000", ["clearance_um", "at least -0.007"]),
         (f"{HEAD};dynamic_load_rating_kn\na;9;7;39;0", ["load_rating_kn", "above 0"]),
         (f"{HEAD}\na;9;7;39\nb;9;y;39\nc;x;7;39", ["line 3, column ball_diam"]),
+        (f"{HEAD}\n" + "a;9;7;39\n" * (MOST_BEARINGS + 1), [f"at most {MOST_BEARINGS}"]),
+        (b" " * (MOST_BYTES + 1), [f"at most {MOST_BYTES}"]),
     ],
 )
 def test_faults_are_named(table: str | bytes, told: list[str]) -> None:

@@ -5,7 +5,6 @@ All of them run in one fresh interpreter, each in a namespace of its own.
 
 import ast
 import dataclasses
-import io
 import os
 import pickle
 import subprocess
@@ -30,6 +29,7 @@ from scipy.io import wavfile
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets, scene_of
 from tests.helpers.measuring import at, measuring, signal
+from tests.helpers.saved import saved
 from tests.helpers.timing import measure_once
 
 FAN_RIG = presets["fan-rig"].replace(extent=np.radians(38.6), fy=-120.0, contact_damping=130.0)
@@ -70,14 +70,13 @@ RECORDED = 'it\'s "a" file.wav'
 @cache
 def recorded() -> tuple[bytes, Measured]:
     """A file with a signal, and what the page has read in it."""
-    file = io.BytesIO()
-    wavfile.write(file, 25_600, signal().recording.acceleration.astype(np.float32))
-    read = read_file(RECORDED, file.getvalue(), at(presets["fan-rig"]))
+    file = saved(wavfile.write, 25_600, signal().recording.acceleration.astype(np.float32))
+    read = read_file(RECORDED, file, at(presets["fan-rig"]))
     asked = read_form(
         read.table, {**read.form, "columns": "x;y", "unit": "m/s²"}, at(presets["fan-rig"])
     )
     machine = at(presets["fan-rig"])
-    return file.getvalue(), Measured(asked.recording, machine, origin=asked.origin)
+    return file, Measured(asked.recording, machine, origin=asked.origin)
 
 
 @cache

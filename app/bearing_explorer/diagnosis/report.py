@@ -55,7 +55,9 @@ FIGURES = {
 }
 """Views whose first figure is shown, with its heading; those that come first are preferred."""
 
-NOT_JUDGED = "Lubrication, balance, alignment and other bearings of the machine are not judged."
+NOT_JUDGED = (
+    "The cage, lubrication, balance, alignment and other bearings of the machine are not judged."
+)
 NOT_FORESEEN = (
     "The vibration shows neither the depth of the damage nor the remaining life of the bearing."
 )

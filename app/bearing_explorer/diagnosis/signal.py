@@ -176,8 +176,8 @@ class Measured:
             return scene.replace(**changes, defect=())
 
 
-def _put(known: dict, key: object, value: object, most: int = 6) -> None:
-    """Keep a result; the oldest leaves."""
-    while len(known) >= most:
+def _put(known: dict, key: object, value: object) -> None:
+    """Keep a result, six at most; the oldest leaves."""
+    if len(known) >= 6:
         known.pop(next(iter(known)))
     known[key] = value

@@ -5,7 +5,6 @@ import gzip
 import io
 import json
 import math
-import zipfile
 from collections.abc import Callable
 from typing import Any
 
@@ -13,11 +12,11 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.io import savemat
 
 from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
+from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
 
@@ -198,12 +197,6 @@ def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -
     assert made.shaft_speed is None
 
 
-def matlab(**variables: Any) -> bytes:
-    file = io.BytesIO()
-    savemat(file, variables)
-    return file.getvalue()
-
-
 def cells(*each: Any) -> Any:
     made = np.empty(len(each), dtype=object)
     made[:] = each
@@ -254,6 +247,16 @@ def test_the_text_of_octave_is_read(name: str) -> None:
         read(flat[: len(flat) // 2], name)
 
 
+def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
+    """Data sets, each with what stands beside it."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, (data, beside) in sets.items():
+            made = file.create_dataset(name.replace("__", "/"), data=data)
+            made.attrs.update(beside)
+    return buffer.getvalue()
+
+
 def tdms() -> bytes:
     nptdms = pytest.importorskip("nptdms")
     buffer = io.BytesIO()
@@ -279,34 +282,15 @@ def uff(tmp_path: Any, binary: int = 0) -> bytes:
     return bytes(path.read_bytes())
 
 
-def numpy_file(save: Any, *arrays: Any, **named: Any) -> bytes:
-    buffer = io.BytesIO()
-    save(buffer, *arrays, **named)
-    return buffer.getvalue()
-
-
-def parquet() -> bytes:
-    pytest.importorskip("pyarrow")
-    buffer = io.BytesIO()
-    pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES).to_parquet(buffer)
-    return buffer.getvalue()
-
-
-def zipped(**files: bytes) -> bytes:
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, content in files.items():
-            file.writestr(name.replace("_", ".").replace("-", "_"), content)
-    return buffer.getvalue()
-
-
 def test_formats_of_other_libraries_are_read(tmp_path) -> None:
     check_one_signal(read(tdms(), "a.tdms"))
     for binary in (0, 1):
         made = read(uff(tmp_path, binary), "a.uff")
         check_one_signal(made)
         assert (made.contents.unit.value, made.contents.columns[0].direction) == ("g", "y")
-    check_one_signal(read(parquet(), "a.parquet"))
+    pytest.importorskip("pyarrow")
+    frame = pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES)
+    check_one_signal(read(saved(frame.to_parquet), "a.parquet"))
 
 
 def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
@@ -314,7 +298,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     made = read(zipped(run_csv=text), "rig.zip")
     check_one_signal(made)
     assert made.name == "rig.zip/run.csv"
-    two = zipped(a_csv=text, b_npy=numpy_file(np.save, SIGNAL[:, 0]))
+    two = zipped(a_csv=text, b_npy=saved(np.save, SIGNAL[:, 0]))
     with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
         read(two, "rig.zip")
     assert table.files_inside("RIG.ZIP", two)[0] == "RIG.zip/a.csv"
@@ -331,11 +315,8 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
 
 def matlab_table() -> bytes:
     """As version 7.3 keeps one: numbers that point into a part of its own."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file["T"] = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
-        file["T"].attrs["MATLAB_object_decode"] = 3
-    return buffer.getvalue()
+    points = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
+    return hdf5(T=(points, {"MATLAB_object_decode": 3}))
 
 
 @pytest.mark.parametrize(
@@ -347,7 +328,7 @@ def matlab_table() -> bytes:
         (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
-        (numpy_file(np.save, cells({}, {})), "damaged or unknown part"),
+        (saved(np.save, cells({}, {})), "damaged or unknown part"),
     ],
 )
 def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
@@ -476,10 +457,7 @@ def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
     table = np.zeros(N, dtype=[("t", "f8"), ("acc", "f8")])
     table["t"], table["acc"] = TIME, SIGNAL[:, 0]
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file["rig"] = table
-    for content in (buffer.getvalue(), numpy_file(np.save, table)):
+    for content in (hdf5(rig=(table, {})), saved(np.save, table)):
         check_one_signal(read(content))
     made = read(matlab(acc=SIGNAL.T[:, None, :], fs=RATE), "a.mat")
     np.testing.assert_array_equal(made.columns, SIGNAL)
@@ -720,11 +698,11 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     *((FRAME.to_json(orient="records", lines=lines, double_precision=9), RATE)
       for lines in (False, True)),
     (json.dumps({"fs": RATE, "acc": LIST}), RATE, "a.json"),
-    (numpy_file(np.save, ALONE), None, "a.npy"),
-    (numpy_file(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
+    (saved(np.save, ALONE), None, "a.npy"),
+    (saved(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
+    (saved(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
 ]  # fmt: skip
 
 
@@ -772,16 +750,6 @@ def stated(fact: Any, sure: bool = True) -> Any:
 def in_rpm(fact: Any, sure: bool = True) -> float | None:
     speed = stated(fact, sure)
     return speed if speed is None else round(speed * 30.0 / math.pi, 1)
-
-
-def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
-    """Data sets, each with what stands beside it."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        for name, (data, beside) in sets.items():
-            made = file.create_dataset(name.replace("__", "/"), data=data)
-            made.attrs.update(beside)
-    return buffer.getvalue()
 
 
 def one(remark: str) -> bytes:

@@ -41,7 +41,7 @@ def test_displacement_and_stiffness_are_those_of_the_force_balance() -> None:
     assert moved["y_um"][1] <= moved["y_um"][2] <= moved["y_um"][3]
     found = OperatingPoint(PackedSource()).table(results)
     now = (found["when"] == "at this cage angle") & (found["load"] == "fy [N]")
-    shown = Displacement(PackedSource()).html(("", results))
+    shown = Displacement(PackedSource()).html(results)
     assert shown.count(">0<") >= 12
     assert "·10" not in shown, "beyond the digits of the largest"
     slope = 0.02 / (drop(100.01) - drop(99.99))

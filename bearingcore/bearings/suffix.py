@@ -55,6 +55,8 @@ _OF_ANOTHER_MAKER = re.compile(r"[ /-]*BEA")
 _BORE = re.compile(r" ?/ ?(?!2[ -]?[RZ])\d+(?:[.,]\d+)?(?=$|[ -])")
 """A bore [mm] behind the number, as in 628/8-2Z and 32307/37 BJ2; not the seals of 6205/2RS."""
 
+_CYRILLIC = re.compile(r"[А-ЯЁ]")
+
 _STEEP = re.compile(r"[ /-]*[BCD]")
 
 ONE_OF_TWO = (
@@ -64,6 +66,10 @@ SETS = "a single bearing, or a pair (DB, DF, DT): sets of three and more are not
 ONLY_PAIRS_OF = "a single bearing: pairs are known of angular-contact and tapered bearings"
 NO_TANDEM = "DB (back to back) or DF (face to face) of tapered roller bearings"
 ONE_NUMBER = "one bearing, as {} is the number of another"
+GOST = (
+    "a number of ISO, in Latin letters: with Cyrillic ones it is of GOST 3189, in which the same "
+    "digits may be another bearing"
+)
 BORE = "one whose number says the bore: bores behind a slash, as in 32307/37, are not known"
 SPACED = (
     "one without spacers, whose width it does not say: take the pair and change the distance of "
@@ -161,6 +167,8 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         raise refused(ONE_NUMBER.format(second[0]))
     if _BORE.match(text):
         raise refused(BORE)
+    if _CYRILLIC.search(text):
+        raise refused(GOST)
     pair = _PAIR.search(text)
     try:
         arrangement = _arrangement(kind, text, count, pair)

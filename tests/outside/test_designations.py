@@ -165,6 +165,7 @@ REFUSED = {
     "NU 1007 ECP": "reinforced",
     "NU 2319 ECP": "reinforced",
     "628/8-2Z": "slash",
+    "32307ЛМ": "GOST",  # cylindrical rollers of 35 × 80 × 21 mm in EPK's catalogue
     "32307/37 BJ2/Q": "slash",
 }
 

@@ -8,10 +8,10 @@ import math
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import msgspec
 
@@ -21,7 +21,7 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
-from bearingcore.experiments.points import RIGHT, Experiment, Point, Watch
+from bearingcore.experiments.points import Experiment, Point, Watch
 from bearingcore.experiments.stability import StabilityChart, stability_chart
 from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
@@ -151,32 +151,6 @@ class Measurements:
             ("evaluations", "", [p.evaluations for _, p in points]),
             ("status", "", [p.status for _, p in points]),
         )
-
-    def as_json(self) -> str:
-        """The text of a file: numbers with four digits, an experiment to a line."""
-        parts = _rounded(asdict(self))
-        experiments = ",\n".join(
-            f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
-            for name, one in parts.pop("experiments").items()
-        )
-        rest = json.dumps(parts, ensure_ascii=False)
-        return f'{rest[:-1]},\n"experiments": {{\n{experiments}\n}}}}\n'
-
-
-_AS_USUAL: tuple[tuple[str, Any], ...] = (
-    ("status", RIGHT),
-    ("against", ""),
-    ("in_use", False),
-)
-"""Entries of points that files leave out."""
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, float) and not value.is_integer():
-        return float(f"{value:.4g}")
-    if isinstance(value, dict):
-        return {n: _rounded(one) for n, one in value.items() if (n, one) not in _AS_USUAL}
-    return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 def measurements_from(text: str) -> Measurements:

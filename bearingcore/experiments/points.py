@@ -94,16 +94,6 @@ class Reference:
     trusted: bool
     note: str = ""
 
-    @property
-    def sentence(self) -> str:
-        """For captions: who agrees with whom, and how well."""
-        apart = ", ".join(
-            f"{name} {scientific(value, 2)}" for name, value in self.agreement.items()
-        )
-        verdict = "agree" if self.trusted else "DO NOT AGREE, so errors below mean little"
-        text = f"{' and '.join(self.families)} {verdict}: apart by {apart}"
-        return f"{text}. {self.note}" if self.note else text
-
 
 @dataclass(frozen=True)
 class Experiment:

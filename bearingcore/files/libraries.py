@@ -1,4 +1,4 @@
-"""Formats that other libraries read: UFF, TDMS, Parquet, and NumPy's own; and a zip of one file.
+"""Formats that other libraries read: UFF, TDMS, Parquet, Excel, NumPy's own; a zip of one file.
 
 Runs in the process of `child` alone. The libraries come with the extra `files`.
 """
@@ -80,12 +80,41 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
 
 def is_npz(content: bytes) -> bool:
     """Whether a zip is of NumPy's arrays."""
+    names = _names_in(content)
+    return bool(names) and all(name.endswith(".npy") for name in names)
+
+
+def is_workbook(content: bytes) -> bool:
+    """Whether a zip is a file of Excel."""
+    return "xl/workbook.xml" in _names_in(content)
+
+
+def _names_in(content: bytes) -> list[str]:
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            names = packed.namelist()
+            return packed.namelist()
     except Exception:  # a damaged zip raises almost anything in there
-        return False
-    return bool(names) and all(name.endswith(".npy") for name in names)
+        return []
+
+
+def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
+    """The sheet with the most cells as CSV, and which one where there are several."""
+    import pandas as pd
+
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            size = sum(one.file_size for one in packed.infolist())
+        if size > MOST_UNPACKED:
+            raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
+        sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # as above
+        raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
+    longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
+    table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
+    notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
+    return table.to_csv(index=False, header=False).encode(), notes
 
 
 def npy(content: bytes, found: Variables) -> None:

@@ -492,7 +492,7 @@ def _sentence(
     if reason:
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
-        return "No ball carries load, so there is no fatigue."
+        return f"No {scene.bearing.kind.element} carries load, so there is no fatigue."
     words = f"Nine of ten bearings reach {turns_in_words(L)}"
     if math.isnan(hours):
         words += "; the shaft is at rest, so there are no hours."

@@ -27,6 +27,7 @@ from bearing_explorer.diagnosis.upload import (
 )
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
+from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from scipy.io import wavfile
 
@@ -124,14 +125,14 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
 
 def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
-    made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())
+    made = brought("a.csv", csv_of(0.1 * NOISE, "time,x,y"), signal())
     assert made.measured is not None
     assert not made.measured.in_si
     assert not made.state.bad
-    np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
+    np.testing.assert_allclose(made.measured.recording.acceleration, 0.1 * NOISE, rtol=1e-5)
     assert made.state.open == ["unit"]
     assert made.state.proposed == "g"
-    assert "g is likely: a root mean square of 0.3" in made.state.words
+    assert "g is likely: a root mean square of 0.1" in made.state.words
     answer(made, sure="yes")  # agreeing to guesses is no answer to this
     assert made.state.open == ["unit"]
     assert not made.measured.in_si
@@ -139,10 +140,11 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert made.measured.in_si
     assert not made.state.open
     np.testing.assert_allclose(
-        made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
+        made.measured.recording.acceleration, 0.1 * 9.80665 * NOISE, rtol=1e-5
     )
     answer(made, unit="")  # taken back
     assert not made.measured.in_si
+    assert brought("a.csv", csv_of(NOISE, "time,x,y")).state.proposed == "", "1 is usual in both"
     said = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))  # not asked where the file says it
     assert said.measured is not None
     assert said.measured.in_si
@@ -423,7 +425,15 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
         assert made.measured.machine.source_of("bearing") == "given"
-        await bring(made, "fourth.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        pulses = 5.0 * (np.arange(len(NOISE)) % 100 < 10)
+        two = np.column_stack([NOISE[:, 0], pulses])
+        await bring(made, "fourth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing"}, "the speed was the file's"
+        made.take_form({**made.state.values, "speed": "given", "shaft_speed": "1500 rpm"})
+        await settled(made)
+        await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing", "speed"}
+        assert "there is a guess from the file: " in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
@@ -440,10 +450,12 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     made = brought("two.csv", content)
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     assert "holds 2 recordings" in made.state.remarks
+    assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
     assert "“a z [g]” (along the shaft), “tacho [V]” (a guess at the shaft" in made.state.remarks
     assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)
+    assert made.state.words.startswith("two.csv, recording 2 of 2: ")
     assert "one_of_recordings(2)" in "\n".join(recording_lines(made.measured))
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     answer(made, part="3")

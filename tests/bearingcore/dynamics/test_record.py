@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bearingcore import diagnose, scene_of, simulated_record
+from bearingcore import diagnose, scene_of, simulated_record, spectrum
 from bearingcore.dynamics.record import PathEffects
 from bearingcore.sweep import sweep
 from bearingcore.sweep.outputs import OUTPUTS, Settings, chosen_outputs
@@ -42,6 +42,9 @@ def test_effects_add_what_they_say() -> None:
     behind = dataclasses.replace(BARE, background=2.0)
     added = simulated_record(SCENE, behind, 0.5, seed=3).acceleration - bare.acceleration
     np.testing.assert_allclose(np.sqrt(np.mean(added**2, axis=0)), 2.0, rtol=0.01)
+    ringing = simulated_record(SCENE, dataclasses.replace(BARE, knock=5.0), 0.5, seed=3)
+    shown = spectrum(ringing.acceleration[:, 1] - bare.acceleration[:, 1], ringing.sample_rate)
+    assert shown.frequency[shown.density.argmax()] == pytest.approx(4700.0, rel=0.04)
 
 
 def test_blows_of_an_inner_race_come_and_go_with_its_load() -> None:

@@ -132,21 +132,21 @@ SLOW = 0.5 + np.arange(N) / 99.7
                 lambda i, x, y: f"{17 * 10**17 + int(1e9 * SLOW[i])},{SLOW[i]:.9f},{y},{x}",
                 "time,seconds_elapsed,y,x",
             ),
-            99.7, True, "g", ["y", "x"],
+            99.7, True, None, ["y", "x"],
         ),
         (
             lines(
                 lambda i, x, y: f"2024-01-01 10:00:{i // 100:02d},{1 + 10 * i},{x},{y}",
                 "Timestamp,Milliseconds,X,Y",
             ),
-            100.0, True, "g", ["X", "Y"],
+            100.0, True, None, ["X", "Y"],
         ),
         (
             lines(
                 lambda i, x, y: f"{TIME[i]:.6f},{x},{y},{9 * y},{x},{x}",
                 "time,accX,GyroX,gyro_z,MagX,X (rad/s)",
             ),
-            RATE, True, "g", ["accX"],
+            RATE, True, None, ["accX"],
         ),
         (
             lines(lambda i, x, y: f"{i / 51.63:.6f},{x}", "Time (s),X (m/s^2)"),
@@ -156,7 +156,7 @@ SLOW = 0.5 + np.arange(N) / 99.7
             lines(lambda i, x, y: f"{1e-9 * i:.3e},{x}", "x-axis,1\nsecond,Volt"),
             1e9, False, "V", ["column 2 [V]"],
         ),
-        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, "g", ["column 2"]),
+        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, None, ["column 2"]),
         (
             "log of today\n" + lines(lambda i, x, y: f"t: {TIME[i] * 1e3:.3f}ms, ax={x}g, T: 21.5"),
             RATE, True, "g", ["ax [g]"],
@@ -164,25 +164,25 @@ SLOW = 0.5 + np.arange(N) / 99.7
         (
             "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
             + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
-            RATE, True, "g", ["Memo.  a comment"],
+            RATE, True, None, ["Memo.  a comment"],
         ),
         (
             ";Headers, time,acc\n"
             + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
-            1690, False, "g", ["acc"],
+            1690, False, None, ["acc"],
         ),
-        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, "g",
+        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, None,
          ["column 2", "column 3"]),
         (
             lines(
                 lambda i, x, y: f"2024-1-01 10:0:{TIME[i]:.6f} -0700,my phone,192.168.1.1,{x}",
                 "time,device,address,acc",
             ),
-            RATE, True, "g", ["acc"],
+            RATE, True, None, ["acc"],
         ),
         (
             lines(lambda i, x, y: f"00:08,{TIME[i]:.6f},{x},,,", "Duration,time,acc,watch"),
-            RATE, True, "g", ["acc"],
+            RATE, True, None, ["acc"],
         ),
     ],
 )  # fmt: skip
@@ -191,7 +191,7 @@ def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -
     assert (made.sample_rate.value, made.sample_rate.stated) == (
         pytest.approx(rate, rel=1e-3), stated,
     )  # fmt: skip
-    assert made.unit.value == unit
+    assert (made.unit.value if made.unit.supported else None) == unit  # 1 is usual in g and m/s²
     chosen = made.choice.columns.values() or made.choice.options
     assert {made.columns[index].name for index in chosen} == set(signals)
     assert made.shaft_speed is None
@@ -325,6 +325,7 @@ def matlab_table() -> bytes:
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
         (b"Octave-1-L\x00", "save -v7"),
         (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
+        (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
         (saved(np.save, cells({}, {})), "damaged or unknown part"),
@@ -341,9 +342,22 @@ def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
         (b"TDSm", "npTDMS"),
         (b"PAR1", "pyarrow"),
         (b"    -1\n    58\n", "pyuff"),
+        (zipped(**{"xl/workbook.xml": b""}), "openpyxl"),
     ):
         with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
-            read(mark + bytes(100))
+            read(mark if package == "openpyxl" else mark + bytes(100))
+
+
+def test_the_longest_sheet_of_excel_is_read() -> None:
+    pytest.importorskip("openpyxl")
+    made = io.BytesIO()
+    with pd.ExcelWriter(made, engine="openpyxl") as book:
+        pd.DataFrame({"Machine": ["pump"], "rpm": [1490]}).to_excel(book, sheet_name="Info")
+        FRAME[:500].to_excel(book, sheet_name="Data", index=False, startrow=2)
+    table = read(made.getvalue(), "a.xlsx")
+    np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
+    assert table.contents.sample_rate.value == pytest.approx(RATE)
+    assert table.notes == ("Read is its longest sheet, “Data”.",)
 
 
 # -- habits that were read wrongly ----------------------------------------------------------------

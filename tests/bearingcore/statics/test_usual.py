@@ -29,9 +29,13 @@ def test_a_scene_of_a_number_is_usual_for_its_kind(name: str) -> None:
 
 
 def test_a_row_that_carries_thrust_one_way_has_enough_of_it() -> None:
+    """1.3 times F_r tan α J_a/J_r, of rollers half of which carry 0.3090/0.2453 (Harris)."""
     for name, tandem in (("7208 B", 1), ("30206", 1), ("7208 DT", 2)):
         scene = scene_of(name)
         assert scene.load.fz > 0.0
+        if name == "30206":
+            induced = -scene.load.fy * math.tan(scene.bearing.contact_angle) * 0.3090 / 0.2453
+            assert scene.load.fz == pytest.approx(1.3 * induced, rel=0.01)
         assert equilibrium(scene).loaded_balls.min() > 0.5 * scene.bearing.total_balls * tandem / 2
 
 

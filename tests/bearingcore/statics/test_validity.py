@@ -41,6 +41,9 @@ def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
     limit = found(harsh, name)
     assert limit.crossed
     assert "rides over its edge" in limit.sentence
+    # 0.2 ball diameters high, at 40° 0.3, seen from the middle of the groove's curve
+    assert limit.limit == pytest.approx(math.acos(0.6))
+    assert found(presets["7208-40deg"], name).limit == pytest.approx(math.acos(0.4))
     # a higher shoulder holds it, and a lower one does not hold even the gentle thrust
     assert not found(harsh, name, shoulder_height=0.5).crossed
     assert found(gentle, name, shoulder_height=0.02).crossed
@@ -60,7 +63,11 @@ def test_what_centrifugal_force_changes_is_measured() -> None:
     assert values[0] < 0.01 < 0.04 < values[1]
     assert "separates the contact angles" not in found(fast, CHANGE).sentence  # radial: by 0°
     assert "separates the contact angles" in found(presets["7208-25deg"], CHANGE).sentence
-    assert "of a ball, 224 mN," in found(HEALTHY_6205, CHANGE).sentence
+    said = found(HEALTHY_6205, CHANGE).sentence
+    assert "of a ball, 224 mN," in said
+    assert said.endswith("up to 10 % it may be left out.")
+    said = found(HEALTHY_6205, "compression against groove centre distance").sentence
+    assert "up to 20 % the contact is small" in said
 
 
 def test_contact_angles_part_by_those_of_balls_that_carry_a_twentieth_of_the_heaviest_load() -> (

@@ -27,6 +27,7 @@ from bearingcore.experiments import (
     Reference,
     measurements_from,
 )
+from tests.benchmarks import charts
 from tests.helpers.timing import measure_once
 
 RIG = presets["fan-rig"]
@@ -102,7 +103,7 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
     assert "points after" in compute(job, RIG, "statics")
     assert [one.count for one in shown[:3]] == [1, 2, 3]
     found = shown[-1]
-    again = measurements_from(found.as_json())
+    again = measurements_from(charts.as_json(found))
     assert again.count == found.count
     ours, theirs = (one.experiments["statics"].points for one in (found, again))
     for one, other in zip(ours, theirs, strict=True):

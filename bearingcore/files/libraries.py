@@ -27,10 +27,11 @@ MOST_UNPACKED = 2**28
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
 
-_DOCUMENT = re.compile(
-    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$|\.(md|pdf|docx?|html?|png|jpe?g)$"
+DOCUMENT = re.compile(
+    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$"
+    r"|\.(md|rst|pdf|docx?|pptx?|html?|py|ipynb|png|jpe?g|svg)$"
 )
-"""Files that come with the signals in a zip."""
+"""Documents and pictures that come with signals in a zip or a folder."""
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
@@ -58,7 +59,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
-            files = [one for one in files if not _DOCUMENT.search(one.filename)] or files
+            files = [one for one in files if not DOCUMENT.search(one.filename)] or files
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:

@@ -149,7 +149,7 @@ def read_text(
         said, notes = said + lines, notes + more
     elif sensors is None:
         sensors = _numbers_of_sensors(read, headings)
-    if sensors is not None:
+    if sensors is not None and not _goes_through(read, headings, stamps, sensors):
         read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
         which = ", ".join(dict.fromkeys(sensors))
         notes.append(f"Rows of several sensors ({which}) are put side by side.")
@@ -210,8 +210,18 @@ def are_sensors(names: NDArray[Any]) -> bool:
     found, counts = np.unique(names, return_counts=True)
     if not 1 < len(found) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
         return False
-    changes = float((names[1:] != names[:-1]).mean())
-    return changes > MOST_CHANGES or counts.min() == counts.max() >= FEWEST_SAMPLES
+    changes = int((names[1:] != names[:-1]).sum())
+    blocks = changes + 1 == len(found) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    return changes > MOST_CHANGES * len(names) or bool(blocks)
+
+
+def _goes_through(
+    columns: Array, headings: Sequence[str] | None, stamps: Sequence[int], names: NDArray[Any]
+) -> bool:
+    """Whether times rise through blocks of words: these are labels along one signal."""
+    timed = {i for i, heading in enumerate(headings or ()) if column_of(heading).role == TIME}
+    blocks = int((names[1:] != names[:-1]).sum()) + 1 == len(np.unique(names))
+    return blocks and any((np.diff(columns[:, i]) > 0.0).all() for i in timed | set(stamps))
 
 
 def _side_by_side(

@@ -410,6 +410,12 @@ def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
     assert rate is None or rate.value == pytest.approx(RATE)
 
 
+@pytest.mark.parametrize("block", [N // 2, N // 20])
+def test_words_along_one_signal_are_no_sensors(block: int) -> None:
+    words = np.where((np.arange(N) // block) % 2, "faulty", "sound")
+    check_one_signal(read(FRAME.assign(label=words).to_csv(index=False)))
+
+
 def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
     with pytest.raises(ValueError, match=r"DE.*as many rows of each"):
         read(LONG.iloc[: 3 * N // 2].sort_values("v [g]").to_csv(index=False))

@@ -390,28 +390,3 @@ FIELD_OF: Mapping[str, Field] = {field.name: field for field in reversed(FIELDS)
 
 SCENE_PARTS = ("scene", "defect", "load", "bearing", "support")
 """Parts whose fields `Scene.replace` changes."""
-
-
-def as_markdown() -> str:
-    """All fields as a table for the documents, one row each, in the order of the page."""
-    lines = [
-        "# Fields",
-        "",
-        "Numbers of a scene, from `bearingcore.fields.FIELDS`. The name is that of `Scene.replace` "
-        "and of sweeps, in SI units; the name in links has the unit of the page.",
-        "",
-        "| name | of | symbol | SI unit | in links | unit there | meaning |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for field in FIELDS:
-        cells = (
-            f"`{field.name}`",
-            field.part or "page",
-            field.symbol,
-            field.unit,
-            f"`{field.key}`" if field.group else "",
-            field.shown_unit or "1",
-            field.meaning,
-        )
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)

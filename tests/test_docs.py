@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import bearingcore
-from bearingcore.fields import as_markdown
 from tests.benchmarks import charts
+from tests.fields import as_markdown
 
 ROOT = Path(__file__).parents[1]
 DOCS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/docs").glob("*.md"))]

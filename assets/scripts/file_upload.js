@@ -5,6 +5,8 @@ const stored = () => {
   try { return sessionStorage.getItem("signal-files") || "" } catch { return "" }
 }
 const TREND = 500  // px: the least height of its card with figures
+// Documents and pictures that people keep beside their records, as `diagnose` of a folder knows them.
+const no_record = /^(readme|licen[cs]e)\b|\.(md|rst|pdf|html?|py|ipynb|docx?|pptx?|png|jpe?g|svg)$/i
 const store = (name) => {
   window.signal_files = name
   try { sessionStorage.setItem("signal-files", name) } catch { /* a browser that stores nothing */ }
@@ -54,7 +56,8 @@ export function render({ model }) {
     baseline = is_baseline
     if (is_baseline || asked === "several") show_trend()
     asked = ""
-    const all = [...list ?? []].filter((file) => !file.name.startsWith("."))
+    const all = [...list ?? []].filter(({ name }, _, every) =>
+      !name.startsWith(".") && (every.length < 2 || !no_record.test(name)))
     if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
     all.sort((one, other) => compare(place(one), place(other)))
     chosen = all.length

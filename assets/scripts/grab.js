@@ -15,7 +15,7 @@ const LOOK = `
 .handle { position: absolute; left: 0; top: 0; width: 18px; height: 18px; margin: -9px; border-radius: 50%; pointer-events: none; outline: none; }
 .handle:focus-visible { outline: 3px solid var(--accent); outline-offset: 1px; }
 .cue { position: absolute; left: 0; top: 0; width: 66px; margin: -1.3em -33px; font: 11px/1.25 var(--font); text-align: center; color: var(--ink-soft); pointer-events: none; }
-.cue::after { content: "drag arrow or defect"; }`
+.cue::after { content: attr(data-words); }`
 if (plot.__grabbed?.el.isConnected) plot.__grabbed.place_handles()
 const view = plot.__grabbed?.el.isConnected ? null : Bokeh.index.find_one_by_id(plot.id)
 if (view?.frame?.bbox?.width > 0) {
@@ -86,6 +86,7 @@ if (view?.frame?.bbox?.width > 0) {
     const at = (right, up) => `translate(${(bbox.left + (right - plot.x_range.start) * unit).toFixed(1)}px, ${(bbox.top + (plot.y_range.end - up) * unit).toFixed(1)}px)`
     while (handles.length > x.length) handles.pop().remove()
     while (handles.length < x.length) handles.push(make_handle())
+    attribute(cue, "data-words", kind.some((one) => KINDS[one] !== "load") ? "drag arrow or defect" : "drag arrow")
     handles.forEach((one, i) => {
       const [number, place] = [value[i], angle[i]].map((one) => Number(one.toPrecision(3)))
       one.kind = KINDS[kind[i]]

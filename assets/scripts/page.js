@@ -189,6 +189,7 @@
           if (axis.axis_label?.length * WIDTH_OF_SIGN > high && !axis.axis_label.includes("\n")) axis.setv({ axis_label: in_two_lines(axis.axis_label) }, { sync: false })
       }
     }
+    requestAnimationFrame(show_marked)  // it may have been scrolled to while it was higher
   }
   // The choices above a figure: there is no room for them beside another one, and no use before the answer.
   // Below what is folded beside the figure they leave its height to it.

@@ -153,20 +153,31 @@ class OtherMaker(NamedTuple):
 OTHER_MAKER = OtherMaker(same=57, bearings=78, ratio=0.00614, ratio_spread=0.0347)
 
 
-def accuracy(tapered: bool = False) -> str:
-    """Accuracy of an estimated inside, of tapered rollers or of any other, in sentences."""
-    if tapered:
+SPINDLE_BEARINGS, SAME_BALLS, ONE_OFF = 59, 16, 28
+"""Bearings at 15° of a maker of spindle bearings (SNFA), of how many the number of balls is the
+estimated one of 70, 72 or 719 of the same sizes, and of how many one more or less."""
+
+
+def accuracy(bearing: Bearing) -> str:
+    """Accuracy of the estimated inside of a bearing, in sentences."""
+    if bearing.kind.estimate_spread is not None:
         return (
             "No table of the insides of such bearings was found to measure that by. From the "
             "ratings of another maker follows a ratio of roller and pitch diameter within "
             f"{percent(OTHER_MAKER.ratio_spread, 2)} for 19 of 20, and one roller more or less for "
             f"{OTHER_MAKER.bearings - OTHER_MAKER.same} of {OTHER_MAKER.bearings}: count them."
         )
-    return (
+    words = (
         f"So estimated, {MEASURED.right} of {MEASURED.bearings} bearings whose inside is published "
         f"have the right number of balls, and 19 of 20 of those a BPFO within "
         f"{percent(MEASURED.frequency_spread, 2)}. Makers differ: the number may be one more or "
         "less."
+    )
+    if not bearing.contact_angle or not bearing.kind.has_drawing:
+        return words
+    return (
+        f"{words} Spindle bearings differ most: of {SPINDLE_BEARINGS} of SNFA {SAME_BALLS} have "
+        f"the number estimated here, {ONE_OFF} one more or less. Count the balls."
     )
 
 

@@ -52,6 +52,11 @@ _REINFORCED = re.compile(r"[ /-]*E")
 _SEALED = re.compile(r"2?RS|LL[UB]|DDU")
 _OF_ANOTHER_MAKER = re.compile(r"[ /-]*BEA")
 
+_BORE = re.compile(r" ?/ ?(?!2[ -]?[RZ])\d+(?:[.,]\d+)?(?=$|[ -])")
+"""A bore [mm] behind the number, as in 628/8-2Z and 32307/37 BJ2; not the seals of 6205/2RS."""
+
+_CYRILLIC = re.compile(r"[А-ЯЁ]")
+
 _STEEP = re.compile(r"[ /-]*[BCD]")
 
 ONE_OF_TWO = (
@@ -61,6 +66,11 @@ SETS = "a single bearing, or a pair (DB, DF, DT): sets of three and more are not
 ONLY_PAIRS_OF = "a single bearing: pairs are known of angular-contact and tapered bearings"
 NO_TANDEM = "DB (back to back) or DF (face to face) of tapered roller bearings"
 ONE_NUMBER = "one bearing, as {} is the number of another"
+GOST = (
+    "a number of ISO, in Latin letters: with Cyrillic ones it is of GOST 3189, in which the same "
+    "digits may be another bearing"
+)
+BORE = "one whose number says the bore: bores behind a slash, as in 32307/37, are not known"
 SPACED = (
     "one without spacers, whose width it does not say: take the pair and change the distance of "
     "its rows"
@@ -71,7 +81,7 @@ PRECISION = (
 )
 REINFORCED = (
     "the number without E, or the dimensions: no ratings of this reinforced inside are known, and "
-    "its balls are others than those of the plain one"
+    "its rolling elements are others than those of the plain one"
 )
 SEALED = "the open one: sealed self-aligning bearings have smaller balls, which are not known here"
 CERAMIC_ROLLERS = "steel rollers: the stiffness of ceramic ones is not known here"
@@ -115,6 +125,11 @@ def is_steep(suffix: str) -> bool:
     return _STEEP.match(_PAIR.sub("", suffix)) is not None
 
 
+def is_reinforced(suffix: str) -> bool:
+    """Whether letters behind the number begin with E, of a reinforced inside."""
+    return _REINFORCED.match(suffix) is not None
+
+
 _PASSED_OVER = re.compile(
     r"[A-DHJLMNPRY]|(?:(?:2?-?(?:H?RS[1-9RHLJTD]?|RSH2|RSL|ZZ?|RZ|Z[RN]|DDU?|LL[BUH]|LU|LB|VV|UU|EE)"
     r"|NSL|DSD|JR|TN[9HG]?|TVPB?|TVHB?|T[VWX]?|JP?|M[AB]?|F[AB]?|PH?|Y|NR?|ECM?[LPJA]?|E[MT]?[12P]?"
@@ -150,6 +165,10 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
     refused = partial(checks.refuse, "designation", name)
     if second := _SECOND.search(text):
         raise refused(ONE_NUMBER.format(second[0]))
+    if _BORE.match(text):
+        raise refused(BORE)
+    if _CYRILLIC.search(text):
+        raise refused(GOST)
     pair = _PAIR.search(text)
     try:
         arrangement = _arrangement(kind, text, count, pair)
@@ -170,9 +189,9 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         raise refused(CERAMIC_ROLLERS)
     if kind == SELF_ALIGNING_BALLS and _SEALED.search(rest):
         raise refused(SEALED)
-    if kind == SELF_ALIGNING_BALLS and _REINFORCED.match(rest):
+    if kind == SELF_ALIGNING_BALLS and is_reinforced(rest):
         return said._replace(inside="E")
-    if kind == DEEP_GROOVE and _REINFORCED.match(rest):
+    if kind == DEEP_GROOVE and is_reinforced(rest):
         if not re.match(r"[ /-]*ETN9", rest):
             raise refused(REINFORCED)
         return said._replace(inside="ETN9")

@@ -233,7 +233,7 @@ def short_repr(value: Any) -> str:
     fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
     names = [field.name for field in fields if field.repr] or value._fields
     parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
-    return _cut(f"{type(value).__name__}({', '.join(parts)})")
+    return _cut(f"{type(value).__name__}({', '.join(parts or names)})")
 
 
 def _short(value: Any) -> str:

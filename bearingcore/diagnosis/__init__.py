@@ -1,5 +1,6 @@
 """From a measured signal to the machine: which part is damaged, and how large the defect is."""
 
+from bearingcore.diagnosis.part.combs import HARMONICS as HARMONICS
 from bearingcore.diagnosis.part.diagnose import SLIP as SLIP
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL as CANNOT_TELL
 from bearingcore.diagnosis.part.evidence import LIKELY as LIKELY

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -17,15 +16,10 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.diagnose import diagnose as diagnose_recording
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.files.facts import Finding
+from bearingcore.files.libraries import DOCUMENT
 from bearingcore.files.table import MOST_BYTES, Table, read_table
 from bearingcore.files.units import kind_of
 from bearingcore.signals.recording import Recording
-
-NO_RECORD = re.compile(
-    r"\..*|(readme|licen[cs]e)\b.*|.*\.(md|rst|pdf|html?|py|ipynb|docx?|pptx?|png|jpe?g|svg)",
-    re.IGNORECASE,
-)
-"""Names of documents and pictures that people keep beside their records."""
 
 FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
 
@@ -149,8 +143,8 @@ def diagnose(
 def _of_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    named = [one for one in sorted(folder.iterdir()) if not NO_RECORD.fullmatch(one.name)]
-    files = [one for one in named if one.is_file()]
+    named = [one for one in sorted(folder.iterdir()) if one.name[0] != "." and one.is_file()]
+    files = [one for one in named if not DOCUMENT.search(one.name)]
     if not files:
         raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []

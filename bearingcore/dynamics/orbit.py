@@ -57,6 +57,10 @@ STILL = 1e-12
 together carry, and their passing moves the rings by no more than digits."""
 
 
+LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
+"""Losses of stability by the place at which the largest multiplier leaves the unit circle."""
+
+
 @shown_as_table
 @dataclass(frozen=True)
 class Orbit:

@@ -59,12 +59,15 @@ class Method:
         settings at which it is measured; none where the setting is a step rate [Hz].
     order
         of convergence where all forces are smooth; 0 for steps that choose themselves.
+    slow
+        True where it takes longer than the others together.
     """
 
     name: str
     march: Callable[[MotionProblem, float, float, float], March]
     tolerances: tuple[float, ...] = ()
     order: int = 0
+    slow: bool = False
 
     @property
     def fixed_step(self) -> bool:
@@ -84,12 +87,17 @@ class TooManyRatesError(RuntimeError):
 class Rates:
     """The compiled right-hand side of a problem in variables scaled to 1; it counts its calls.
 
-    After `most` calls it raises TooManyRatesError.
+    `report` is called with each time [s]. After `most` calls it raises TooManyRatesError.
     """
 
-    def __init__(self, problem: MotionProblem, most: float = math.inf) -> None:
+    def __init__(
+        self,
+        problem: MotionProblem,
+        report: Callable[[float], object] = lambda t: None,
+        most: float = math.inf,
+    ) -> None:
         self.problem, self.calls = problem, 0
-        self._most = most
+        self._report, self._most = report, most
 
     @property
     def start(self) -> Array:
@@ -100,6 +108,7 @@ class Rates:
         self.calls += 1
         if self.calls > self._most:
             raise TooManyRatesError(f"more than {thousands(int(self._most))} right-hand sides")
+        self._report(t)
         return self.problem.rate(t, y * self.problem.scale) / self.problem.scale
 
     def history(self, time: Array, states: Array) -> Array:
@@ -166,7 +175,7 @@ def _own_steps(
     return March(rates.history(time, found), sample_rate, rates.calls, why)
 
 
-def _scipy(name: str, *tolerances: float) -> Method:
+def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
     """`scipy.integrate.solve_ivp` by the name of its method."""
 
     def states(rates: Rates, time: Array, tolerance: float) -> Array:
@@ -178,7 +187,7 @@ def _scipy(name: str, *tolerances: float) -> Method:
         )
         return np.asarray(answer.y).T
 
-    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances)
+    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances, slow=slow)
 
 
 HAS_CVODE = importlib.util.find_spec("sksundae") is not None
@@ -212,10 +221,10 @@ METHODS: dict[str, Method] = {
         # with velocities as variables, whose rates jump as a ball touches
         Method("RK4 in velocities", partial(_runge_kutta, velocities=True), order=4),
         _scipy("RK45", *FINE[:-1]),
-        _scipy("DOP853", *FINE),
+        _scipy("DOP853", *FINE, slow=True),
         _scipy("LSODA", *FINE),
-        _scipy("Radau", *COARSE),
-        _scipy("BDF", *COARSE),
+        _scipy("Radau", *COARSE, slow=True),
+        _scipy("BDF", *COARSE, slow=True),
         _cvode("Adams", *FINE),
         _cvode("BDF", *COARSE, 1e-9),
     )
@@ -223,6 +232,10 @@ METHODS: dict[str, Method] = {
 """Ways to march by name."""
 
 
-def usable_methods() -> tuple[str, ...]:
-    """Names of the methods whose packages are installed."""
-    return tuple(name for name in METHODS if HAS_CVODE or not name.startswith("CVODE"))
+def usable_methods(*, slow: bool = True) -> tuple[str, ...]:
+    """Names of the methods whose packages are installed; without `slow` only quick ones."""
+    return tuple(
+        name
+        for name, method in METHODS.items()
+        if (slow or not method.slow) and (HAS_CVODE or not name.startswith("CVODE"))
+    )

@@ -8,27 +8,36 @@ import math
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import msgspec
 
 from bearingcore.common.numbers import with_prefix
+from bearingcore.common.progress import CancelledError
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.experiments.integrators import usable_methods
 from bearingcore.experiments.motions import motion_experiment
-from bearingcore.experiments.points import RIGHT, Experiment, Point
+from bearingcore.experiments.orbits import OrbitAtSpeed, orbits_over_speed
+from bearingcore.experiments.points import Experiment, Point, Watch
+from bearingcore.experiments.stability import StabilityChart, stability_chart
 from bearingcore.experiments.statics import statics_experiment
 from bearingcore.scene.scene import MASSLESS, Scene
 
 PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
 
-EXPERIMENTS: dict[str, Callable[[Scene], Experiment]] = {
-    "motion": lambda scene: motion_experiment(scene, duration=0.1),
-    "statics": lambda scene: statics_experiment(scene, n_angles=31),
+STABILITY, ORBITS = "stability", "orbits"
+EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
+    "motion": lambda scene, watch, slow: motion_experiment(
+        scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
+    ),
+    "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
 }
-"""Experiments by name, as the page and the shipped files have them."""
+"""Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
+MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
+"""Everything that can be measured."""
 
 
 @dataclass(frozen=True)
@@ -96,18 +105,26 @@ class Measurements:
         what it was measured on.
     experiments
         by their names in EXPERIMENTS.
+    stability
+        verdicts over steps, if measured.
+    orbits
+        the periodic motion over the shaft speed, if measured.
     refused
         why an experiment cannot be done with this scene, by its name.
     """
 
     machine: Machine
     experiments: dict[str, Experiment] = field(default_factory=dict)
+    stability: StabilityChart | None = None
+    orbits: tuple[OrbitAtSpeed, ...] = ()
     refused: dict[str, str] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
         """Number of points in all."""
-        return sum(len(one.points) for one in self.experiments.values())
+        trials = self.stability.trials if self.stability is not None else ()
+        points = sum(len(one.points) for one in self.experiments.values())
+        return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
         """A row for each point of the experiments: errors under their names, NaN for the others.
@@ -135,32 +152,6 @@ class Measurements:
             ("status", "", [p.status for _, p in points]),
         )
 
-    def as_json(self) -> str:
-        """The text of a file: numbers with four digits, an experiment to a line."""
-        parts = _rounded(asdict(self))
-        experiments = ",\n".join(
-            f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
-            for name, one in parts.pop("experiments").items()
-        )
-        rest = json.dumps(parts, ensure_ascii=False)
-        return f'{rest[:-1]},\n"experiments": {{\n{experiments}\n}}}}\n'
-
-
-_AS_USUAL: tuple[tuple[str, Any], ...] = (
-    ("status", RIGHT),
-    ("against", ""),
-    ("in_use", False),
-)
-"""Entries of points that files leave out."""
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, float) and not value.is_integer():
-        return float(f"{value:.4g}")
-    if isinstance(value, dict):
-        return {n: _rounded(one) for n, one in value.items() if (n, one) not in _AS_USUAL}
-    return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
-
 
 def measurements_from(text: str) -> Measurements:
     """The measurements in the text of a file; ValueError where it holds anything else."""
@@ -169,9 +160,17 @@ def measurements_from(text: str) -> Measurements:
 
 
 def measure(
-    scene: Scene, names: Sequence[str] = tuple(EXPERIMENTS), *, c_loop: float = math.nan
+    scene: Scene,
+    names: Sequence[str] = MEASURED,
+    *,
+    c_loop: float = math.nan,
+    slow: bool = True,
+    progress: Callable[[float, str], object] = lambda part, words: None,
+    cancelled: Callable[[], bool] = lambda: False,
+    shown: Callable[[Measurements], object] = lambda found: None,
+    words: Callable[[ValueError], str] = str,
 ) -> Measurements:
-    """Measure a scene by experiments, one after the other: two to five minutes for all.
+    """Measure a scene by experiments, one after the other.
 
     Balls are taken without mass.
 
@@ -180,16 +179,45 @@ def measure(
     scene
         at hand.
     names
-        of experiments.
+        out of MEASURED.
     c_loop
         for `Machine`.
+    slow
+        whether integrators that take longer than all others together are among them.
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point, and within references; True ends with what there is.
+    shown
+        called with what there is, after each point.
+    words
+        of a refusal, for `Measurements.refused`.
     """
     scene = scene.replace(balls=MASSLESS)
     found = Measurements(this_machine(c_loop))
-    for name in names:
+    for k, name in enumerate(names):
+        if cancelled():
+            break
+
+        def report(part: float, words: str, begin: int = k) -> None:
+            progress((begin + part) / len(names), words)
+
+        def show(one: Experiment, name: str = name, before: Measurements = found) -> None:
+            shown(replace(before, experiments={**before.experiments, name: one}))
+
+        watch = Watch(report, cancelled, show)
         try:
-            experiments = {**found.experiments, name: EXPERIMENTS[name](scene)}
-            found = replace(found, experiments=experiments)
+            if name == STABILITY:
+                chart = stability_chart(scene, duration=0.1, watch=watch)
+                found = replace(found, stability=chart)
+            elif name == ORBITS:
+                found = replace(found, orbits=orbits_over_speed(scene, watch))
+            else:
+                one = EXPERIMENTS[name](scene, watch, slow)
+                found = replace(found, experiments={**found.experiments, name: one})
+        except CancelledError:
+            break
         except ValueError as refused:
-            found = replace(found, refused={**found.refused, name: str(refused)})
+            found = replace(found, refused={**found.refused, name: words(refused)})
+        shown(found)
     return found

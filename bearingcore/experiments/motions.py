@@ -15,10 +15,21 @@ from bearingcore.dynamics.modes import highest_natural_frequency
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.step_rate import default_step_rate
 from bearingcore.experiments.integrators import HAS_CVODE, METHODS, Method, usable_methods
-from bearingcore.experiments.points import Experiment, Point, failed, least_time
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    Experiment,
+    Point,
+    Watch,
+    failed,
+    least_time,
+    measured_in_turn,
+)
 from bearingcore.experiments.references import MOTION_ERRORS, MotionReference, motion_reference
 from bearingcore.scene.scene import Scene
 from bearingcore.signals.spectrum_difference import BAND
+
+SHARE_OF_REFERENCE = 0.3
+"""Part of the work that the reference usually is."""
 
 MOTIONS_LEFT_OUT = (
     "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
@@ -71,6 +82,7 @@ def motion_experiment(
     duration: float = 0.35,
     sample_rate: float = 65536.0,
     methods: Sequence[str] | None = None,
+    watch: Watch = NOT_WATCHED,
 ) -> Experiment:
     """Error against cost of ways to march the motion of `scene` from rest.
 
@@ -84,6 +96,8 @@ def motion_experiment(
         [Hz] of the instants at which motions are compared.
     methods
         names out of `integrators.METHODS`; None takes all that are installed.
+    watch
+        progress, points as they come, and cancelling.
 
     Raises
     ------
@@ -97,24 +111,31 @@ def motion_experiment(
         checks.choice("method", name, tuple(METHODS))
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
+    report = watch.within(0.0, SHARE_OF_REFERENCE)
+    report(0.0)
     for name in names:
         if METHODS[name].fixed_step:  # so that nothing is compiled while time is taken
             METHODS[name].march(
                 problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate
             )
-    reference = motion_reference(problem, duration, sample_rate, BAND * highest)
+    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
     usual = default_step_rate(scene, sample_rate)
-    return Experiment(
+    tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]
+    experiment = Experiment(
         "motion",
         MOTION_ERRORS,
         "right-hand sides",
         {"": reference.reference},
-        tuple(
-            measured(METHODS[name], setting, reference, usual)
-            for name in names
-            for setting in settings_of(METHODS[name], usual)
-        ),
+        (),
         MOTIONS_LEFT_OUT
         if HAS_CVODE
         else f"{MOTIONS_LEFT_OUT}; CVODE, as scikit-sundae is not installed",
+    )
+    return measured_in_turn(
+        experiment,
+        tasks,
+        lambda task: f"{task[0].name}, {scientific(task[1])}",
+        lambda task: measured(*task, reference, usual),
+        watch,
+        begin=SHARE_OF_REFERENCE,
     )

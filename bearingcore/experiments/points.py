@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from bearingcore.common.numbers import scientific
+from bearingcore.common.progress import Cancelled, CancelledError, Progress, in_turn
 
 T = TypeVar("T")
+
+ShowExperiment = Callable[["Experiment"], object]
+"""Called with what there is of an experiment, after each point."""
 
 RIGHT = "right"
 
@@ -90,16 +94,6 @@ class Reference:
     trusted: bool
     note: str = ""
 
-    @property
-    def sentence(self) -> str:
-        """For captions: who agrees with whom, and how well."""
-        apart = ", ".join(
-            f"{name} {scientific(value, 2)}" for name, value in self.agreement.items()
-        )
-        verdict = "agree" if self.trusted else "DO NOT AGREE, so errors below mean little"
-        text = f"{' and '.join(self.families)} {verdict}: apart by {apart}"
-        return f"{text}. {self.note}" if self.note else text
-
 
 @dataclass(frozen=True)
 class Experiment:
@@ -119,6 +113,8 @@ class Experiment:
         in the order measured.
     left_out
         which methods are not among them, and why.
+    completed
+        False where it was cancelled.
     """
 
     name: str
@@ -127,6 +123,7 @@ class Experiment:
     references: Mapping[str, Reference]
     points: tuple[Point, ...]
     left_out: str = ""
+    completed: bool = True
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -185,11 +182,76 @@ class Experiment:
 nan = math.nan
 
 
+@dataclass(frozen=True)
+class Watch:
+    """Callables by which an experiment reports, and by which it can be ended.
+
+    Attributes
+    ----------
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point; True ends with the points that are there. Called within
+        references too, where True raises CancelledError.
+    shown
+        called with the experiment as far as it is, after each point.
+    """
+
+    progress: Progress | None = None
+    cancelled: Cancelled | None = None
+    shown: ShowExperiment | None = None
+
+    def show(self, experiment: Experiment) -> None:
+        """Show what there is."""
+        if self.shown is not None:
+            self.shown(experiment)
+
+    def within(self, begin: float, end: float) -> Callable[[float], object]:
+        """Progress of references, which are the part from `begin` to `end` of the work.
+
+        What it returns raises CancelledError where the work is cancelled: an experiment without
+        its references has no points.
+        """
+
+        def report(part: float) -> None:
+            if self.cancelled is not None and self.cancelled():
+                raise CancelledError
+            if self.progress is not None:
+                self.progress(begin + (end - begin) * part, "references")
+
+        return report
+
+
+NOT_WATCHED = Watch()
+"""Neither reports nor ends early."""
+
+
 def failed(
     method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
 ) -> Point:
     """A point that says that a method did not get there."""
     return Point(method, setting, value, {}, seconds, evaluations, f"failed: {why}")
+
+
+def measured_in_turn(
+    experiment: Experiment,
+    tasks: Sequence[T],
+    name: Callable[[T], str],
+    measure: Callable[[T], Point],
+    watch: Watch,
+    *,
+    begin: float,
+) -> Experiment:
+    """The experiment with a point for each task, shown after each; ends early when cancelled.
+
+    `begin` is the part of the work that its references were.
+    """
+    for task in in_turn(tasks, name, watch.progress, watch.cancelled, begin=begin):
+        experiment = replace(
+            experiment, points=(*experiment.points, measure(task)), completed=False
+        )
+        watch.show(experiment)
+    return replace(experiment, completed=len(experiment.points) == len(tasks))
 
 
 def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> tuple[T, float]:

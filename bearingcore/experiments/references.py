@@ -91,17 +91,24 @@ def motion_errors(
 
 
 def motion_reference(
-    problem: MotionProblem, duration: float, sample_rate: float, band: float
+    problem: MotionProblem,
+    duration: float,
+    sample_rate: float,
+    band: float,
+    report: Callable[[float], object] = lambda part: None,
 ) -> MotionReference:
-    """The motion by all families at a tolerance of 1e-13, and how far they are apart."""
+    """The motion by all families at a tolerance of 1e-13, and how far they are apart.
+
+    `report` is called with the part done, 0 to 1.
+    """
     time = instants(sample_rate, duration)
     families = FAMILIES if HAS_CVODE else FAMILIES[:2]
 
-    def history(states: Callable[[Rates, Array], Array]) -> Array:
-        rates = Rates(problem)
+    def history(k: int, states: Callable[[Rates, Array], Array]) -> Array:
+        rates = Rates(problem, lambda t: report((k + t / duration) / len(families)))
         return rates.history(time, states(rates, time))
 
-    histories = [history(states) for _, states in families]
+    histories = [history(k, states) for k, (_, states) in enumerate(families)]
     first = histories[0]
     apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
     agreement = apart[0]

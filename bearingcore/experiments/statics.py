@@ -19,7 +19,16 @@ from bearingcore import kernels
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import scientific
-from bearingcore.experiments.points import RIGHT, Experiment, Point, Reference, least_time
+from bearingcore.experiments.points import (
+    NOT_WATCHED,
+    RIGHT,
+    Experiment,
+    Point,
+    Reference,
+    Watch,
+    least_time,
+    measured_in_turn,
+)
 from bearingcore.scene import packing
 from bearingcore.scene.scene import Scene
 from bearingcore.statics.equilibrium import default_cage_angles, equilibrium
@@ -341,7 +350,12 @@ def static_errors(
     }
 
 
-def statics_experiment(scene: Scene, *, n_angles: int = 121) -> Experiment:
+def statics_experiment(
+    scene: Scene,
+    *,
+    n_angles: int = 121,
+    watch: Watch = NOT_WATCHED,
+) -> Experiment:
     """Error against cost of ways to solve the static equilibrium over a period of cage angles.
 
     Parameters
@@ -350,17 +364,24 @@ def statics_experiment(scene: Scene, *, n_angles: int = 121) -> Experiment:
         what to solve.
     n_angles
         equally spaced cage angles in a ball spacing.
+    watch
+        progress, points as they come, and cancelling.
 
     Raises
     ------
     ValueError
         for a scene without a static state.
     """
+    report = watch.within(0.0, 0.1)
+    report(0.0)
     problems = {
         "": static_problem(scene, default_cage_angles(scene, n_angles)),
         **hard_cases(scene),
     }
-    truths = {case: static_reference(problem) for case, problem in problems.items()}
+    truths = {}
+    for k, (case, problem) in enumerate(problems.items()):
+        report(k / len(problems))
+        truths[case] = static_reference(problem)
     if not truths[""].known.any():
         raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
     for name in SOLVERS:
@@ -373,16 +394,23 @@ def statics_experiment(scene: Scene, *, n_angles: int = 121) -> Experiment:
         if case
         for name in SOLVERS
     ]
-    return Experiment(
+    experiment = Experiment(
         "statics",
         STATIC_ERRORS,
         "evaluations of all contacts per equilibrium",
         {case: truth.reference for case, truth in truths.items()},
-        tuple(
-            replace(_measured(problems[case], truths[case], name, tolerance), against=case)
-            for case, name, tolerance in tasks
-        ),
+        (),
         STATICS_LEFT_OUT,
+    )
+    return measured_in_turn(
+        experiment,
+        tasks,
+        lambda task: f"{task[1]}, {scientific(task[2])}",
+        lambda task: replace(
+            _measured(problems[task[0]], truths[task[0]], *task[1:]), against=task[0]
+        ),
+        watch,
+        begin=0.1,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -41,8 +42,12 @@ from bearingcore.files.units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.signals.recording import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
-USUAL_LEVEL = 5.0
-"""[m/s²] root mean square of bearings in machines, in the middle of what is usual."""
+USUAL_LEVEL, SPREAD = 3.0, 1.1
+"""[m/s²] root mean square in the middle of 88 public records that say their unit, and the standard
+deviation of its logarithm."""
+
+LIKELY = math.log(0.9 / 0.1)
+"""Logarithm of the odds from which one of two units is called likely."""
 
 FEWEST_PULSES = 8
 """Of a tachometer that are a speed."""
@@ -416,11 +421,13 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
     if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False, supported=False)
     strays = {
-        unit: abs(float(np.log(level * ACCELERATIONS[unit] / USUAL_LEVEL)))
+        unit: (math.log(level * ACCELERATIONS[unit] / USUAL_LEVEL) / SPREAD) ** 2
         for unit in ("g", "m/s²")
     }
-    best = min(strays, key=lambda unit: strays[unit])
-    other = "g" if best == "m/s²" else "m/s²"
+    best, other = sorted(strays, key=lambda unit: strays[unit])
+    if 0.5 * (strays[other] - strays[best]) < LIKELY:
+        words = f"a root mean square of {number(level, 2)} is usual in g and in m/s²"
+        return Finding("m/s²", words, False, supported=False)
     why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
     return Finding(best, why, False)
 

@@ -55,6 +55,11 @@ def read(
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
+        if libraries.is_workbook(content):
+            _need("openpyxl", name, "Excel file")
+            sheet, notes = libraries.longest_sheet(name, content)
+            about, columns = read_text(name, sheet, most_numbers, most_columns)
+            return about | {"notes": notes + about.get("notes", [])}, columns
         names, content = libraries.unzipped(name, content)
         if len(names) > 1:
             return {"inside": names}, np.empty((0, 0))
@@ -97,20 +102,28 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
     """
     for mark, kind, walk, package in _FORMATS:
         if re.match(mark, content, re.DOTALL):
-            if package and importlib.util.find_spec(package.lower()) is None:
-                raise checks.refuse(
-                    "file",
-                    name,
-                    f"a {kind} only where the package {package} is installed (pip install "
-                    f"{package}); else export it as CSV from the program that wrote it",
-                )
+            _need(package, name, kind)
             return kind, walk
+    if content[:4] == b"\xd0\xcf\x11\xe0":
+        raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
     if content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
     return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
+
+
+def _need(package: str, name: str, kind: str) -> None:
+    """Refuse a file whose package is not installed."""
+    if package and importlib.util.find_spec(package.lower()) is None:
+        raise checks.refuse(
+            "file",
+            name,
+            f"{'an' if kind[0] in 'AEIOU' else 'a'} {kind} only where the package {package} is "
+            f"installed (pip install {package}); else export it as CSV from the program that "
+            "wrote it",
+        )
 
 
 def _unzipped_alone(name: str, content: bytes) -> bytes:

@@ -1,4 +1,4 @@
-"""Formats that other libraries read: UFF, TDMS, Parquet, and NumPy's own; and a zip of one file.
+"""Formats that other libraries read: UFF, TDMS, Parquet, Excel, NumPy's own; a zip of one file.
 
 Runs in the process of `child` alone. The libraries come with the extra `files`.
 """
@@ -27,10 +27,11 @@ MOST_UNPACKED = 2**28
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
 
-_DOCUMENT = re.compile(
-    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$|\.(md|pdf|docx?|html?|png|jpe?g)$"
+DOCUMENT = re.compile(
+    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$"
+    r"|\.(md|rst|pdf|docx?|pptx?|html?|py|ipynb|png|jpe?g|svg)$"
 )
-"""Files that come with the signals in a zip."""
+"""Documents and pictures that come with signals in a zip or a folder."""
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
@@ -58,7 +59,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
-            files = [one for one in files if not _DOCUMENT.search(one.filename)] or files
+            files = [one for one in files if not DOCUMENT.search(one.filename)] or files
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:
@@ -80,12 +81,41 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
 
 def is_npz(content: bytes) -> bool:
     """Whether a zip is of NumPy's arrays."""
+    names = _names_in(content)
+    return bool(names) and all(name.endswith(".npy") for name in names)
+
+
+def is_workbook(content: bytes) -> bool:
+    """Whether a zip is a file of Excel."""
+    return "xl/workbook.xml" in _names_in(content)
+
+
+def _names_in(content: bytes) -> list[str]:
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            names = packed.namelist()
+            return packed.namelist()
     except Exception:  # a damaged zip raises almost anything in there
-        return False
-    return bool(names) and all(name.endswith(".npy") for name in names)
+        return []
+
+
+def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
+    """The sheet with the most cells as CSV, and which one where there are several."""
+    import pandas as pd
+
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            size = sum(one.file_size for one in packed.infolist())
+        if size > MOST_UNPACKED:
+            raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
+        sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # as above
+        raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
+    longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
+    table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
+    notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
+    return table.to_csv(index=False, header=False).encode(), notes
 
 
 def npy(content: bytes, found: Variables) -> None:

@@ -187,14 +187,20 @@ def _even(time: Array) -> tuple[float, float] | None:
     return 1.0 / step, 2.0 * float(stray.max()) / (step * step * (n - 1))
 
 
+EXACT = 1e-6
+"""Of a rate: less than any recorder's clock is off."""
+
+
 def _customary(rate: float, error: float, unit: float, n: int) -> float:
     """The customary rate [Hz] inside the error that rounding makes, else the rate itself.
 
-    Times that are printed exactly stay as they are: clocks may well be off.
+    Times that are printed exactly stay as they are, but for what their last digits may leave of a
+    whole number: clocks may well be off.
     """
     rate, error = rate / unit, error / unit
-    if error * n <= 0.02 * rate:
-        return rate  # rounding moves no time by as much as a fiftieth of a step
+    if error * n <= 0.02 * rate:  # rounding moves no time by as much as a fiftieth of a step
+        whole = float(round(rate))
+        return whole if abs(whole - rate) <= max(1.2 * error, EXACT * rate) else rate
     near = min(_CUSTOMARY, key=lambda known: abs(known - rate))
     return near if abs(near - rate) <= 1.2 * error else rate
 
@@ -239,8 +245,11 @@ def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         part = time[first:last]
         if last - first >= FEWEST_SAMPLES:
             parts = long_parts(pairwise(edges.tolist()))
-            said = _recordings(time, parts, (first, last), unit)
-            said += _jumps(steps, jumps, usual, first, last, shared)
+            said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
+            if parts:
+                said = f"{_recordings(time, parts, (first, last), unit)}, {used}, is read. {said}."
+            else:
+                said += f". Only the longest part without a jump is used: {used}."
             even = _even(part)
             if even is not None:
                 rate = _customary(*even, unit, last - first)
@@ -280,21 +289,17 @@ def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
 def _recordings(
     time: Array, parts: Sequence[tuple[int, int]], read: tuple[int, int], unit: float
 ) -> str:
-    """Sentence on several recordings in one file, and which of them is read."""
-    if not parts:
-        return ""
+    """Beginning of a sentence on several recordings in one file, and on the one that is read."""
     long = [with_prefix(float(time[b - 1] - time[a]) * unit, "s", 3) for a, b in parts]
     spans = f"{', '.join(long[:-1])} and {long[-1]}" if len(long) <= MOST_NAMED else "many lengths"
     return (
-        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; number "
-        f"{parts.index(read) + 1} is read, unless another is chosen. "
+        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; unless another is "
+        f"chosen number {parts.index(read) + 1}"
     )
 
 
-def _jumps(
-    steps: Array, jumps: NDArray[np.intp], usual: float, first: int, last: int, shared: bool
-) -> str:
-    """Sentence on jumps; where rows share times the number of missing samples is not known."""
+def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
+    """Words on jumps; where rows share times the number of missing samples is not known."""
     back = int((steps[jumps] <= 0.0).sum())
     # rounded times have rounded steps: only their mean is as long as a step is
     even = np.delete(steps, jumps)
@@ -308,11 +313,7 @@ def _jumps(
         remarks.append(f"{thousands(missing)} sample{'s are' if missing > 1.0 else ' is'} missing")
     if back:
         remarks.append("back" if back == jumps.size else f"{back} times back")
-    words += f" ({', '.join(remarks)})" if remarks else ""
-    return (
-        f"{words}. Only the longest part without a jump is used: rows {first + 1} to {last} of "
-        f"{len(steps) + 1}."
-    )
+    return words + (f" ({', '.join(remarks)})" if remarks else "")
 
 
 def clock_columns(columns: Array) -> int:

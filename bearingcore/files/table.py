@@ -54,7 +54,12 @@ _UNITS_OF: Mapping[str, Mapping[str, float]] = {
 
 @dataclass(frozen=True)
 class Table(FileColumns):
-    """Columns of numbers out of a file, with their meaning, for making a recording."""
+    """Columns of numbers out of a file, with their meaning, for making a recording.
+
+    `chosen`: of several recordings in the file the one that these are, in words.
+    """
+
+    chosen: str = ""
 
     @cached_property
     def contents(self) -> FileContents:
@@ -88,9 +93,19 @@ class Table(FileColumns):
         if not parts:
             return self
         first, last = parts[number - 1]
-        words = f"Recording {number} of {len(parts)} in the file is read, from row {first + 1}."
+        which = f"recording {number} of {len(parts)}"
+        words = f"{which.capitalize()} in the file is read, from row {first + 1}."
         columns = self.columns[first:last]
-        return dataclasses.replace(self, columns=columns, notes=(*self.notes, words))
+        return dataclasses.replace(self, columns=columns, notes=(*self.notes, words), chosen=which)
+
+    @property
+    def which(self) -> str:
+        """Of several recordings in the file the one that is read, in words; else empty."""
+        parts = self.recordings
+        if self.chosen or not parts:
+            return self.chosen
+        longest = max(range(len(parts)), key=lambda k: parts[k][1] - parts[k][0])
+        return f"recording {longest + 1} of {len(parts)}"
 
     @property
     def first_rows(self) -> list[list[float]]:
@@ -344,8 +359,8 @@ def read_table(name: str, content: bytes) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet and Feather; also a zip or gzip of one of them. What it is shows in its first
-    bytes. It is read in a process of its own with limits of time and memory: see
+    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. What it is
+    shows in its first bytes. It is read in a process of its own with limits of time and memory: see
     `bearingcore.files.child`.
 
     Parameters

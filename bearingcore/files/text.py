@@ -49,7 +49,7 @@ SAMPLE = 30
 
 READABLE = (
     "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
-    "Parquet, or a zip of one of these; export it as CSV where it is none of them"
+    "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
 
@@ -123,7 +123,7 @@ def read_text(
     found = _numbers(body, style, most_rows)
     if found is None:
         above = content.count(b"\n", 0, begin) + 1
-        body, more, said = _mended(name, body, style, above)
+        body, more, said = _mended(name, body, style, above, remarks)
         notes += more
         found = _numbers(body, style, most_rows)
         if found is None:
@@ -149,7 +149,7 @@ def read_text(
         said, notes = said + lines, notes + more
     elif sensors is None:
         sensors = _numbers_of_sensors(read, headings)
-    if sensors is not None:
+    if sensors is not None and not _goes_through(read, headings, stamps, sensors):
         read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
         which = ", ".join(dict.fromkeys(sensors))
         notes.append(f"Rows of several sensors ({which}) are put side by side.")
@@ -208,10 +208,20 @@ def are_sensors(names: NDArray[Any]) -> bool:
     blocks of one length.
     """
     found, counts = np.unique(names, return_counts=True)
-    if not 1 < len(found) <= MOST_SIGNALS_MIXED or counts.min() < FEWEST_SAMPLES:
+    if not 1 < len(found) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
         return False
-    changes = float((names[1:] != names[:-1]).mean())
-    return changes > MOST_CHANGES or counts.min() == counts.max()
+    changes = int((names[1:] != names[:-1]).sum())
+    blocks = changes + 1 == len(found) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    return changes > MOST_CHANGES * len(names) or bool(blocks)
+
+
+def _goes_through(
+    columns: Array, headings: Sequence[str] | None, stamps: Sequence[int], names: NDArray[Any]
+) -> bool:
+    """Whether times rise through blocks of words: these are labels along one signal."""
+    timed = {i for i, heading in enumerate(headings or ()) if column_of(heading).role == TIME}
+    blocks = int((names[1:] != names[:-1]).sum()) + 1 == len(np.unique(names))
+    return blocks and any((np.diff(columns[:, i]) > 0.0).all() for i in timed | set(stamps))
 
 
 def _side_by_side(
@@ -846,7 +856,7 @@ def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
 
 
 def _mended(
-    name: str, body: bytes, style: _Style, above: int
+    name: str, body: bytes, style: _Style, above: int, remarks: Sequence[str]
 ) -> tuple[bytes, list[str], list[str]]:
     """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
@@ -880,6 +890,8 @@ def _mended(
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
         lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
         lines[index] += b"\n"
+    again = {line[:40] for line in remarks}  # headings of a second recording are no news
+    wrong = [one for one in wrong if one[1] not in again]
     if not wrong:
         return b"".join(lines), [], []
     index, text, _ = wrong[0]

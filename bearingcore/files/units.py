@@ -57,7 +57,10 @@ SPEEDS: Mapping[str, float] = MappingProxyType(
 )
 """[rad/s]"""
 
-_OTHERS = ("µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz")
+_OTHERS = (
+    "µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz", "dB", "km/h",
+    "W", "kW", "l/min",
+)  # fmt: skip
 
 _WRITTEN = {
     "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 "

@@ -22,9 +22,9 @@ BY_CHANCE = 1e-5
 """Share of the samples at which numbers as coarse as a signal's may look held, on a straight line
 or repeated. A recorder that loses samples fills the gaps with such, often at a steady rate."""
 
-MOST_LOST = 0.5
-"""Share of a signal without samples of its own from which short fillings are no gaps: the whole of
-it was made so, by resampling it or by computing a period."""
+THROUGHOUT = 0.95
+"""Share of a signal that is filled, or next to what is, from which the whole of it was resampled
+and these are no gaps."""
 
 LOST_REACH = 8
 """Samples over which the edge of a gap rings in the widest band, see `squared_envelopes`."""
@@ -78,7 +78,9 @@ def signal_faults(samples: Array) -> SignalFaults:
     dropped = np.zeros(len(samples), dtype=bool)
     low, high = float(samples.min()), float(samples.max())
     near = RAIL * (high - low)
-    short = 1 + _fewest(_equal_by_chance(samples, steps))
+    levels, times = np.unique(samples, return_counts=True)
+    step = _step_between(levels, times)
+    short = 1 + _fewest(step, steps)
     held = np.zeros(len(samples), dtype=bool)
     clipped = 0
     for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
@@ -89,9 +91,12 @@ def signal_faults(samples: Array) -> SignalFaults:
             clipped += end - begin + 1
         elif end - begin + 1 >= short:
             held[begin : end + 1] = True
-    for filled in (held, _drawn(samples, steps), _repeated(samples, steps)):
-        if _spread(filled) <= MOST_LOST:
+    for filled in (held, _drawn(steps, step, high - low)):
+        if _spread(filled) < THROUGHOUT:
             dropped |= filled
+    repeated = _repeated(samples, steps, times)
+    if repeated.mean() < 0.5:  # more repeats where a signal was computed, with a period
+        dropped |= repeated
     return SignalFaults(dropped, float(dropped.mean()), clipped / len(samples))
 
 
@@ -100,39 +105,40 @@ def _spread(dropped: NDArray[np.bool_]) -> float:
     return float((np.convolve(dropped, np.ones(2 * LOST_REACH + 1), "same") > 0.5).mean())
 
 
-def _fewest(chance: float) -> int:
-    """Length of a run that events of that chance make at fewer than BY_CHANCE of all places."""
+def _step_between(levels: Array, times: NDArray[np.int64]) -> float:
+    """Step of the numbers of a signal, from those that occur and how many times each does."""
+    if times[times > 1].sum() > 0.5 * times.sum():  # numbers drawn into gaps are no levels
+        levels = levels[times > 1]
+    return float(np.quantile(np.diff(levels), 0.05)) if len(levels) > 1 else 0.0
+
+
+def _fewest(step: float, differences: Array) -> int:
+    """Differences of zero in a row that rounding to steps makes at fewer than BY_CHANCE places."""
+    chance = max(step / max(float(np.median(np.abs(differences))), 1e-300), 1e-12)
     return LEAST_RUN if chance >= 0.5 else max(1, math.ceil(math.log(BY_CHANCE) / math.log(chance)))
 
 
-def _equal_by_chance(samples: Array, differences: Array) -> float:
-    """The chance of a difference of zero where rounding to steps makes it."""
-    levels, times = np.unique(samples, return_counts=True)
-    if times[times > 1].sum() > 0.5 * len(samples):  # numbers drawn into gaps are no levels
-        levels = levels[times > 1]
-    step = float(np.quantile(np.diff(levels), 0.05)) if len(levels) > 1 else 0.0
-    return min(1.0, max(step / max(float(np.median(np.abs(differences))), 1e-300), 1e-12))
-
-
-def _drawn(samples: Array, steps: Array) -> NDArray[np.bool_]:
+def _drawn(steps: Array, step: float, swing: float) -> NDArray[np.bool_]:
     """Samples (n,) on straight lines between those that were measured."""
-    found = np.zeros(len(samples), dtype=bool)
+    found = np.zeros(len(steps) + 1, dtype=bool)
     bends = np.diff(steps)
-    fewest = _fewest(_equal_by_chance(samples, bends))
-    straight = (np.abs(bends) <= STRAIGHT * np.ptp(samples)) & (steps[1:] != 0.0)
+    fewest = _fewest(step, bends)
+    straight = (np.abs(bends) <= STRAIGHT * swing) & (steps[1:] != 0.0)
     for begin, end in zip(*runs(straight), strict=True):
         if end - begin >= fewest:
             found[begin + 1 : end + 1] = True
     return found
 
 
-def _repeated(samples: Array, steps: Array) -> NDArray[np.bool_]:
-    """Samples (n,) that repeat a stretch before them, number by number."""
+def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Samples (n,) that repeat a stretch before them, number by number.
+
+    `times` is how many times each number occurs.
+    """
     found = np.zeros(len(samples), dtype=bool)
-    alike = 0.0  # the chance that two samples, or two of the steps between them, are equal
-    for values in (samples, steps):
-        times = np.unique(values, return_counts=True)[1]
-        alike = max(alike, float(np.square(times / len(values)).sum()))
+    moves_alike = np.unique(steps, return_counts=True)[1]
+    # the chance that two samples, or two of the steps between them, are equal
+    alike = max(float(np.square(many / many.sum()).sum()) for many in (times, moves_alike))
     if alike >= 0.5:
         return found
     word = 2

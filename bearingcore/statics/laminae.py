@@ -48,7 +48,7 @@ LAMINAE = 30
 
 LINE_EXPONENT = 10.0 / 9.0
 
-GRID = np.concatenate([[0.0], np.geomspace(1e-8, 1e6, 8192)])
+GRID = np.concatenate([[0.0], np.geomspace(1e-18, 1e6, 14_044)])
 """Compressions over the diameter at which the law of a profiled roller is tabulated: a step is
 0.4 %, a straight line between is off by 1e-6. Newton's steps may begin far too long."""
 
@@ -133,7 +133,8 @@ def compressions(state: Equilibrium) -> Array:
         if settled.all():
             break
         bend = np.matmul((gradient * slope[:, :, None]).transpose(0, 2, 1), gradient)
-        bend += 1e-12 * np.trace(bend, axis1=1, axis2=2).max() * np.eye(len(force))
+        stiffest = np.trace(bend, axis1=1, axis2=2).max()
+        bend += (1e-12 * stiffest or 1.0) * np.eye(len(force))
         step = np.linalg.solve(bend, rest[:, :, None])[:, :, 0]
         part = np.ones((len(place), 1))
         for _ in range(HALVINGS):

@@ -186,8 +186,9 @@ class Life:
 
     def table(self) -> ResultTable:
         """One row: life, loads, ratings, in words what they say."""
-        of_ball = "load of a ball under which the {} race lasts 10⁶ turns"
-        as_tiring = "equivalent load of a ball on the {} race"
+        element = self.scene.bearing.kind.element
+        of_ball = f"load of a {element} under which the {{}} race lasts 10⁶ turns"
+        as_tiring = f"equivalent load of a {element} on the {{}} race"
         return table_of(
             ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
             ("life", "h", self.hours, "L_10h"),
@@ -200,7 +201,7 @@ class Life:
             ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
             ("dynamic_load_rating", "N", self.dynamic_load_rating, f"C_r, {self.rating_source}"),
             ("equivalent_load", "N", self.equivalent_load, "P, for which ISO 281 gives L_10r"),
-            ("heaviest_load", "N", self.heaviest_load, "greatest load of a ball"),
+            ("heaviest_load", "N", self.heaviest_load, f"greatest load of a {element}"),
             ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
             ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),
             ("inner_load", "N", self.inner_load, as_tiring.format("inner")),
@@ -492,7 +493,7 @@ def _sentence(
     if reason:
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):
-        return "No ball carries load, so there is no fatigue."
+        return f"No {scene.bearing.kind.element} carries load, so there is no fatigue."
     words = f"Nine of ten bearings reach {turns_in_words(L)}"
     if math.isnan(hours):
         words += "; the shaft is at rest, so there are no hours."

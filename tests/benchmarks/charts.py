@@ -10,9 +10,12 @@ reason, and printed. Then the tables of assets/docs/ACCURACY.md are written from
 """
 
 import argparse
+import json
 import math
 import time
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from bearing_explorer.explorer.views.work_precision import ALLOWED
 
@@ -33,10 +36,33 @@ def ship(preset: str) -> None:
     began = time.perf_counter()
     found = measure(presets[preset], c_loop=pace().motion)
     FILES.mkdir(exist_ok=True)
-    (FILES / f"{preset}.json").write_text(found.as_json(), encoding="utf-8")
+    (FILES / f"{preset}.json").write_text(as_json(found), encoding="utf-8")
     print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
     for name, why in found.refused.items():
         print(f"  no {name}: {why}", flush=True)
+
+
+_AS_USUAL = (("status", "right"), ("against", ""), ("in_use", False))
+"""Entries of points that files leave out."""
+
+
+def as_json(found: Measurements) -> str:
+    """The text of a file: numbers with four digits, an experiment to a line."""
+    parts = _rounded(asdict(found))
+    experiments = ",\n".join(
+        f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
+        for name, one in parts.pop("experiments").items()
+    )
+    rest = json.dumps(parts, ensure_ascii=False)
+    return f'{rest[:-1]},\n"experiments": {{\n{experiments}\n}}}}\n'
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float) and not value.is_integer():
+        return float(f"{value:.4g}")
+    if isinstance(value, dict):
+        return {n: _rounded(one) for n, one in value.items() if (n, one) not in _AS_USUAL}
+    return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 def tables(found: Measurements) -> str:
@@ -64,7 +90,11 @@ def _table(one: Experiment) -> str:
         found = point.status if point.failed else found
         rows.append([method, point.setting, found, seconds, number(point.evaluations, 4)])
     lines = "\n".join(f"| {' | '.join(row)} |" for row in rows)
-    return f"{reference.sentence}.\n\n{lines}"
+    apart = ", ".join(f"{name} {scientific(v, 2)}" for name, v in reference.agreement.items())
+    verdict = "agree" if reference.trusted else "DO NOT AGREE, so errors below mean little"
+    words = f"{' and '.join(reference.families)} {verdict}: apart by {apart}"
+    words += f". {reference.note}" if reference.note else ""
+    return f"{words}.\n\n{lines}"
 
 
 def _row_of(points: tuple[Point, ...], one: Experiment, error: str) -> list[Point]:

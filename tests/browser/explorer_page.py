@@ -10,6 +10,28 @@ from tests.browser.helpers import Server, choose_tab
 #: all that a hand asked for is sent and drawn
 DRAWN = "!window.__waiting?.size && (window.__mark || 0) >= (window.__asked || 0)"
 
+SEEN = """
+window.deep = function* (where, selector = "*") {
+  for (const element of where.querySelectorAll("*")) {
+    if (element.matches(selector)) yield element
+    if (element.shadowRoot) yield* deep(element.shadowRoot, selector)
+  }
+}
+window.seen = (element) => {
+  const box = element.getBoundingClientRect()
+  return box.width > 2 && box.height > 2 && box.right > 0 && box.bottom > 0
+    && box.left < innerWidth && box.top < innerHeight
+    && element.checkVisibility({ visibilityProperty: true, opacityProperty: true })
+    && getComputedStyle(element).clipPath === "none"
+}
+window.focused = () => {
+  let at = document.activeElement
+  while (at?.shadowRoot?.activeElement) at = at.shadowRoot.activeElement
+  return at
+}
+"""
+"""Elements inside shadows too, whether one is seen, and the one that has the focus."""
+
 
 def open_page(page: Page, server: Server, tab: str = "load") -> None:
     page.goto(server.url)

@@ -10,6 +10,7 @@ from bearing_explorer.page import SECTIONS
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.explorer_page import (
+    SEEN,
     export,
     open_page,
     settle,
@@ -29,24 +30,9 @@ PHONE: ViewportSize = {"width": 390, "height": 844}
 PAPERS = {"light": {"#FFFFFF", "WHITE"}, "dark": {DARK_COLORS["#FFFFFF"]}}
 """Grounds of the figures."""
 
-#: elements inside shadows, too
-DEEP = """
-window.deep = function* (where, selector) {
-  for (const element of where.querySelectorAll('*')) {
-    if (element.matches(selector)) yield element
-    if (element.shadowRoot) yield* deep(element.shadowRoot, selector)
-  }
-}
-window.focused = () => {
-  let at = document.activeElement
-  while (at?.shadowRoot?.activeElement) at = at.shadowRoot.activeElement
-  return at
-}
-"""
-
 
 def opened(page: Page, server: Server, tab: str) -> None:
-    page.add_init_script(DEEP)
+    page.add_init_script(SEEN)
     open_page(page, server, tab)
 
 
@@ -79,7 +65,7 @@ def colors(page: Page) -> set[str]:
 
 def make_ready(page: Page) -> None:
     """What `hold_to_rules` needs on an open page."""
-    page.evaluate(DEEP)
+    page.evaluate(SEEN)
     page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
 
 
@@ -242,7 +228,7 @@ def test_everything_is_reached_by_keys(page: Page, explorer: Server) -> None:
 @pytest.mark.proof
 def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     page = desk.page
-    page.evaluate(DEEP)
+    page.evaluate(SEEN)
     page.set_viewport_size({"width": 1920, "height": 1080})
     desk.begin("Frequencies")
     page.wait_for_function(  # no part of the page is empty, and none out of view
@@ -278,7 +264,7 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
 @pytest.mark.proof
 def test_help_and_menus_are_gone_through_by_keys(desk: Visitor) -> None:
     page = desk.page
-    page.evaluate(DEEP)
+    page.evaluate(SEEN)
     desk.begin("Stiffness")
     helps = page.locator("aside .control .symbol")
     assert helps.count() >= 10

@@ -4,25 +4,9 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import number, rest, settle, slider, value
+from tests.browser.explorer_page import SEEN, number, rest, settle, slider, value
 from tests.browser.helpers import Server
 
-#: every element inside shadows too, and the ones that are seen
-SEEN = """
-window.deep = function* (where) {
-  for (const element of where.querySelectorAll("*")) {
-    yield element
-    if (element.shadowRoot) yield* deep(element.shadowRoot)
-  }
-}
-window.seen = (element) => {
-  const box = element.getBoundingClientRect()
-  return box.width > 2 && box.height > 2 && box.right > 0 && box.bottom > 0
-    && box.left < innerWidth && box.top < innerHeight
-    && element.checkVisibility({ visibilityProperty: true, opacityProperty: true })
-    && getComputedStyle(element).clipPath === "none"
-}
-"""
 #: words and type sizes outside of figures, words and sizes in figures, and controls
 COUNTS = """() => {
   const found = { words: [], drawn: [], sizes: {}, controls: [] }

@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
-from scipy.io import savemat, wavfile
+from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, equilibrium, modes, presets, simulate
 from tests.browser.explorer_page import rest
 from tests.browser.helpers import Server, Watch, drag
 from tests.browser.test_accessibility import hold_to_rules, make_ready
 from tests.browser.visitor import FAN_RIG, Visitor
+from tests.helpers.saved import matlab, saved
 
 FAN = presets["fan-rig"]
 _NOTHING = re.compile("could not be computed|Traceback|undefined|\\bNaN\\b")
@@ -421,9 +422,8 @@ def _recording(extent_deg: float, rate: float = 24_000.0, *, channels: int = 1) 
     rng = np.random.default_rng(1)
     signal = signal + 0.1 * signal.std() * rng.standard_normal(signal.shape)
     signal = np.column_stack([signal, rng.standard_normal(len(signal))])
-    file = io.BytesIO()
-    wavfile.write(file, round(rate), signal[:, 1 if channels == 1 else slice(3)].astype("f4"))
-    return file.getvalue()
+    signal = signal[:, 1 if channels == 1 else slice(3)].astype("f4")
+    return saved(wavfile.write, round(rate), signal)
 
 
 @pytest.mark.proof
@@ -462,12 +462,11 @@ def test_the_answer_to_a_file_of_a_known_collection_is_on_the_first_screen_and_o
     rate = 48_828.0
     signal = simulate(motor, 3.2, rate).outer_acceleration[round(0.2 * rate) :, 1]
     noise = np.random.default_rng(1).standard_normal(len(signal))
-    file = io.BytesIO()
     run = {"gs": signal + 0.1 * signal.std() * noise, "sr": rate, "rate": 25.0, "load": 270.0}
-    savemat(file, {"bearing": run, "BPFO": 81.125, "BPFI": 118.875})
+    file = matlab(bearing=run, BPFO=81.125, BPFI=118.875)
     visitor.page.set_viewport_size({"width": 1366, "height": 768})
     visitor.open(FAN_RIG + "diagnosis")
-    visitor.bring(visitor.main, "run.mat", file.getvalue())
+    visitor.bring(visitor.main, "run.mat", file)
     visitor.reads(re.compile(r"^run.mat · 3 s · 48.83 kHz · 1500 rpm · g · NICE, MFPT$"))
     answer = visitor.main.get_by_role("heading", name="The outer race is damaged")
     expect(answer).to_be_in_viewport()
@@ -544,6 +543,10 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor) -> None:
     visitor.open("?v=1&preset=6205&race=inner&tab=sizing")  # as the tab was once called
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("The inner race is damaged"))
+    visitor.steady()
+    before = visitor.figures()
+    visitor.choose("Zoom to", "inner race, 2×")
+    visitor.wait(lambda: visitor.figures() != before)
     visitor.open("?v=1&preset=6205&extent_deg=0&tab=diagnosis")
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("No damage seen"))
@@ -554,12 +557,23 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk: Visitor,
 ) -> None:
     desk.begin("Accuracy")
-    desk.reads(re.compile("Measured: "))
+    desk.reads(re.compile("Shipped"))
     desk.reads(re.compile("Fastest within 0.1 dB"))
-    desk.choose("Charts of", "Statics")
-    expect(desk.main.get_by_text(re.compile("Solvers, against energy minima"))).to_be_visible()
-    desk.look_over()
-    desk.wait(lambda: "blank" not in desk.figures())
+    for charts, words in (
+        ("Stability", "The factor by which a ball pass"),
+        ("Statics", "Solvers, against energy minima"),
+    ):
+        desk.choose("Charts of", charts)
+        expect(desk.main.get_by_text(re.compile(words))).to_be_visible()
+        desk.look_over()
+        desk.wait(lambda: "blank" not in desk.figures())
+    desk.choose("Charts of", "Motion")
+    desk.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
+    before = desk.figures()
+    desk.press("Measure on this machine")
+    desk.reads(re.compile(r"\d+ points after"))
+    desk.reads(re.compile("Measured on this machine"))
+    desk.wait(lambda: desk.figures() != before)
     desk.press("Compare simpler models", desk.main)
     desk.reads(re.compile(r"\d+ models after"))
     rows = desk.main.get_by_role("table").get_by_role("row")

@@ -10,9 +10,9 @@ import pytest
 from bearing_explorer.explorer.state.lessons import own_folder
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import export, place, rest, show, slider, source
+from tests.browser.explorer_page import SEEN, export, place, rest, show, slider, source
 from tests.browser.helpers import Server
-from tests.browser.test_first_minute import COUNTS, SEEN
+from tests.browser.test_first_minute import COUNTS
 from tests.browser.visitor import Visitor
 
 SOUNDS = """

@@ -4,7 +4,6 @@ import io
 import random
 import time
 import wave
-import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import resources
@@ -12,15 +11,16 @@ from typing import Any
 
 import h5py
 import numpy as np
-import scipy.io
 from bearing_explorer.diagnosis import form as forms
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.explorer.state.address import opened, place_of, write
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from scipy.io import savemat
 
 from bearingcore import Scene, presets, read_catalogue, read_floor
 from bearingcore.files.table import read_table
 from tests.fuzz.inputs import bytes_like, text_like
+from tests.helpers.saved import saved, zipped
 
 LONGEST_SENTENCE = 700  # characters
 LONGEST = 3.0  # [s] of processor time that one input may take
@@ -131,22 +131,15 @@ def wav_files() -> list[bytes]:
 
 
 def matlab_files() -> list[bytes]:
-    made = []
-    for version, compressed in (("4", False), ("5", False), ("5", True)):
-        file = io.BytesIO()
-        data = {"DE_time": _signal(400)[:, None], "RPM": np.array([[1797.0]]), "name": "text"}
-        if version == "4":
-            del data["name"]
-        scipy.io.savemat(file, data, format=version, do_compression=compressed)
-        made.append(file.getvalue())
+    data = {"DE_time": _signal(400)[:, None], "RPM": np.array([[1797.0]])}
     run = {"gs": _signal(400)[:, None], "sr": 48_828, "rate": 25.0, "load": "150"}
     cells = np.empty(2, dtype=object)
     cells[:] = [_signal(300), run]
-    for compressed in (False, True):
-        file = io.BytesIO()
-        scipy.io.savemat(file, {"bearing": run, "c": cells}, do_compression=compressed)
-        made.append(file.getvalue())
-    return made
+    named = ({**data, "name": "text"}, {"bearing": run, "c": cells})
+    compressed = (
+        saved(savemat, each, do_compression=way) for way in (False, True) for each in named
+    )
+    return [saved(savemat, data, format="4"), *compressed]
 
 
 def hdf5_files() -> list[bytes]:
@@ -173,12 +166,8 @@ def octave_texts() -> list[str]:
 
 def packed_files() -> list[bytes]:
     """Arrays of NumPy, and zips."""
-    arrays, one, packed = io.BytesIO(), io.BytesIO(), io.BytesIO()
-    np.savez(arrays, acc=_signal(400), fs=8000.0, unit="g")
-    np.save(one, _signal(400))
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as file:
-        file.writestr("a.csv", csv_texts()[1])
-    return [arrays.getvalue(), one.getvalue(), packed.getvalue()]
+    arrays = saved(np.savez, acc=_signal(400), fs=8000.0, unit="g")
+    return [arrays, saved(np.save, _signal(400)), zipped(a_csv=csv_texts()[1].encode())]
 
 
 def broken_files() -> dict[str, Callable[[random.Random], bytes]]:

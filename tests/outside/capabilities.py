@@ -54,9 +54,11 @@ def functions_of_signals() -> Iterator[str]:
 
 
 def charts() -> list[str]:
-    """Experiments in the charts of speed against accuracy that are shipped."""
+    """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
-    return sorted({name for chart in shipped for name in chart["experiments"]})
+    found = {name for chart in shipped for name in chart["experiments"]}
+    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(found)
 
 
 def capabilities() -> dict[str, list[str]]:

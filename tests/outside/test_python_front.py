@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 
 import numpy as np
@@ -10,6 +9,7 @@ import pytest
 from scipy.signal import hilbert
 
 from bearingcore import join_tables, presets, read_recording, read_table, scene_of, simulated_record
+from tests.helpers.saved import saved
 from tests.outside.witness import witness
 
 RATE = 8000.0
@@ -20,9 +20,8 @@ TIME = np.arange(SIGNAL.size) / RATE
 
 def written(part: slice) -> bytes:
     """A file as `numpy.savetxt` writes it."""
-    file = io.StringIO()
-    np.savetxt(file, np.column_stack([TIME, SIGNAL])[part], "%.9g", ",", header="a,b", comments="")
-    return file.getvalue().encode()
+    table = np.column_stack([TIME, SIGNAL])[part]
+    return saved(np.savetxt, table, "%.9g", ",", header="a,b", comments="")
 
 
 @witness(

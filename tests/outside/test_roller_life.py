@@ -96,6 +96,22 @@ def scene_of(sizes: tuple[int, float, float, float], load: float, clearance: flo
     return dataclasses.replace(scene, bearing=bearing).replace(fx=0.0, fy=-load)
 
 
+@pytest.mark.parametrize("load", [1e-6, 1e-3, 1e-2])
+def test_under_the_lightest_loads_the_middle_of_one_roller_carries(load: float) -> None:
+    """With clearance one roller carries, by its two laminae in the middle: ISO/TS 16281, (60)-(65).
+
+    Such loads had “no static equilibrium”, or ended in NumPy's “Singular matrix”.
+    """
+    scene = presets["nu208"].healthy().replace(fx=0.0, fy=-load)
+    b, C = scene.bearing, 60e3
+    q_ci, q_ce = ratings(C, b.n_balls, b.ball_diameter / b.pitch_diameter)
+    q = factors()[N_S // 2] * 0.5 * load
+    worn = q**4.5 * (b.n_balls ** (-4.5 / 4.0) * q_ci**-4.5 + b.n_balls**-1.0 * q_ce**-4.5)
+    known = (2.0 * worn) ** (-8.0 / 9.0)
+    own = life(scene, C, positions="load line").million_revolutions
+    assert own == pytest.approx(known, rel=1e-4)
+
+
 @witness(
     "roller bearing: life",
     "function: life",

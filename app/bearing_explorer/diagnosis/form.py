@@ -494,7 +494,7 @@ def read_form(
     origin = Origin(
         table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given),
         place=" and ".join(sorted({table.contents.columns[i].place for i in columns} - {""})),
-        part=int(texts["part"] or 0),
+        part=int(texts["part"] or 0), which=table.which,
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
     sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)

@@ -18,6 +18,7 @@ from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.next_steps import next_steps
 from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.signal_words import name_of
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.extent import SpallExtent
@@ -54,7 +55,9 @@ FIGURES = {
 }
 """Views whose first figure is shown, with its heading; those that come first are preferred."""
 
-NOT_JUDGED = "Lubrication, balance, alignment and other bearings of the machine are not judged."
+NOT_JUDGED = (
+    "The cage, lubrication, balance, alignment and other bearings of the machine are not judged."
+)
 NOT_FORESEEN = (
     "The vibration shows neither the depth of the damage nor the remaining life of the bearing."
 )
@@ -225,7 +228,7 @@ def assumptions(
     clearance = with_prefix(bearing.radial_clearance, "m")
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
-        ("File", recording.name, "" if measured.origin else "Simulated"),
+        ("File", name_of(measured), "" if measured.origin else "Simulated"),
         ("Signal", f"{with_prefix(recording.duration, 's')} along "
          f"{' and '.join(measured.directions)}", origin_of(measurement, "columns")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),

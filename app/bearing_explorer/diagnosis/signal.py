@@ -34,7 +34,7 @@ class Origin:
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
     meaning of columns that a person gave, `parts` are the files that were joined to this one,
     `place` is that of the sensors, as given or by the file. `part` is which of several recordings
-    in the file was chosen, 0 where none was.
+    in the file was chosen, 0 where none was; `which` is the one that was read, in words.
     """
 
     file: str
@@ -46,6 +46,7 @@ class Origin:
     parts: tuple[str, ...] = ()
     place: str = ""
     part: int = 0
+    which: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,8 +176,8 @@ class Measured:
             return scene.replace(**changes, defect=())
 
 
-def _put(known: dict, key: object, value: object, most: int = 6) -> None:
-    """Keep a result; the oldest leaves."""
-    while len(known) >= most:
+def _put(known: dict, key: object, value: object) -> None:
+    """Keep a result, six at most; the oldest leaves."""
+    if len(known) >= 6:
         known.pop(next(iter(known)))
     known[key] = value

@@ -31,6 +31,12 @@ def _known_fields(table: Table, form: Mapping[str, str], first: Mapping[str, str
     return sure | {name for name in form if form[name] != first.get(name)}
 
 
+def name_of(measured: Measured, name: str = "") -> str:
+    """The recording's name, or a shorter `name`, and which it is of several in the file."""
+    which = "" if measured.origin is None else measured.origin.which
+    return ", ".join(filter(None, (name or measured.recording.name, which)))
+
+
 def summary(measured: Measured | None) -> str:
     """The signal in a sentence."""
     if measured is None:
@@ -38,7 +44,7 @@ def summary(measured: Measured | None) -> str:
     recording, machine = measured.recording, measured.machine
     along = " and ".join(recording.directions)
     words = (
-        f"{recording.name}: {with_prefix(recording.duration, 's')} along {along} at "
+        f"{name_of(measured)}: {with_prefix(recording.duration, 's')} along {along} at "
         f"{thousands(recording.sample_rate)} Hz"
     )
     if machine.bearing is None or machine.shaft_speed is None:
@@ -71,7 +77,7 @@ def in_short(
     if machine.shaft_speed is not None:
         speed = f"{number(30.0 / math.pi * machine.shaft_speed, 4)} rpm"
     facts = {
-        "": name,
+        "": name_of(measured, name),
         "duration": with_prefix(recording.duration, "s", 3),
         "sample_rate": with_prefix(recording.sample_rate, "Hz", 4),
         "speed": speed,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from bearingcore.bearings.bearing import Bearing
-from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
+from bearingcore.diagnosis.part.diagnose import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import part_lines
 from bearingcore.signals.recording import Recording
@@ -38,8 +38,6 @@ def explaining_bearings(
     bearings: Mapping[str, Bearing],
     shaft_speed: float | tuple[float, float] | None,
     *,
-    slip: float = SLIP,
-    speed_source: str = "given",
     goes_on: Callable[[int, int], bool] = lambda done, of: True,
 ) -> tuple[ListedBearing, ...]:
     """The bearings with which a part is named, those with the strongest lines first.
@@ -48,7 +46,7 @@ def explaining_bearings(
 
     Parameters
     ----------
-    recording, shaft_speed, slip, speed_source
+    recording, shaft_speed
         as for `diagnose`.
     bearings
         by name; of those with the same lines the first stands for all.
@@ -58,17 +56,14 @@ def explaining_bearings(
     Raises
     ------
     ValueError
-        for a speed or slip that cannot be.
+        for a speed that cannot be.
     """
     found = []
     distinct = list(_distinct(bearings))
     for done, (name, bearing) in enumerate(distinct):
         if not goes_on(done, len(distinct)):
             break
-        answer = diagnose(
-            recording, bearing, shaft_speed, slip=slip,
-            speed_source=speed_source, bearing_source="assumed: one of a list",
-        )  # fmt: skip
+        answer = diagnose(recording, bearing, shaft_speed, bearing_source="assumed: one of a list")
         if answer.fault in ("outer race", "inner race"):
             found.append(ListedBearing(name, answer))
     # levels within a decibel are alike: then the nearer geometry is the better

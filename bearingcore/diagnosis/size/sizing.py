@@ -69,9 +69,7 @@ def size_defect(
     *,
     fault: str | None = None,
     support_known: bool = False,
-    slip: float = SLIP,
     most_steps: int = MOST_STEPS,
-    most_samples: int = MOST_SAMPLES,
 ) -> Sizing:
     """Candidates for the extent of a defect on the outer race, and their probabilities.
 
@@ -93,13 +91,9 @@ def size_defect(
     support_known
         True where masses and stiffness of the support are measured ones, or the signal is a
         simulated one of the scene. Else there is no size, and the status says why.
-    slip
-        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
     most_steps
         steps of integration that may be taken in all. They are counted before the first: where
         there would be more there are no candidates, and the status says how many.
-    most_samples
-        of all directions that may be looked at.
 
     Raises
     ------
@@ -108,9 +102,8 @@ def size_defect(
     """
     checks.instance("recording", recording, Recording)
     checks.instance("scene", scene, Scene)
-    check_samples("acceleration", recording.acceleration, most_samples)
+    check_samples("acceleration", recording.acceleration, MOST_SAMPLES)
     scene, columns = _prepared(scene.replace(balls=MASSLESS), recording.directions)
-    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     if fault is not None:
         checks.choice("fault", fault, (OUTER,))
     band = comparison_band(scene, recording.sample_rate)
@@ -118,7 +111,7 @@ def size_defect(
         recording.acceleration,
         recording.sample_rate,
         scene.bearing.bpfo(scene.shaft_speed),
-        slip,
+        SLIP,
         band.lowest,
         band.highest,
         min(FOLLOWED * band.highest, 0.4 * recording.sample_rate),
@@ -137,9 +130,7 @@ def size_defect(
         target.quality,
     )
     if fault is None:
-        found = diagnose(
-            recording, scene.bearing, scene.shaft_speed, slip=slip, most_samples=most_samples
-        )
+        found = diagnose(recording, scene.bearing, scene.shaft_speed)
         why = f"{found.sentence} {_TURNS}" if found.fault == INNER else found.sentence
         nothing = dataclasses.replace(nothing, diagnosis=found, sentence=why)
         if found.fault != OUTER:

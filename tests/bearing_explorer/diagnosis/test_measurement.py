@@ -1,10 +1,8 @@
 """A measurement of one's own: brought in pieces, judged, asked about; and simulated ones."""
 
 import asyncio
-import io
 import math
 import struct
-import zipfile
 import zlib
 from collections.abc import Callable
 from typing import Any
@@ -29,12 +27,14 @@ from bearing_explorer.diagnosis.upload import (
 )
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
+from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
-from scipy.io import savemat, wavfile
+from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, presets
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
+from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
 
@@ -46,18 +46,6 @@ def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> by
     time = np.arange(len(columns)) / rate
     rows = [",".join(f"{v:.6g}" for v in (t, *row)) for t, row in zip(time, columns, strict=True)]
     return "\n".join([heading, *rows] if heading else rows).encode()
-
-
-def wav_of(columns: np.ndarray, rate: int = 8000) -> bytes:
-    file = io.BytesIO()
-    wavfile.write(file, rate, columns.astype(np.float32))
-    return file.getvalue()
-
-
-def mat_of(**variables: np.ndarray) -> bytes:
-    file = io.BytesIO()
-    savemat(file, variables)
-    return file.getvalue()
 
 
 async def settled(measurement: Measurement) -> None:
@@ -118,7 +106,7 @@ def test_a_file_from_elsewhere_is_understood_without_a_word():
 
 def test_large_files_come_in_pieces_that_the_websocket_takes():
     columns = np.random.default_rng(0).standard_normal((400_000, 2))
-    content = wav_of(columns, 51_200)
+    content = saved(wavfile.write, 51_200, columns.astype(np.float32))
     assert len(content) > 3 * PIECE
     made = brought("long.wav", content)
     assert "nothing says where" in made.state.reasons["columns"]  # they may be of two places
@@ -137,14 +125,14 @@ def test_large_files_come_in_pieces_that_the_websocket_takes():
 
 def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     """Its numbers are taken as they stand, for what does not depend on it, until it is answered."""
-    made = brought("a.csv", csv_of(0.3 * NOISE, "time,x,y"), signal())
+    made = brought("a.csv", csv_of(0.1 * NOISE, "time,x,y"), signal())
     assert made.measured is not None
     assert not made.measured.in_si
     assert not made.state.bad
-    np.testing.assert_allclose(made.measured.recording.acceleration, 0.3 * NOISE, rtol=1e-5)
+    np.testing.assert_allclose(made.measured.recording.acceleration, 0.1 * NOISE, rtol=1e-5)
     assert made.state.open == ["unit"]
     assert made.state.proposed == "g"
-    assert "g is likely: a root mean square of 0.3" in made.state.words
+    assert "g is likely: a root mean square of 0.1" in made.state.words
     answer(made, sure="yes")  # agreeing to guesses is no answer to this
     assert made.state.open == ["unit"]
     assert not made.measured.in_si
@@ -152,10 +140,11 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert made.measured.in_si
     assert not made.state.open
     np.testing.assert_allclose(
-        made.measured.recording.acceleration, 0.3 * 9.80665 * NOISE, rtol=1e-5
+        made.measured.recording.acceleration, 0.1 * 9.80665 * NOISE, rtol=1e-5
     )
     answer(made, unit="")  # taken back
     assert not made.measured.in_si
+    assert brought("a.csv", csv_of(NOISE, "time,x,y")).state.proposed == "", "1 is usual in both"
     said = brought("a.csv", csv_of(NOISE, "time,x [g],y [g]"))  # not asked where the file says it
     assert said.measured is not None
     assert said.measured.in_si
@@ -164,7 +153,7 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
 
 def test_what_the_file_does_not_tell_is_asked_for():
     before = signal()
-    made = brought("two.mat", mat_of(a=NOISE), before)
+    made = brought("two.mat", matlab(a=NOISE), before)
     assert made.measured is None  # no old figure under a new name
     assert "sample rate is missing" in made.state.refused["sample_rate"]
     assert "sample rate is missing" in made.state.words
@@ -204,7 +193,8 @@ def test_a_form_that_makes_no_sense_is_told_beside_its_field(field, text, told):
 
 def test_more_numbers_than_a_session_keeps_are_left_out():
     rows = MOST_NUMBERS // 2 + 1000
-    content = wav_of(np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32))
+    signal = np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32)
+    content = saved(wavfile.write, 8000, signal)
     assert len(content) < MOST_BYTES
     found = read_file("long.wav", content, Machine())
     assert found.table.columns.size == MOST_NUMBERS
@@ -233,7 +223,7 @@ def answer(made: Measurement, **values: str) -> None:
 def case_western(**more: np.ndarray) -> bytes:
     """As the drive end, fan end and base of one motor are stored."""
     sides = {f"X105_{side}_time": NOISE[:, :1] * 0.3 for side in ("DE", "FE", "BA")}
-    return mat_of(**sides, X105RPM=np.array([[1797]], dtype="u2"), **more)
+    return matlab(**sides, X105RPM=np.array([[1797]], dtype="u2"), **more)
 
 
 def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
@@ -255,11 +245,11 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
-    made = brought("run.mat", mat_of(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
+    made = brought("run.mat", matlab(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
     assert made.measured is not None
     assert made.measured.machine.bearing_name == "NICE, MFPT"  # which has these frequencies
     turn = 2.0 * math.pi
-    made = brought("other.mat", mat_of(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
+    made = brought("other.mat", matlab(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
     assert made.measured is not None
     bearing = made.measured.bearing
     assert bearing is not None
@@ -275,7 +265,7 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
 
 def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
     run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
-    made = brought("run.mat", mat_of(bearing=run_))
+    made = brought("run.mat", matlab(bearing=run_))
     assert made.state.load == pytest.approx(150 * 4.4482216)
     taken: list[dict] = []
     made.change_scene = taken.append
@@ -435,7 +425,15 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
         assert made.measured.machine.source_of("bearing") == "given"
-        await bring(made, "fourth.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        pulses = 5.0 * (np.arange(len(NOISE)) % 100 < 10)
+        two = np.column_stack([NOISE[:, 0], pulses])
+        await bring(made, "fourth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing"}, "the speed was the file's"
+        made.take_form({**made.state.values, "speed": "given", "shaft_speed": "1500 rpm"})
+        await settled(made)
+        await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
+        assert made.measured.machine.kept == {"bearing", "speed"}
+        assert "there is a guess from the file: " in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
@@ -452,30 +450,24 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     made = brought("two.csv", content)
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     assert "holds 2 recordings" in made.state.remarks
+    assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
     assert "“a z [g]” (along the shaft), “tacho [V]” (a guess at the shaft" in made.state.remarks
     assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)
+    assert made.state.words.startswith("two.csv, recording 2 of 2: ")
     assert "one_of_recordings(2)" in "\n".join(recording_lines(made.measured))
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     answer(made, part="3")
     assert made.state.refused == {"part": "two.csv has no such recording."}
 
 
-def zip_of(**files: bytes) -> bytes:
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w") as file:
-        for name, content in files.items():
-            file.writestr(f"{name}.csv", content)
-    return packed.getvalue()
-
-
 def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
     parts = {
-        f"run{k}": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
+        f"run{k}_csv": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
         for k in range(6)
     }
-    made = brought("rig.zip", zip_of(**parts, readme=b"no numbers"))
+    made = brought("rig.zip", zipped(**parts, readme_csv=b"no numbers"))
     assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
     assert len(made.series.left_out) == 1
     assert made.measured.recording.name == "rig.zip/run5.csv"

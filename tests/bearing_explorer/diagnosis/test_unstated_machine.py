@@ -1,7 +1,5 @@
 """What nothing says of a machine is not known: no number of the scene enters a diagnosis unsaid."""
 
-import asyncio
-import io
 import math
 from datetime import UTC, datetime
 from functools import cache
@@ -31,9 +29,10 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import Halves
 
 from bearingcore import Diagnosis, presets
-from tests.bearing_explorer.diagnosis.test_measurement import answer, bring, brought
+from tests.bearing_explorer.diagnosis.test_measurement import answer, bring, brought, settled
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring
+from tests.helpers.saved import saved
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
 
@@ -48,10 +47,8 @@ def silent() -> bytes:
     """An outer race of a 6205 at 1797 rpm, in a file that says neither bearing nor speed."""
     recording = simulated(MOTOR, 20.0, 1).recording
     time = np.arange(len(recording.acceleration)) / recording.sample_rate
-    file = io.StringIO()
     columns = np.column_stack([time, recording.acceleration[:, 1]])
-    np.savetxt(file, columns, "%.7g", ",", header="time (s),y (m/s2)", comments="")
-    return file.getvalue().encode()
+    return saved(np.savetxt, columns, "%.7g", ",", header="time (s),y (m/s2)", comments="")
 
 
 def shown(made: Measurement) -> PartDiagnosis:
@@ -222,10 +219,6 @@ def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
         assert "Summary to copy" not in html
         with pytest.raises(ValueError, match=why):
             measured_report(MODEL, made.snapshot(), {}, about)
-
-    async def settled(made: Measurement) -> None:
-        while made._tasks:
-            await asyncio.sleep(0.005)
 
     run(steps())
 

@@ -67,13 +67,15 @@ PARTS = ("load", "shaft_speed", "support")
 
 def test_a_bearing_by_number_comes_sound_and_keeps_what_a_person_set() -> None:
     editor = SceneEditor("liew-lim")
-    for name in ("6205", "NU 208", "7208 DT", "30206", "608"):
+    for name in ("6205", "NU 208", "NJ 208", "7208 DT", "30206", "608"):
         editor.choose({"bearing": name})
         usual, scene = scene_of(name), editor.scene
         assert [getattr(scene, part) for part in PARTS] == [getattr(usual, part) for part in PARTS]
         assert scene.defects == ()
         assert scene.dofs is None
-        assert f"{-scene.load.fy:.0f} N down" in editor.state()["effects"]["preset"]
+        said = editor.state()["effects"]["preset"]
+        assert f"{-scene.load.fy:.0f} N down" in said
+        assert ("no load along the shaft, which the flanges" in said) == (name == "NJ 208")
     editor.set({"fy_n": -500.0, "extent_deg": 4.0})
     editor.choose({"bearing": "6208"})
     assert editor.scene.load.fy == -500.0

@@ -137,25 +137,6 @@ def test_cage_angles_that_are_not_angles(function: Callable[..., object], angles
         function(LIEW_LIM, angles)
 
 
-@pytest.mark.parametrize(
-    ("field", "value", "shown", "allowed"),
-    [
-        ("duration", 0.0, "0", "above 0"),
-        ("duration", NAN, "nan", "above 0"),
-        ("duration", INF, "inf", "finite"),
-        ("duration", 1e6, "1e+06", "sample_rate"),
-        ("sample_rate", 0.0, "0", "above 0"),
-        ("sample_rate", 1000.0, "1000", "twice the highest natural frequency"),
-        ("step_rate", 0.0, "0", "above 0"),
-        ("step_rate", 65536.0 * 1.5, "98304", "multiple or a whole fraction"),
-        ("step_rate", 65536.0 / 2.5, "26214.4", "multiple or a whole fraction"),
-    ],
-)
-def test_motion_refuses(field: str, value: float, shown: str, allowed: str) -> None:
-    arguments = {"duration": 0.01, "sample_rate": 65536.0, field: value}
-    assert allowed in refused(field, shown, lambda: simulate(FAN_RIG, **arguments))
-
-
 def test_the_least_sample_rate_is_twice_the_highest_natural_frequency() -> None:
     """The refusal names the rate that is enough, and just that one is."""
     allowed = refused("sample_rate", "1000", lambda: simulate(FAN_RIG, 0.01, 1000.0))

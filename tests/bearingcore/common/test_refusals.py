@@ -4,6 +4,7 @@ A refusal a line: what is asked, and what is said. `test_bad_input.py` has the f
 `test_types.py` values of a wrong type; a refusal that takes more than a call stands with its part.
 """
 
+import copy
 import dataclasses
 import math
 from collections.abc import Callable
@@ -18,14 +19,17 @@ from bearingcore.bearings.hertz import race_contact
 from bearingcore.bearings.kinds import kind_named
 from bearingcore.bearings.rows import Row
 from bearingcore.common.numbers import thousands
+from bearingcore.common.scene_file import LARGEST_TEXT
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.dynamics.speed_runs import speed_run
 from bearingcore.errors import FieldError
 from bearingcore.experiments.motions import motion_experiment
 from bearingcore.experiments.statics import statics_experiment
 from bearingcore.files.floor import read_floor
+from bearingcore.files.text import read_text
 from bearingcore.signals.indicators import severity_zone
 from bearingcore.signals.spectrograms import order_map, spectrogram
+from tests.helpers.saved import matlab
 
 NAN, INF = math.nan, math.inf
 DRAWN, RIG, LIEW_LIM = (core.presets[name] for name in ("6205", "fan-rig", "liew-lim"))
@@ -50,6 +54,30 @@ extent = partial(core.measure_extent, NOISE, MOTOR, 94.0)
 lasts = partial(core.life, core.presets["6206"])
 maps = partial(core.stiffness_maps, RIG)
 parts = partial(bearing_of_frequencies, pitch_diameter=0.04)
+moved = partial(core.simulate, RIG)
+TABLE = b"time,x,y\n" + "".join(f"{k / 8e3},{x},{y}\n" for k, (x, y) in enumerate(TWO)).encode()
+NUMBERS = core.presets["fan-rig"].to_data()
+
+
+def text(content: str) -> object:
+    return read_text("t", content.encode(), most_numbers=10**6, most_columns=20)
+
+
+def taken(*asked: object) -> core.Recording:
+    return core.read_table("a.csv", TABLE).recording(*asked)
+
+
+def nested(depth: int) -> dict[str, object]:
+    """Structs inside one another."""
+    return {"s": nested(depth - 1)} if depth else {"a": TWO}
+
+
+def data(part: str = "", **changes: object) -> core.Scene:
+    """The scene of a file in which a part, or the whole, says something else."""
+    whole = copy.deepcopy(NUMBERS)
+    (whole["defect"][0] if part == "defect" else whole[part] if part else whole).update(changes)
+    return core.Scene.from_data(whole)
+
 
 REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
     "rows": [
@@ -142,6 +170,62 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: speed_run(RIG, [260.0], resolution=NAN), "^resolution is"),
         (lambda: core.simulated_record(DRAWN.replace(shaft_speed=0.0)), "shaft_speed is 0"),
     ],
+    "samples and steps of motions": [
+        (lambda: moved(0.0), "^duration is 0; .*above 0"),
+        (lambda: moved(NAN), "^duration is nan; .*above 0"),
+        (lambda: moved(INF), "^duration is inf; .*finite"),
+        (lambda: moved(1e6, 65536.0), r"^duration is 1e\+06; .*sample_rate"),
+        (lambda: moved(0.01, 0.0), "^sample_rate is 0; .*above 0"),
+        (lambda: moved(0.01, 1000.0), "^sample_rate is 1000; .*twice the highest natural freq"),
+        (lambda: moved(0.01, 65536.0, step_rate=0.0), "^step_rate is 0; .*above 0"),
+        (lambda: moved(0.01, 65536.0, step_rate=98304.0), "^step_rate is 98304; .*whole fraction"),
+        (lambda: moved(0.01, 65536.0, step_rate=26214.4), "^step_rate is 26214.4; .*whole fract"),
+    ],
+    "scenes of files": [
+        (lambda: data(version=2), "version is 2"),
+        (lambda: data(speed=1.0), "field of scene"),
+        (lambda: data("bearing", n_balls=0), "n_balls"),
+        (lambda: data("load", fy="nan"), "fy"),
+        (lambda: data("defect", race="middle"), "race"),
+        (lambda: data("defect", floor={"kind": "lunar"}), "kind of the floor"),
+        (lambda: data(defect=[NUMBERS["defect"][0]] * 21), "at most 20"),
+        (lambda: data(dofs="xy"), "dofs"),
+        (lambda: data(dofs=["w"]), "dofs"),
+        (lambda: data(shaft_speed=10**400), "shaft_speed|scene"),
+        (lambda: core.Scene.from_data({n: v for n, v in NUMBERS.items() if n != "bearing"}),
+         "bearing"),
+        (lambda: core.Scene.from_toml("#" * (LARGEST_TEXT + 1)), "length of the text"),
+    ],
+    "texts with numbers": [
+        (lambda: text("1,2\n3,x"), "line 2 of t is '3,x'; allowed: numbers"),
+        (lambda: text("a,b\n1,2\n3"), "line 3 of t is '3'; allowed: 2 columns"),
+        (lambda: text("1_000"), "start of t"),
+        (lambda: text("2024-99-01T12:00:00,1\n"), "start of t"),
+        (lambda: text("," * 30 + "1"), "number of columns in t is 31"),
+        (lambda: text("1 " * 40_000 + "\n1 2\n"), "number of columns in t"),
+        (lambda: text("\n" * 500_001), "lines of numbers"),
+        (lambda: text("1\n" * 1_000_001), "count of numbers"),
+    ],
+    "files with signals": [
+        (lambda: core.read_table("a.csv", b""), "allowed: one that is not empty"),
+        (lambda: core.read_table("a.csv", b"words\n" * 5000), "a table of numbers"),
+        (lambda: core.read_table("a.csv", b"1,2\n" * 20), "number of rows in a.csv is 20"),
+        (lambda: core.read_table("a.png", b"\x89PNG\r\n\x1a\n" + bytes(9)), "text with numbers"),
+        (lambda: core.read_table("a.wav", b"RIFF\0\0\0\0WAVE"), "a whole WAV file"),
+        (lambda: core.read_table("a.mat", b"MATLAB 5.0 MAT-file"), "MATLAB file"),
+        (lambda: core.read_table("a.mat", b"MATLAB 7.3 MAT-file".ljust(600)), "MATLAB file"),
+        (lambda: core.read_table("a.mat", b"\x89HDF\r\n\x1a\n".ljust(600)), "damaged or unk"),
+        (lambda: core.read_table("a.mat", matlab(**nested(13))), "structs inside one another"),
+        (lambda: core.read_table("a.mat", matlab(a=TWO * 1j)), "vector or matrix"),
+        (lambda: core.read_table("a.mat", matlab(a=np.zeros((1030, 1030)))),
+         "number of columns in a.mat is 1030"),
+        (lambda: taken([5], ["y"], "g"), "column is 5"),
+        (lambda: taken(["z"], ["y"], "g"), "column is 'z'"),
+        (lambda: taken([True, 1], ["x"], "g"), "columns"),
+        (lambda: taken([1, 1], ["x", "y"], "g"), "different ones, one a direction"),
+        (lambda: taken([1], ["y"]), r"unit is missing: pass unit=..., one of m/s², g"),
+        (lambda: taken([1], ["y"], "mV"), "sensitivity is missing: pass sensitivity="),
+    ],
     "experiments": [
         (lambda: motion_experiment(RIG, methods=("Euler",)), "method is 'Euler'"),
         (lambda: motion_experiment(STILL), "shaft_speed is 0"),
@@ -221,5 +305,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
 def test_what_cannot_be_is_refused(ask: Callable[[], object], words: str) -> None:
     with pytest.raises(FieldError, match=words) as refused:
         ask()
+    assert "\n" not in str(refused.value)
     assert refused.value.field
     assert refused.value.allowed_text

@@ -40,35 +40,6 @@ def test_all_digits_are_kept(extent: float, depth: float, fy: float) -> None:
     assert again.defects == scene.defects
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (lambda d: d.update(version=2), "version is 2"),
-        (lambda d: d.update(speed=1.0), "field of scene"),
-        (lambda d: d["bearing"].update(n_balls=0), "n_balls"),
-        (lambda d: d["bearing"].pop("pitch_diameter"), "pitch_diameter of bearing"),
-        (lambda d: d.pop("bearing"), "bearing"),
-        (lambda d: d["load"].update(fy="nan"), "fy"),
-        (lambda d: d["defect"][0].update(race="middle"), "race"),
-        (lambda d: d["defect"][0].update(floor={"kind": "lunar"}), "kind of the floor"),
-        (lambda d: d.update(defect=[d["defect"][0]] * 21), "at most 20"),
-        (lambda d: d.update(dofs="xy"), "dofs"),
-        (lambda d: d.update(dofs=["w"]), "dofs"),
-        (lambda d: d.update(shaft_speed=10**400), "shaft_speed|scene"),
-    ],
-)
-def test_wrong_data_are_refused_by_name(change, words: str) -> None:
-    data = presets["fan-rig"].to_data()
-    change(data)
-    with pytest.raises(ValueError, match=words):
-        Scene.from_data(data)
-
-
-def test_an_endless_text_is_not_parsed() -> None:
-    with pytest.raises(ValueError, match="length of the text"):
-        Scene.from_toml("#" * (LARGEST_TEXT + 1))
-
-
 def test_a_long_measured_floor_is_read() -> None:
     # as few characters as there can be: 2,000,000 are read
     places = np.linspace(-0.999, 0.999, 40_000).round(6)

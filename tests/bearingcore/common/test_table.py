@@ -15,6 +15,7 @@ import pytest
 import bearingcore
 from bearingcore import (
     STIFFNESS_TERMS,
+    contact_pressures,
     equilibrium,
     kurtogram,
     life,
@@ -125,6 +126,7 @@ RESULTS = [
     lambda: life(presets["6205"].healthy(), 14_000.0),
     lambda: spectrum(np.random.default_rng(1).normal(size=(4096, 2)), 4096.0),
     lambda: kurtogram(np.random.default_rng(1).normal(size=8192), 8192.0),
+    lambda: contact_pressures(presets["6205"]),
 ]
 
 
@@ -140,6 +142,7 @@ def test_a_result_is_printed_as_its_table_in_a_notebook_too(make: Callable[[], A
     assert "<table" in page
     line = repr(result)
     assert line.startswith(f"{type(result).__name__}(")
+    assert "()" not in line
     assert len(line) <= 120
     assert "\n" not in line
 

@@ -9,6 +9,8 @@ import pytest
 from bearingcore import Recording, diagnose
 from bearingcore.bearings.named import bearing_of
 
+pytestmark = pytest.mark.usefixtures("files_read_here")
+
 RATE, TURNS = 12_000.0, 30.0
 SPEED = 2.0 * math.pi * TURNS
 

@@ -9,10 +9,11 @@ import pytest
 from bearingcore import presets
 from bearingcore.dynamics.problem import motion_problem
 from bearingcore.experiments.integrators import HAS_CVODE
-from bearingcore.experiments.measurements import Measurements, this_machine
+from bearingcore.experiments.measurements import Measurements, measure, this_machine
 from bearingcore.experiments.motions import motion_experiment
-from bearingcore.experiments.points import Experiment
+from bearingcore.experiments.points import Experiment, Watch
 from bearingcore.experiments.references import motion_reference
+from bearingcore.experiments.stability import DIVERGED, linear_limits, stability_chart
 from bearingcore.experiments.statics import (
     hard_cases,
     static_problem,
@@ -46,7 +47,25 @@ def test_the_reference_meets_the_one_that_was_stored() -> None:
     assert np.abs(found - expected).max() / swing < 1e-8
 
 
+@pytest.mark.proof
+def test_methods_break_where_linear_theory_says() -> None:
+    chart = stability_chart(FAN_RIG, duration=0.05)
+    assert chart.completed
+    assert {trial.method for trial in chart.trials} == set(linear_limits(FAN_RIG))
+    for name in ("RK4", "RK4 in velocities"):
+        limit = chart.linear_limit[name]
+        assert limit / 1.5 < chart.stability_limit(name) < 1.5 * limit
+        coarsest = min((t for t in chart.trials if t.method == name), key=lambda t: t.step_rate)
+        assert coarsest.verdict == DIVERGED
+    finest = [t for t in chart.trials if t.step_rate == max(t.step_rate for t in chart.trials)]
+    assert all(trial.verdict == "stable" for trial in finest)
+    table = chart.table()
+    assert table["verdict"].tolist() == [trial.verdict for trial in chart.trials]
+    assert table.unit("linear_limit") == table.unit("step_rate") == "Hz"
+
+
 def check_that_all_is_given(experiment: Experiment) -> None:
+    assert experiment.completed
     assert all(reference.trusted for reference in experiment.references.values())
     for point in experiment.points:
         assert point.seconds > 0.0
@@ -113,3 +132,28 @@ def test_motion() -> None:
     assert [p.method for p in experiment.points if p.in_use] == ["RK4"]
     assert experiment.order("RK4", "series L2") > 2.0
     assert len(experiment.references[""].families) == 2 + bool(cvode)
+
+
+def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
+    shares: list[float] = []
+    found: list[Experiment] = []
+    answers = iter([*[False] * 7, True])  # five of them within the references
+    experiment = statics_experiment(
+        FAN_RIG,
+        n_angles=5,
+        watch=Watch(lambda part, doing: shares.append(part), lambda: next(answers), found.append),
+    )
+    assert [len(one.points) for one in found] == [1, 2]
+    assert len(experiment.points) == 2
+    assert not experiment.completed
+    assert shares == sorted(shares)
+    assert 0.0 <= shares[0] <= shares[-1] < 1.0
+
+
+@pytest.mark.parametrize("calls", [2, 5_000, 40_000])
+def test_references_end_as_soon_as_they_are_cancelled(calls: int) -> None:
+    """LSODA, DOP853 and CVODE: within one evaluation of the forces."""
+    asked = itertools.count()
+    found = measure(FAN_RIG, ["motion"], cancelled=lambda: next(asked) > calls)
+    assert found.count == 0
+    assert next(asked) <= calls + 3

@@ -1,25 +1,18 @@
 """What files say about themselves, in the shapes in which real machines are recorded."""
 
-import io
 import math
 from typing import Any
 
 import numpy as np
 import pytest
-from scipy.io import savemat
 
 from bearingcore import read_table
 from bearingcore.files import facts
+from tests.helpers.saved import matlab
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
 
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
-
-
-def matlab(**variables: object) -> bytes:
-    file = io.BytesIO()
-    savemat(file, variables)
-    return file.getvalue()
 
 
 def lines(rows: np.ndarray, delimiter: str = ",", heading: str = "") -> bytes:

@@ -5,7 +5,6 @@ import gzip
 import io
 import json
 import math
-import zipfile
 from collections.abc import Callable
 from typing import Any
 
@@ -13,11 +12,11 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.io import savemat
 
 from bearingcore import join_tables, read_recording, read_table
 from bearingcore.files import table
 from bearingcore.files.channels import Column
+from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
 
@@ -133,21 +132,21 @@ SLOW = 0.5 + np.arange(N) / 99.7
                 lambda i, x, y: f"{17 * 10**17 + int(1e9 * SLOW[i])},{SLOW[i]:.9f},{y},{x}",
                 "time,seconds_elapsed,y,x",
             ),
-            99.7, True, "g", ["y", "x"],
+            99.7, True, None, ["y", "x"],
         ),
         (
             lines(
                 lambda i, x, y: f"2024-01-01 10:00:{i // 100:02d},{1 + 10 * i},{x},{y}",
                 "Timestamp,Milliseconds,X,Y",
             ),
-            100.0, True, "g", ["X", "Y"],
+            100.0, True, None, ["X", "Y"],
         ),
         (
             lines(
                 lambda i, x, y: f"{TIME[i]:.6f},{x},{y},{9 * y},{x},{x}",
                 "time,accX,GyroX,gyro_z,MagX,X (rad/s)",
             ),
-            RATE, True, "g", ["accX"],
+            RATE, True, None, ["accX"],
         ),
         (
             lines(lambda i, x, y: f"{i / 51.63:.6f},{x}", "Time (s),X (m/s^2)"),
@@ -157,7 +156,7 @@ SLOW = 0.5 + np.arange(N) / 99.7
             lines(lambda i, x, y: f"{1e-9 * i:.3e},{x}", "x-axis,1\nsecond,Volt"),
             1e9, False, "V", ["column 2 [V]"],
         ),
-        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, "g", ["column 2"]),
+        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, None, ["column 2"]),
         (
             "log of today\n" + lines(lambda i, x, y: f"t: {TIME[i] * 1e3:.3f}ms, ax={x}g, T: 21.5"),
             RATE, True, "g", ["ax [g]"],
@@ -165,25 +164,25 @@ SLOW = 0.5 + np.arange(N) / 99.7
         (
             "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
             + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
-            RATE, True, "g", ["Memo.  a comment"],
+            RATE, True, None, ["Memo.  a comment"],
         ),
         (
             ";Headers, time,acc\n"
             + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
-            1690, False, "g", ["acc"],
+            1690, False, None, ["acc"],
         ),
-        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, "g",
+        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, None,
          ["column 2", "column 3"]),
         (
             lines(
                 lambda i, x, y: f"2024-1-01 10:0:{TIME[i]:.6f} -0700,my phone,192.168.1.1,{x}",
                 "time,device,address,acc",
             ),
-            RATE, True, "g", ["acc"],
+            RATE, True, None, ["acc"],
         ),
         (
             lines(lambda i, x, y: f"00:08,{TIME[i]:.6f},{x},,,", "Duration,time,acc,watch"),
-            RATE, True, "g", ["acc"],
+            RATE, True, None, ["acc"],
         ),
     ],
 )  # fmt: skip
@@ -192,16 +191,10 @@ def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -
     assert (made.sample_rate.value, made.sample_rate.stated) == (
         pytest.approx(rate, rel=1e-3), stated,
     )  # fmt: skip
-    assert made.unit.value == unit
+    assert (made.unit.value if made.unit.supported else None) == unit  # 1 is usual in g and m/s²
     chosen = made.choice.columns.values() or made.choice.options
     assert {made.columns[index].name for index in chosen} == set(signals)
     assert made.shaft_speed is None
-
-
-def matlab(**variables: Any) -> bytes:
-    file = io.BytesIO()
-    savemat(file, variables)
-    return file.getvalue()
 
 
 def cells(*each: Any) -> Any:
@@ -254,6 +247,16 @@ def test_the_text_of_octave_is_read(name: str) -> None:
         read(flat[: len(flat) // 2], name)
 
 
+def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
+    """Data sets, each with what stands beside it."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, (data, beside) in sets.items():
+            made = file.create_dataset(name.replace("__", "/"), data=data)
+            made.attrs.update(beside)
+    return buffer.getvalue()
+
+
 def tdms() -> bytes:
     nptdms = pytest.importorskip("nptdms")
     buffer = io.BytesIO()
@@ -279,34 +282,15 @@ def uff(tmp_path: Any, binary: int = 0) -> bytes:
     return bytes(path.read_bytes())
 
 
-def numpy_file(save: Any, *arrays: Any, **named: Any) -> bytes:
-    buffer = io.BytesIO()
-    save(buffer, *arrays, **named)
-    return buffer.getvalue()
-
-
-def parquet() -> bytes:
-    pytest.importorskip("pyarrow")
-    buffer = io.BytesIO()
-    pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES).to_parquet(buffer)
-    return buffer.getvalue()
-
-
-def zipped(**files: bytes) -> bytes:
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, content in files.items():
-            file.writestr(name.replace("_", ".").replace("-", "_"), content)
-    return buffer.getvalue()
-
-
 def test_formats_of_other_libraries_are_read(tmp_path) -> None:
     check_one_signal(read(tdms(), "a.tdms"))
     for binary in (0, 1):
         made = read(uff(tmp_path, binary), "a.uff")
         check_one_signal(made)
         assert (made.contents.unit.value, made.contents.columns[0].direction) == ("g", "y")
-    check_one_signal(read(parquet(), "a.parquet"))
+    pytest.importorskip("pyarrow")
+    frame = pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES)
+    check_one_signal(read(saved(frame.to_parquet), "a.parquet"))
 
 
 def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
@@ -314,7 +298,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
     made = read(zipped(run_csv=text), "rig.zip")
     check_one_signal(made)
     assert made.name == "rig.zip/run.csv"
-    two = zipped(a_csv=text, b_npy=numpy_file(np.save, SIGNAL[:, 0]))
+    two = zipped(a_csv=text, b_npy=saved(np.save, SIGNAL[:, 0]))
     with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
         read(two, "rig.zip")
     assert table.files_inside("RIG.ZIP", two)[0] == "RIG.zip/a.csv"
@@ -331,11 +315,8 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
 
 def matlab_table() -> bytes:
     """As version 7.3 keeps one: numbers that point into a part of its own."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file["T"] = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
-        file["T"].attrs["MATLAB_object_decode"] = 3
-    return buffer.getvalue()
+    points = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
+    return hdf5(T=(points, {"MATLAB_object_decode": 3}))
 
 
 @pytest.mark.parametrize(
@@ -344,9 +325,10 @@ def matlab_table() -> bytes:
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
         (b"Octave-1-L\x00", "save -v7"),
         (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
+        (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
         (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
-        (numpy_file(np.save, cells({}, {})), "damaged or unknown part"),
+        (saved(np.save, cells({}, {})), "damaged or unknown part"),
     ],
 )
 def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
@@ -360,9 +342,22 @@ def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
         (b"TDSm", "npTDMS"),
         (b"PAR1", "pyarrow"),
         (b"    -1\n    58\n", "pyuff"),
+        (zipped(**{"xl/workbook.xml": b""}), "openpyxl"),
     ):
         with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
-            read(mark + bytes(100))
+            read(mark if package == "openpyxl" else mark + bytes(100))
+
+
+def test_the_longest_sheet_of_excel_is_read() -> None:
+    pytest.importorskip("openpyxl")
+    made = io.BytesIO()
+    with pd.ExcelWriter(made, engine="openpyxl") as book:
+        pd.DataFrame({"Machine": ["pump"], "rpm": [1490]}).to_excel(book, sheet_name="Info")
+        FRAME[:500].to_excel(book, sheet_name="Data", index=False, startrow=2)
+    table = read(made.getvalue(), "a.xlsx")
+    np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
+    assert table.contents.sample_rate.value == pytest.approx(RATE)
+    assert table.notes == ("Read is its longest sheet, “Data”.",)
 
 
 # -- habits that were read wrongly ----------------------------------------------------------------
@@ -415,6 +410,12 @@ def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
     assert rate is None or rate.value == pytest.approx(RATE)
 
 
+@pytest.mark.parametrize("block", [N // 2, N // 20])
+def test_words_along_one_signal_are_no_sensors(block: int) -> None:
+    words = np.where((np.arange(N) // block) % 2, "faulty", "sound")
+    check_one_signal(read(FRAME.assign(label=words).to_csv(index=False)))
+
+
 def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
     with pytest.raises(ValueError, match=r"DE.*as many rows of each"):
         read(LONG.iloc[: 3 * N // 2].sort_values("v [g]").to_csv(index=False))
@@ -456,10 +457,7 @@ def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
 def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
     table = np.zeros(N, dtype=[("t", "f8"), ("acc", "f8")])
     table["t"], table["acc"] = TIME, SIGNAL[:, 0]
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        file["rig"] = table
-    for content in (buffer.getvalue(), numpy_file(np.save, table)):
+    for content in (hdf5(rig=(table, {})), saved(np.save, table)):
         check_one_signal(read(content))
     made = read(matlab(acc=SIGNAL.T[:, None, :], fs=RATE), "a.mat")
     np.testing.assert_array_equal(made.columns, SIGNAL)
@@ -700,11 +698,11 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     *((FRAME.to_json(orient="records", lines=lines, double_precision=9), RATE)
       for lines in (False, True)),
     (json.dumps({"fs": RATE, "acc": LIST}), RATE, "a.json"),
-    (numpy_file(np.save, ALONE), None, "a.npy"),
-    (numpy_file(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
-    (numpy_file(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
+    (saved(np.save, ALONE), None, "a.npy"),
+    (saved(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
+    (saved(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
 ]  # fmt: skip
 
 
@@ -752,16 +750,6 @@ def stated(fact: Any, sure: bool = True) -> Any:
 def in_rpm(fact: Any, sure: bool = True) -> float | None:
     speed = stated(fact, sure)
     return speed if speed is None else round(speed * 30.0 / math.pi, 1)
-
-
-def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
-    """Data sets, each with what stands beside it."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        for name, (data, beside) in sets.items():
-            made = file.create_dataset(name.replace("__", "/"), data=data)
-            made.attrs.update(beside)
-    return buffer.getvalue()
 
 
 def one(remark: str) -> bytes:

@@ -10,6 +10,7 @@ from scipy.io import savemat, wavfile
 from bearingcore.files import child, table
 from bearingcore.files.table import read_table
 from tests.helpers.reading import read_in_this_process
+from tests.helpers.saved import matlab, saved
 
 RATE = 12_800.0
 N = 3000
@@ -34,18 +35,6 @@ def quickly(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> 
 def text(rows, delimiter=",", heading="", decimal=".") -> bytes:
     lines = [delimiter.join(f"{v:.9g}".replace(".", decimal) for v in row) for row in rows]
     return (heading + "\n".join(lines)).encode()
-
-
-def wav(data, rate=12_800) -> bytes:
-    buffer = io.BytesIO()
-    wavfile.write(buffer, rate, data)
-    return buffer.getvalue()
-
-
-def matlab(variables, **options) -> bytes:
-    buffer = io.BytesIO()
-    savemat(buffer, variables, **options)
-    return buffer.getvalue()
 
 
 TABLE = np.column_stack([TIME, SIGNAL])
@@ -94,7 +83,7 @@ def test_gaps_matter_only_in_the_columns_taken():
     ],
 )
 def test_wav(data, one):
-    table = read_table("rig.wav", wav(data))
+    table = read_table("rig.wav", saved(wavfile.write, 12_800, data))
     assert table.contents.sample_rate.value == 12_800.0
     wanted = data / one if one else data / 128.0 - 1.0
     got = table.recording([0, 1], ["x", "y"], "m/s²", full_scale=50.0)
@@ -106,7 +95,7 @@ def test_matlab(options):
     variables = {"vertical": SIGNAL[:, :1], "horizontal": SIGNAL[:, 1], "fs": RATE, "rpm": 420.0}
     if "format" not in options:
         variables |= {"short": SIGNAL[:9], "words": "remark", "turned": SIGNAL * 1j}
-    table = read_table("rig.mat", matlab(variables, **options))
+    table = read_table("rig.mat", saved(savemat, variables, **options))
     assert table.names == ("vertical", "horizontal")
     assert table.scalars == {"fs": RATE, "rpm": 420.0}
     if "format" not in options:
@@ -121,7 +110,8 @@ def test_structs_and_cells_are_read_by_their_paths():
     run = {"gs": SIGNAL[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
     parts = np.empty(2, dtype=object)
     parts[:] = [SIGNAL[:, :1], {"deep": SIGNAL[:, 1:], "word": "inside"}]
-    table = read_table("s.mat", matlab({"bearing": run, "parts": parts}, do_compression=True))
+    held = {"bearing": run, "parts": parts}
+    table = read_table("s.mat", saved(savemat, held, do_compression=True))
     assert table.names == ("bearing.gs", "parts{1}", "parts{2}.deep")
     assert table.scalars == {"bearing.sr": 48_828.0, "bearing.rate": 25.0}
     assert table.texts == {"bearing.load": "150", "parts{2}.word": "inside"}
@@ -131,17 +121,10 @@ def test_structs_and_cells_are_read_by_their_paths():
 def test_a_struct_array_is_numbered_and_shorter_vectors_end_earlier():
     runs = np.empty((1, 2), dtype=[("gs", "O")])
     runs["gs"][0] = [SIGNAL[:, 0], SIGNAL[:2000, 1]]
-    table = read_table("r.mat", matlab({"runs": runs}))
+    table = read_table("r.mat", matlab(runs=runs))
     assert table.names == ("runs(1).gs", "runs(2).gs")
     got = table.recording([1], ["y"], "g", 1000.0)
     np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:2000, 1] * 9.80665)
-
-
-def nested(depth: int) -> dict[str, object]:
-    inside: dict[str, object] = {"a": SIGNAL}
-    for _ in range(depth):
-        inside = {"s": inside}
-    return inside
 
 
 def hdf5(fill) -> bytes:
@@ -208,27 +191,9 @@ def test_hdf5_names_no_other_files(tmp_path):
     assert read_table("x.mat", hdf5(fill)).names == ("own",)
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "told"),
-    [
-        ("a.csv", b"", "allowed: one that is not empty"),
-        ("a.csv", b"words\n" * 5000, "a table of numbers"),
-        ("a.csv", text(TABLE[:20]), "number of rows in a.csv is 20"),
-        ("a.png", b"\x89PNG\r\n\x1a\n\x00\x00" + bytes(1000), "text with numbers"),
-        ("a.wav", b"RIFF\x00\x00\x00\x00WAVE", "a whole WAV file"),
-        ("a.mat", b"MATLAB 5.0 MAT-file", "MATLAB file"),
-        ("a.mat", b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(600), "MATLAB file"),
-        ("a.mat", b"\x89HDF\r\n\x1a\n".ljust(600), "damaged or unknown part"),
-        ("a.mat", hdf5(matlab_7_3)[:9000], "damaged or unknown part"),
-        ("a.mat", matlab({"s": nested(12)}), "structs inside one another"),
-        ("a.mat", matlab({"a": SIGNAL * 1j}), "vector or matrix"),
-        ("a.mat", matlab({"a": np.zeros((1030, 1030))}), "number of columns in a.mat is 1030"),
-    ],
-)
-def test_bad_files_are_refused_with_a_sentence(name, content, told):
-    with pytest.raises(ValueError, match=told) as caught:
-        read_table(name, content)
-    assert "\n" not in str(caught.value)
+def test_a_cut_file_of_matlab_7_3_is_refused():
+    with pytest.raises(ValueError, match="damaged or unknown part"):
+        read_table("a.mat", hdf5(matlab_7_3)[:9000])
 
 
 def test_huge_files_are_refused_before_they_are_read(monkeypatch):
@@ -237,23 +202,6 @@ def test_huge_files_are_refused_before_they_are_read(monkeypatch):
         read_table("a.csv", bytes(2**21))
     with pytest.raises(ValueError, match=r"count of numbers in a\.csv is 'over 5000'"):
         child.read_file("a.csv", text(TABLE), most_numbers=5000)
-
-
-@pytest.mark.parametrize(
-    ("columns", "directions", "unit", "told"),
-    [
-        ([5], ["y"], "g", "column is 5"),
-        (["z"], ["y"], "g", "column is 'z'"),
-        ([True, 1], ["x"], "g", "columns"),
-        ([1, 1], ["x", "y"], "g", "different ones, one a direction"),
-        ([1], ["y"], None, r"unit is missing: pass unit=..., one of m/s², g"),
-        ([1], ["y"], "mV", r"sensitivity is missing: pass sensitivity=..., that of the sensor"),
-    ],
-)
-def test_tables_refuse_what_they_do_not_have(columns, directions, unit, told):
-    table = read_table("a.csv", text(TABLE, heading="time,x,y\n"))
-    with pytest.raises(ValueError, match=told):
-        table.recording(columns, directions, unit)
 
 
 def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():

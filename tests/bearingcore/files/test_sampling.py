@@ -74,12 +74,16 @@ def test_recordings_in_one_file_are_counted_and_any_is_read() -> None:
     times = np.concatenate([TIME[:2000], TIME[:1500], TIME[:300]])
     table = Table(("time [s]", "a [g]"), np.stack([times, values], axis=1))
     assert table.recordings == ((0, 2000), (2000, 3500), (3500, 3800))
-    words = "holds 3 recordings, or parts of one, of 156 ms, 117 ms and 23.4 ms; number 1 is read"
+    words = "holds 3 recordings, or parts of one, of 156 ms, 117 ms and 23.4 ms; unless another is "
+    words += "chosen number 1, rows 1 to 2000 of 3800, is read. The times jump 2 times"
     assert words in " ".join(table.recording([1], "y").notes)
     second = table.one_of_recordings(2).recording([1], "y")
     assert second.sample_rate == pytest.approx(RATE)
     assert second.acceleration[:, 0] == pytest.approx(STANDARD_GRAVITY * values[2000:3500])
     assert "Recording 2 of 3" in second.notes[0]
+    assert (table.which, table.one_of_recordings(2).which) == (
+        "recording 1 of 3", "recording 2 of 3",
+    )  # fmt: skip
     with pytest.raises(FieldError, match="part is 4"):
         table.one_of_recordings(4)
     assert Table(("t [s]", "a [g]"), table.columns[:2000]).recordings == ()

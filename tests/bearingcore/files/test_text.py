@@ -65,21 +65,3 @@ def test_dates_and_times_of_day_are_seconds(text, seconds) -> None:
     about, columns = read(text)
     assert about["stamps"] == [0]
     np.testing.assert_allclose(columns, np.column_stack([seconds, [1, 2]]))
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("1,2\n3,x", "line 2 of t is '3,x'; allowed: numbers"),
-        ("a,b\n1,2\n3", "line 3 of t is '3'; allowed: 2 columns"),
-        ("1_000", "start of t"),
-        ("2024-99-01T12:00:00,1\n", "start of t"),
-        ("," * 30 + "1", "number of columns in t is 31"),
-        ("1 " * 40_000 + "\n1 2\n", "number of columns in t"),
-        ("\n" * 500_001, "lines of numbers"),
-        ("1\n" * 1_000_001, "count of numbers"),
-    ],
-)
-def test_what_cannot_be_read_is_refused(text, told) -> None:
-    with pytest.raises(ValueError, match=told):
-        read(text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import panel as pn
@@ -22,17 +22,35 @@ from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
-from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines
+from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines, Zoom
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm
 from bearing_explorer.diagnosis.widgets.part_panel import ListedBearings, PartPanel, evidence_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
+from bearing_explorer.kit.views.look_view import LookView
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Diagnosis, Recording
 from bearingcore.common import probability
-from bearingcore.diagnosis import INNER, OUTER, DiagnosisStatus
+from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
+
+FIELDS: list[FieldSpec] = [
+    {
+        "name": "zoom",
+        "label": "Zoom to",
+        "options": [
+            ["", "all lines"],
+            *(
+                [f"{part} {k}", f"{part}, {k}×" if k > 1 else part]
+                for part in PARTS
+                for k in range(1, HARMONICS + 1)
+            ),
+        ],
+    },
+]
+"""Choices above the figure."""
+
 
 RACES_NAMED = (OUTER, INNER)
 
@@ -81,7 +99,7 @@ def on_records() -> str:
     )
 
 
-class PartDiagnosis(MeasuredView):
+class PartDiagnosis(LookView, MeasuredView):
     """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
 
     name = "diagnosis"
@@ -93,7 +111,9 @@ class PartDiagnosis(MeasuredView):
         f"geometry. {on_records()}"
     )
     computes = True
+    look_fields = FIELDS
     finds_speed = True
+    first_look: ClassVar[dict[str, Any]] = {"zoom": ""}
 
     def build(self, packed: PackedSource) -> Any:
         self.machine = MachineForm(
@@ -108,7 +128,8 @@ class PartDiagnosis(MeasuredView):
             "", stylesheets=[asset_text("evidence.css")], sizing_mode="stretch_width", margin=0
         )
         self._seen = stack(
-            self.lines.plot, self.evidence, visible=False, stylesheets=[AS_HIGH_AS_SHOWN],
+            self.panel_of_look, self.lines.plot, self.evidence, visible=False,
+            stylesheets=[AS_HIGH_AS_SHOWN],
         )  # fmt: skip
         self.candidates = ListedBearings(
             lambda name: self.measurement.take_bearing(name),
@@ -140,6 +161,8 @@ class PartDiagnosis(MeasuredView):
         return None if question is None else self.measurement.diagnoses.of(question)
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
+        known = {name: value for name, value in choices.items() if name != "speed"}
+        super().choose(known, model)
         measurement, measured = self.measurement, self.measured
         if measured is None:
             return
@@ -160,7 +183,7 @@ class PartDiagnosis(MeasuredView):
         found = self.answer()
         if not isinstance(found, Diagnosis) or found.spectrum is None:
             return {}, {}
-        return self.lines.data(found)
+        return self.lines.data(found, Zoom.of(self.look["zoom"]))
 
     def say(self, model: Model | None, sentence: str) -> None:
         self._show()

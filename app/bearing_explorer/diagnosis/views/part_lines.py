@@ -8,13 +8,14 @@ them. Below are frequencies, above the same in turns of the shaft (orders).
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from bokeh.models import LinearAxis, Scatter, VSpan
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.diagnosis.views.frequency_lines import ROW_PIXELS, named
+from bearing_explorer.diagnosis.views.frequency_lines import ROW_PIXELS
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_over
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -40,7 +41,26 @@ INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
 _ROW = ROW_PIXELS / FRAME
-_WORDS = "return row.order == 1 ? '%s' : `${row.order}×`"
+_NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
+"""Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
+_WORDS = """
+const name = row.order == 1 ? '%s' : `${row.order}×`
+return row.labelled ? `${name} ${rounded(row.frequency, 4)} Hz` : name
+"""
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """A line to look at closely: a harmonic of a part; all of them where there is no part."""
+
+    part: str = ""
+    harmonic: int = 1
+
+    @classmethod
+    def of(cls, words: str) -> Zoom:
+        """The line that "inner race 2" says, the second harmonic; of no words all lines."""
+        part, _, harmonic = words.rpartition(" ")
+        return cls(part, int(harmonic)) if part else cls()
 
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
@@ -61,6 +81,37 @@ def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
     return one.frequency if one is leading(diagnosis) else one.nominal_frequency
 
 
+def window(diagnosis: Diagnosis, zoom: Zoom) -> tuple[float, float]:
+    """Frequencies [Hz] that are shown: all lines, or the surroundings of one."""
+    if zoom.part not in PARTS:
+        greatest = max(fundamental(diagnosis, one) * len(one.harmonics)
+                       for one in diagnosis.evidence)  # fmt: skip
+        assert diagnosis.spectrum is not None
+        return 0.0, min(1.04 * greatest, float(diagnosis.spectrum.frequency[-1]))
+    one = diagnosis.of(zoom.part)
+    middle = fundamental(diagnosis, one) * zoom.harmonic
+    sideways = 3.4 if one.sideband_source == "cage" else 1.7
+    return max(middle - sideways * one.sideband_spacing, 0.0), middle + (
+        sideways * one.sideband_spacing
+    )
+
+
+def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
+    NDArray[np.float64]
+):  # fmt: skip
+    """Those of the multiples of `first` [Hz] in a window whose names do not overlap."""
+    width = high - low
+    kept: list[float] = []
+    clear = -math.inf
+    for multiple in multiples[(multiples * first >= low) & (multiples * first <= high)]:
+        at = multiple * first
+        wide = _NAME_WIDTH if multiple == 1.0 else _ORDER_WIDTH
+        if at >= clear and at + wide * width <= high + 0.5 * wide * width:
+            kept.append(float(multiple))
+            clear = at + wide * width
+    return np.array(kept)
+
+
 def layers() -> list[Layer]:
     """From the lowest to the highest: lines of the parts, the spectrum, marks on harmonics."""
     beneath: list[Layer] = []
@@ -75,7 +126,7 @@ def layers() -> list[Layer]:
             Glyph(VSpan, _lines(part), ("frequency",), found, ("alpha", "width")),
             Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
             names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
-                       ("order", "alpha"), x_offset=3, text_alpha="alpha"),
+                       ("order", "alpha", "labelled"), x_offset=3, text_alpha="alpha"),
         ]  # fmt: skip
         marks.append(Glyph(Scatter, _points(part), ("frequency", "level"), mark))
     spectrum = curve("diagnosis_spectrum", "frequency", "level", style.INK, 1.2, alpha=0.9)
@@ -106,15 +157,13 @@ class PartLines:
         """The axis of orders, where the shaft's speed is known."""
         self._order_axis.visible = known
 
-    def data(self, diagnosis: Diagnosis) -> tuple[Sources, Ranges]:
-        """The sources of a diagnosis with a spectrum: as far as there are lines."""
+    def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
+        """The sources of a diagnosis with a spectrum."""
         spectrum = diagnosis.spectrum
         assert spectrum is not None
-        greatest = max(fundamental(diagnosis, one) * len(one.harmonics)
-                       for one in diagnosis.evidence)  # fmt: skip
-        top = min(1.04 * greatest, float(spectrum.frequency[-1]))
+        low, high = window(diagnosis, zoom)
         shaft = shaft_frequency(diagnosis)
-        drawn = excerpt(spectrum.frequency, spectrum.level, top)
+        drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
         for row, one in enumerate(diagnosis.evidence):
@@ -122,7 +171,7 @@ class PartLines:
             alpha = EVEN if lead is None else STRONG if one is lead else FAINT
             multiples = np.arange(1.0, len(one.harmonics) + 1.0)
             size = multiples.size
-            labels = named(multiples[multiples * first <= top], first, top)
+            labels = named(multiples, first, low, high)
             sources[_lines(one.part)] = {
                 "frequency": multiples * first,
                 "alpha": np.full(size, alpha),
@@ -133,6 +182,7 @@ class PartLines:
                 "order": labels,
                 "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
                 "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+                "labelled": np.full(labels.size, float(zoom.part != "")),
             }
         if lead is not None:
             sources |= self._of_lead(lead)
@@ -141,8 +191,8 @@ class PartLines:
         room = _ROW * (len(PARTS) + 0.8)
         head = (loudest - LOWEST) * room / (1.0 - room)
         return sources, {
-            "diagnosis_frequency": (0.0, top),
-            "diagnosis_order": (0.0, top / shaft),
+            "diagnosis_frequency": (low, high),
+            "diagnosis_order": (low / shaft, high / shaft),
             "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
         }
 
@@ -163,11 +213,12 @@ class PartLines:
 
 
 def excerpt(
-    frequency: NDArray[np.float64], level: NDArray[np.float64], top: float
+    frequency: NDArray[np.float64], level: NDArray[np.float64], low: float, high: float
 ) -> dict[str, NDArray[np.float64]]:
-    """A spectrum up to `top` [Hz] with no more lines than can be seen; peaks stay."""
-    last = int(np.searchsorted(frequency, top)) + 1
-    frequency, level = frequency[:last], level[:last]
+    """A spectrum between two frequencies [Hz] with no more lines than can be seen; peaks stay."""
+    first, last = np.searchsorted(frequency, [low, high])
+    first, last = max(int(first) - 1, 0), min(int(last) + 1, frequency.size)
+    frequency, level = frequency[first:last], level[first:last]
     size = math.ceil(frequency.size / MOST_LINES)
     if size > 1:
         n = frequency.size // size * size

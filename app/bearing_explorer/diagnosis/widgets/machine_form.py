@@ -43,6 +43,16 @@ KEPT = (
 )
 
 
+def kept_html(state: MeasurementState) -> str:
+    """Answers that are kept from the file before, and a guess of this file beside them."""
+    if not state.kept_from:
+        return ""
+    own = dict(state.speeds).get(FILE, "")
+    doubt = f"<p>Of the shaft speed there is {html.escape(own)}. Choose it if that is right.</p>"
+    kept_speed = own and state.values["speed"] in (GIVEN, ROUGH)
+    return KEPT.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
+
+
 class MachineForm(pn.Column):
     """Bearing and shaft speed of a signal; each answer counts at once.
 
@@ -108,7 +118,7 @@ class MachineForm(pn.Column):
         named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
         named += [name for name in state.refused if shown.get(name) and name not in named]
         words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
-        kept = KEPT.format(html.escape(state.kept_from)) if state.kept_from else ""
+        kept = kept_html(state)
         self._kept.visible = bool(kept)
         self._notes.object = kept + notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
         self._notes.visible = bool(self._notes.object)

@@ -42,9 +42,9 @@ LABELS = {
     "sample_rate": "Sample rate (Hz)",
 }
 FORMATS = (
-    "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, or a zip of "
-    f"some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. Several, or a folder, "
-    "become a trend; parts of one signal can be joined."
+    "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, Excel "
+    f"(.xlsx), or a zip of some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. "
+    "Several, or a folder, become a trend; parts of one signal can be joined."
 )
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 

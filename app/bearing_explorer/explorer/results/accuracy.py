@@ -1,12 +1,41 @@
-"""Speed against accuracy: the measurements that are shipped, and of which preset they are shown."""
+"""Speed against accuracy: what is shipped for a preset, and what is measured on this machine."""
 
 from __future__ import annotations
 
+import time
+from dataclasses import dataclass
 from functools import cache
 
 from bearing_explorer.kit.assets import asset_path
+from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.sentences import words_of
 from bearingcore import Scene, presets
-from bearingcore.experiments import Measurements, measurements_from
+from bearingcore.experiments import (
+    MEASURED,
+    ORBITS,
+    STABILITY,
+    Measurements,
+    measure,
+    measurements_from,
+)
+
+EVERYTHING = "everything"
+TRIALS = {
+    EVERYTHING: "Everything",
+    "motion": "Motion: steps and methods",
+    "statics": "Statics: solvers",
+    STABILITY: "Stability: steps",
+    ORBITS: "Stability: orbit over speed",
+}
+"""Choices of the form by name."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """Measurements on this machine, and their scene."""
+
+    scene: Scene
+    result: Measurements
 
 
 @cache
@@ -20,3 +49,23 @@ def preset_like(scene: Scene) -> str:
     same = [name for name, preset in presets.items() if preset == scene]
     alike = [name for name, preset in presets.items() if preset.bearing == scene.bearing]
     return (*same, *alike, "fan-rig")[0]
+
+
+def compute(job: Work, scene: Scene, name: str) -> str:
+    """Measure and show it point by point. Runs in a job's thread."""
+    names = MEASURED if name == EVERYTHING else (name,)
+    started = time.perf_counter()
+    found = measure(
+        scene,
+        names,
+        slow=False,
+        progress=job.progress,
+        cancelled=job.cancelled,
+        shown=lambda part: job.show(Found(scene, part)),
+        words=words_of,
+    )
+    if not found.count:
+        if found.refused:
+            raise ValueError(f"Not for this scene: {'; '.join(found.refused.values())}.")
+        return "Nothing was measured yet."
+    return f"{found.count} points after {time.perf_counter() - started:.1f} s."

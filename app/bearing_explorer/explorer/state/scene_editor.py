@@ -460,6 +460,8 @@ class SceneEditor:
         found = self.listed.find(name)
         origin = origin_words(found, found.name in self.listed.own)
         self.take_bearing(found.bearing, found.name, origin)
+        if found.assumed:  # seen where it is chosen; sources are behind the question mark
+            self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))

@@ -56,7 +56,11 @@ class Displacement(View):
     def show(self, results: Results) -> None:
         compared = bool(results.compared)
         html = side_by_side_html(results, self.rows) if compared else self.html(results)
-        self._numbers.put(text=html)
+        self._numbers.put(text=html + self.more(results))
+
+    def more(self, results: Results) -> str:
+        """Tables of the scene alone, below."""
+        return ""
 
     @staticmethod
     def rows(results: Results) -> Rows:
@@ -133,10 +137,8 @@ class OperatingPoint(Displacement):
                 name = "".join(DOF_SYMBOLS[DOF_NAMES[one]] for one in (i, k))
                 yield f"Stiffness k<sub>{name}</sub>, {when}", _digits(float(lines[i, k]), 5)
 
-    def html(self, results: Results) -> str:
-        """The tables of a scene."""
-        stiffness = (_stiffness_html(*one) for one in _stiffnesses(results))
-        return super().html(results) + "".join(stiffness)
+    def more(self, results: Results) -> str:
+        return "".join(_stiffness_html(*one) for one in _stiffnesses(results))
 
     def sentence(self, results: Results) -> str:
         state = results.ranges.state

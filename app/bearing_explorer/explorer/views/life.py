@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import html
 import math
+import re
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -172,16 +173,21 @@ class LifeOfBearing(View):
     def table(self, results: Results) -> dict[str, np.ndarray]:
         if results.compared:
             heads = ("quantity", *(name for name, _ in scenes_of(results)))
-            columns = zip(*side_by_side(results, facts_of), strict=True)
-            return dict(zip(heads, map(np.array, columns), strict=True))
+            both = [(_text(name), *values) for name, *values in side_by_side(results, facts_of)]
+            return dict(zip(heads, map(np.array, zip(*both, strict=True)), strict=True))
         groups = groups_of(results)
         rows = [
-            (group.title, fact.name, fact.value)
+            (group.title, _text(fact.name), fact.value)
             for group in groups
             for fact in (*group.facts, Fact("in words", group.words))
         ]
         about, quantity, value = np.array(rows, dtype=str).reshape(-1, 3).T
         return {"about": about, "quantity": quantity, "value": value}
+
+
+def _text(name: str) -> str:
+    """A name without its tags, as a table and a CSV file have it."""
+    return re.sub(r"<[^>]*>", "", name)
 
 
 def read(field: Field, given: object) -> float | None:

@@ -38,14 +38,16 @@ ALLOWED = {"dB": 0.1, "1": 0.01}
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
-NOT_YET = "Nothing is shipped for this chart."
+NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
+PALE = 0.3
+"""Opacity of shipped points beside those of this machine."""
 
 _WIDE = ":host { grid-column: 1 / -1; }"
 REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
 
-_POINTS = ("cost", "error", "slot", "marker", "label", "method", "setting", "seconds",
+_POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
 
 _PLACE_LABELS = """
@@ -145,7 +147,7 @@ class WorkPrecision:
         plot.yaxis.formatter = style.logarithmic_ticks()
         colors = by_number("slot", COLORS)
         self._best = column_source("cost", "error")
-        self._lines = column_source("costs", "errors", "slot")
+        self._lines = column_source("costs", "errors", "slot", "alpha")
         self._slopes = column_source("costs", "errors")
         self._points = column_source(*_POINTS)
         self._used = column_source("cost", "error")
@@ -156,12 +158,12 @@ class WorkPrecision:
         plot.multi_line("costs", "errors", source=self._slopes, line_color=style.FAINT_INK,
                         line_dash=value([2, 4]))  # fmt: skip
         plot.multi_line("costs", "errors", source=self._lines, line_color=colors,
-                        line_width=1.2)  # fmt: skip
+                        line_alpha="alpha", line_width=1.2)  # fmt: skip
         points = plot.scatter("cost", "error", source=self._points, marker="marker", size="size",
-                              fill_color=colors, line_color=colors)  # fmt: skip
+                              fill_color=colors, line_color=colors, alpha="alpha")  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        plot.text("cost", "error", text="text", source=self._points,
+        plot.text("cost", "error", text="text", source=self._points, text_alpha="alpha",
                   text_color=colors, text_font_size="10px", text_font={"value": style.FONT},
                   text_baseline="middle", x_offset="right", y_offset="down")  # fmt: skip
         place = CustomJS(args={"plot": plot, "source": self._points}, code=_PLACE_LABELS)
@@ -177,28 +179,32 @@ class WorkPrecision:
 
     def draw(
         self,
+        found: Experiment | None,
         shipped: Experiment | None,
         cost: str,
         refused: str,
     ) -> None:
-        """Show the points that are shipped.
+        """Show points found on this machine and shipped ones, pale where there are both.
 
         `cost`: "seconds" or "evaluations". `refused`: why there are no points.
         """
-        state = (shipped, cost, refused, self.error)
+        state = (found, shipped, cost, refused, self.error)
         if self._drawn == state:
             return
         self._drawn = state
-        self.plot.visible = shipped is not None
+        main = found or shipped
+        self.plot.visible = main is not None and bool(main.points)
         not_here = f"Not for this scene: {refused}. " if refused else ""
-        if shipped is None:
+        if main is None:
             self._words.object = paragraph(not_here or NOT_YET)
             return
-        self._fill(shipped, cost)
-        own = [p for p in shipped.points if self._placed(p, cost) and p.in_use]
+        faint = shipped if found is not None else None
+        parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
+        self._fill(parts, cost)
+        own = [p for p in main.points if self._placed(p, cost) and p.in_use]
         self._used.data = self._at(own, cost)
-        self._words.object = legend(shipped.methods) + paragraph(
-            not_here + sentence(shipped, self.error)
+        self._words.object = legend(methods_of(parts)) + paragraph(
+            not_here + sentence(main, self.error)
         )
 
     def _known(self, point: Point) -> bool:
@@ -214,8 +220,9 @@ class WorkPrecision:
         at = (getattr(point, cost), point.errors.get(self.error, math.nan))
         return not point.failed and all(math.isfinite(v) and v > 0.0 for v in at)
 
-    def _fill(self, main: Experiment, cost: str) -> None:
-        every = [p for p in main.points if self._known(p)]
+    def _fill(self, parts: list[tuple[Experiment, float]], cost: str) -> None:
+        main = parts[-1][0]
+        every = [p for one, _ in parts for p in one.points if self._known(p)]
         good = [point for point in every if self._placed(point, cost)]
         costs = [getattr(p, cost) for p in every]
         left, right = _around([c for c in costs if math.isfinite(c) and c > 0.0], 1.8)
@@ -234,26 +241,27 @@ class WorkPrecision:
         frontier = [p for p in main.frontier(self.error, cost) if self._placed(p, cost)]
         self._best.data = self._at(frontier, cost)
         rows, lines = [], []
-        single = all(len(main.of(method)) == 1 for method in main.methods)
-        for slot, method in enumerate(main.methods):
-            color, marker = look(slot)
-            own = main.of(method)
-            line = self._at([p for p in own if self._placed(p, cost)], cost)
-            lines.append((line["cost"], line["error"], color))
-            for p in filter(self._known, own):
-                placed = self._placed(p, cost)
-                at = getattr(p, cost)
-                at = at if math.isfinite(at) and at > 0.0 else right / 1.3
-                label = method if single else p.label
-                rows.append((
-                    at, p.errors[self.error] if placed else top / 2.0, color,
-                    marker if placed else "x", label, method, p.setting,
-                    style.with_prefix(p.seconds, "s"), p.evaluations,
-                    p.status if p.failed or placed else BEYOND, 8 if placed else 11,
-                    (p in frontier) + p.in_use, "", 0.0, 0.0,
-                ))  # fmt: skip
+        for one, alpha in parts:
+            single = all(len(one.of(method)) == 1 for method in one.methods)
+            for slot, method in enumerate(methods_of(parts)):
+                color, marker = look(slot)
+                own = one.of(method)
+                line = self._at([p for p in own if self._placed(p, cost)], cost)
+                lines.append((line["cost"], line["error"], color, alpha))
+                for p in filter(self._known, own):
+                    placed = self._placed(p, cost)
+                    at = getattr(p, cost)
+                    at = at if math.isfinite(at) and at > 0.0 else right / 1.3
+                    label = method if single else p.label
+                    rows.append((
+                        at, p.errors[self.error] if placed else top / 2.0, color,
+                        marker if placed else "x", alpha, label, method, p.setting,
+                        style.with_prefix(p.seconds, "s"), p.evaluations,
+                        p.status if p.failed or placed else BEYOND, 8 if placed else 11,
+                        alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
+                    ))  # fmt: skip
         self._points.data = columns_of(_POINTS, rows)
-        self._lines.data = columns_of(("costs", "errors", "slot"), lines)
+        self._lines.data = columns_of(("costs", "errors", "slot", "alpha"), lines)
         self._slopes.data = columns_of(("costs", "errors"), self._theory(main, cost))
 
     def _theory(self, one: Experiment, cost: str) -> list[tuple[list[float], list[float]]]:
@@ -318,6 +326,11 @@ def sentence(one: Experiment, error: str) -> str:
     )
     parts += [part for part in (reference.note,) if part]
     return ". ".join(part.rstrip(".") for part in parts) + "."
+
+
+def methods_of(parts: list[tuple[Experiment, float]]) -> tuple[str, ...]:
+    """Names of all methods, of which each keeps its colour while points come."""
+    return tuple(dict.fromkeys(method for one, _ in parts for method in one.methods))
 
 
 def legend(methods: Sequence[str]) -> str:

@@ -1,6 +1,7 @@
 """The Diagnosis tab: the part marked, its lines, the evidence, and what is said about it."""
 
 import dataclasses
+import math
 import re
 from functools import cache
 
@@ -13,7 +14,13 @@ from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
-from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG
+from bearing_explorer.diagnosis.views.part_lines import (
+    FAINT,
+    STRONG,
+    Zoom,
+    named,
+    window,
+)
 from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
 from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.kit.messages import take
@@ -201,6 +208,18 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
 
 
+def test_a_zoom_shows_a_line_with_what_stands_beside_it():
+    found = diagnosed("inner race")
+    one = found.of("inner race")
+    low, high = window(found, Zoom("inner race", 2))
+    assert low < 2.0 * one.frequency - one.sideband_spacing
+    assert high > 2.0 * one.frequency + one.sideband_spacing
+    assert high - low < one.frequency
+    view = view_of(heard("inner race"), found)
+    view.look_changed("zoom", "inner race 2")
+    assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
+
+
 def test_the_shaft_speed_can_be_rough_or_unknown():
     measurement = shown("outer race").measurement
     measurement.take_form({"speed": ""})
@@ -211,6 +230,16 @@ def test_the_shaft_speed_can_be_rough_or_unknown():
     assert low < heard("outer race").shaft_speed < high
     measurement.take_form({"speed": "simulated"})
     assert measurement.question() == asked("outer race")
+
+
+@pytest.mark.parametrize("first", [3.0, 40.3, 107.4, 162.2, 900.0])
+@pytest.mark.parametrize("low", [0.0, 100.0])
+@pytest.mark.parametrize("high", [150.0, 1000.0])
+def test_names_of_lines_stand_clear_of_each_other(first, low, high):
+    multiples = np.arange(1.0, 7.0)
+    places = named(multiples, first, low, high) * first
+    assert ((places >= low) & (places <= high)).all()
+    assert np.diff(places).min(initial=math.inf) >= 0.04 * (high - low)
 
 
 # -- the evidence ----------------------------------------------------------------------------------

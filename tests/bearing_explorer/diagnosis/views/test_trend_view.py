@@ -1,7 +1,6 @@
 """Several files as a trend: good ones read, bad ones named, numbers as a table and in Python."""
 
 import asyncio
-import io
 from collections.abc import Callable, Iterator
 from functools import cache
 
@@ -18,6 +17,7 @@ from bearingcore import presets
 from tests.helpers.loops import run
 from tests.helpers.measuring import measuring, signal
 from tests.helpers.reading import read_in_this_process
+from tests.helpers.saved import saved
 
 MODEL = Model(presets["fan-rig"])
 
@@ -42,12 +42,10 @@ def files() -> dict[str, bytes]:
     time = np.arange(int(RATE)) / RATE
     made = {}
     for day, loud in enumerate(LOUD, 1):
-        file = io.StringIO()
         noise = rng.standard_normal(time.size)
         signal = loud * (noise - noise.mean()) / noise.std()
-        np.savetxt(file, np.column_stack([time, signal]), "%.7g", ",", header="time (s),y (m/s2)",
-                   comments="")  # fmt: skip
-        made[f"day{day}.csv"] = file.getvalue().encode()
+        table, head = np.column_stack([time, signal]), "time (s),y (m/s2)"
+        made[f"day{day}.csv"] = saved(np.savetxt, table, "%.7g", ",", header=head, comments="")
     first, *others = made.items()
     return dict([first, ("broken.csv", b"x,y\n1,2\nhello,3"), *others])
 

@@ -2,27 +2,32 @@
 
 import html
 import math
+import time
 
 import pytest
-from bearing_explorer.explorer.results.accuracy import shipped
+from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
 from bearing_explorer.explorer.views.work_precision import (
     BEYOND,
     NOT_YET,
     legend,
     sentence,
 )
+from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
 from bearingcore.experiments import (
     Experiment,
+    Measurements,
+    OrbitAtSpeed,
     Point,
     Reference,
-    measure,
     measurements_from,
 )
+from tests.benchmarks import charts
 from tests.helpers.timing import measure_once
 
 RIG = presets["fan-rig"]
@@ -70,21 +75,52 @@ def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
     for name, experiment in base.experiments.items():
         assert {(name, case) for case in experiment.references} <= known
-    assert len(view.table(results)["method"]) == base.count
+    assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
+        base.stability.trials if base.stability else ()
+    )
 
 
-def test_what_is_measured_is_read_from_its_file(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_losses_of_stability_are_named() -> None:
+    orbits = (
+        OrbitAtSpeed(10.0, "stable orbit", "", ((0.5, 0.0),)),
+        OrbitAtSpeed(20.0, "unstable orbit", "period doubling", ((-1.2, 0.0),)),
+        OrbitAtSpeed(30.0, "not converged"),
+    )
+    words = orbits_sentence(orbits)
+    assert "Stable at 1.59 Hz, period doubling from 3.18 Hz" in words
+    assert "No orbit was found at 1 of 3 speeds" in words
+    assert "not measured" in orbits_sentence(())
+
+
+def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     measure_once(monkeypatch)
-    found = measure(RIG, ["statics"])
-    again = measurements_from(found.as_json())
-    assert again.count == found.count > 0
+    job = Work()
+    job.started = time.monotonic()
+    shown: list[Measurements] = []
+    job.show = lambda found: shown.append(found.result)  # type: ignore[method-assign]
+    assert "points after" in compute(job, RIG, "statics")
+    assert [one.count for one in shown[:3]] == [1, 2, 3]
+    found = shown[-1]
+    again = measurements_from(charts.as_json(found))
+    assert again.count == found.count
     ours, theirs = (one.experiments["statics"].points for one in (found, again))
     for one, other in zip(ours, theirs, strict=True):
         assert other.errors == pytest.approx(one.errors, rel=1e-3)
         assert other.in_use == one.in_use
+    view = Accuracy(PackedSource())
+    view.found = Found(RIG, found)
+    assert "Pale: shipped" in view.sentence(Results(RIG))
+    assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 
 
-def test_what_cannot_be_measured_is_kept_with_the_reason() -> None:
-    found = measure(RIG.replace(shaft_speed=0.0), ["motion"])
-    assert found.count == 0
-    assert "shaft_speed is 0" in found.refused["motion"]
+def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> None:
+    job = Work()
+    job.started = time.monotonic()
+    with pytest.raises(ValueError, match="nothing turns"):
+        compute(job, RIG.replace(shaft_speed=0.0), "motion")
+    with pytest.raises(ValueError, match="no such"):
+        Accuracy(PackedSource()).prepare({"experiment": "../etc"}, SceneEditor("fan-rig"))
+    job.stop()
+    assert compute(job, RIG, "statics") == "Nothing was measured yet."

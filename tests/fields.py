@@ -1,0 +1,32 @@
+"""The table of fields: `python -m tests.fields > assets/docs/FIELDS.md`."""
+
+from bearingcore.fields import FIELDS
+
+
+def as_markdown() -> str:
+    """All fields as a table for the documents, one row each, in the order of the page."""
+    lines = [
+        "# Fields",
+        "",
+        "Numbers of a scene, from `bearingcore.fields.FIELDS`. The name is that of `Scene.replace` "
+        "and of sweeps, in SI units; the name in links has the unit of the page.",
+        "",
+        "| name | of | symbol | SI unit | in links | unit there | meaning |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for field in FIELDS:
+        cells = (
+            f"`{field.name}`",
+            field.part or "page",
+            field.symbol,
+            field.unit,
+            f"`{field.key}`" if field.group else "",
+            field.shown_unit or "1",
+            field.meaning,
+        )
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(as_markdown())

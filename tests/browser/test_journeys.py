@@ -569,6 +569,7 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
         desk.wait(lambda: "blank" not in desk.figures())
     desk.choose("Charts of", "Motion")
     desk.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
+    desk.steady()
     before = desk.figures()
     desk.press("Measure on this machine")
     desk.reads(re.compile(r"\d+ points after"))

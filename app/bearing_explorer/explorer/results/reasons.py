@@ -260,7 +260,11 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
     if not held:
         return ""
     words = _why_held(scene, held, briefly)
-    return words if briefly else f"{words} {STIFF_WHERE_HELD}"
+    # rollers and self-aligning balls resist nothing there
+    resists = not scene.bearing.kind.left_out or set(held) <= set(
+        scene.bearing.kind.needed_directions
+    )
+    return f"{words} {STIFF_WHERE_HELD}" if resists and not briefly else words
 
 
 def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:

@@ -18,7 +18,10 @@ SEARCHED = 20
 _ROW = ":host { flex-wrap: wrap; align-items: end; gap: 8px 14px; min-width: 0 !important; }"
 
 
-_OWN_LINE = "@media (max-width: 820px) { :host { flex: 1 0 100%; } }"
+_OWN_LINE = """@media (max-width: 820px) {
+  :host { flex: 1 0 100%; }
+  * { align-self: start !important; }
+}"""
 """On a phone: what belongs to a list, from where and to where, is together in the next line."""
 
 

@@ -260,6 +260,7 @@ def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     assert all("θx and θy are held by choice." in words for words in said(chosen))
     rollers = "cylindrical rollers carry nothing along the shaft and resist no tilt"
     assert all(rollers in words for words in said(presets["nu208"])[1:])
+    assert not any(STIFF_WHERE_HELD in words for words in said(presets["nu208"]))
     free = said(presets["liew-lim"])
     assert not any("are held" in words or "Not needed" in words for words in free)
     assert FREE_TILT_WORDS in free[-1]

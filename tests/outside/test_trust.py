@@ -91,7 +91,6 @@ HELD = {
         "5 %": "tests/outside/test_jones.py",
         "12 %": "tests/outside/test_jones.py",
         "7 %": "tests/outside/test_tapered_pairs.py",
-        "13 %": "tests/outside/test_designations.py",
     },
     "LIFE": {
         "7e-5": "tests/bearingcore/statics/test_life.py",

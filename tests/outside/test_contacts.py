@@ -59,6 +59,9 @@ def test_pressures(kind: str) -> None:
     assert ours == pytest.approx(own, rel=1e-5)
 
 
+LOADS = ("fx", "fy", "fz", "mx", "my")
+
+
 @witness(
     "* bearing: limits", "function: limits",
     by="pressures of this file; 4600, 4200 and 4000 MPa as NSK prints them (Static Load Ratings)",
@@ -70,7 +73,7 @@ def test_limits_of_pressure(kind: str) -> None:
     crossed = set()
     for times in (1.0, 25.0):
         case = CASES[kind]._replace(force=times * CASES[kind].force)
-        scene = case.scene.replace(fy=case.force[1], fz=case.force[2])
+        scene = case.scene.replace(**dict(zip(LOADS, map(float, case.force), strict=True)))
         found = limits(scene, equilibrium(scene, CAGE))
         own = pressures(kind, heaviest(case))
         for (race, _), pressure in zip(RACES, own, strict=True):

@@ -111,8 +111,8 @@ class SessionParts(Protocol):
 C = TypeVar("C", bound=Content)
 
 
-FADED = {"opacity": "0.2"}
-"""Of a picture of an earlier scene."""
+FADED = "0.2"
+"""Opacity of a picture of an earlier scene."""
 
 
 class View(Generic[C]):
@@ -270,8 +270,9 @@ class View(Generic[C]):
             self._looks = looks
             for picture in self._pictures:
                 picture.visible = self._has_drawn
-                own = {name: value for name, value in picture.styles.items() if name not in FADED}
-                picture.styles = own if results is not None else own | FADED
+                opacity = FADED if results is None else "1"
+                if picture.styles.get("opacity", "1") != opacity:  # Bokeh takes no style away
+                    picture.styles = picture.styles | {"opacity": opacity}
             classes = self.sentence_looks if self._has_drawn else ()
             self._sentence.css_classes = ["sentence", *classes]
             # hidden figures are not to be saved

@@ -46,7 +46,10 @@ class FolderDiagnosis:
     def __str__(self) -> str:
         """A paragraph a file, whole."""
         named = zip(self.names, self.sentences, strict=True)
-        lines = (fill(f"{name}: {words}", 100, subsequent_indent="    ") for name, words in named)
+        lines = (
+            fill(f"{name}: {words.removeprefix(f'{name}: ')}", 100, subsequent_indent="    ")
+            for name, words in named
+        )
         return "\n".join(lines)
 
     def table(self) -> ResultTable:
@@ -210,10 +213,12 @@ def _recording(
     if columns is None:
         chosen = says.choice.columns
         if not chosen:
-            names = [table.names[i] for i in says.choice.options or range(len(table.names))]
+            options = says.choice.options or range(len(table.names))
+            names = ", ".join(f'"{table.names[i]}"' for i in options)
             why = says.choice.question or says.choice.reason or "Which column is the signal?"
             raise ValueError(
-                f"{table.name}: {why} Say it with columns=[...], one or two of {', '.join(names)}."
+                f"{table.name}: {why} Say it with columns=[...], one or two of {names}, or by "
+                f"numbers from 0: {', '.join(map(str, options))}."
             )
         directions, columns = directions or tuple(chosen), tuple(chosen.values())
     if directions is None:

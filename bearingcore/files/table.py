@@ -325,7 +325,8 @@ class Table(FileColumns):
             return self.names.index(column)
         if isinstance(column, int) and 0 <= column < len(self.names):
             return column
-        raise checks.refuse("column", column, "one of " + ", ".join(self.names))
+        numbers = f", or by numbers from 0 to {len(self.names) - 1}"
+        raise checks.refuse("column", column, "one of " + ", ".join(self.names) + numbers)
 
 
 def files_inside(name: str, content: bytes) -> list[str]:

@@ -13,6 +13,7 @@ does not depend on it.
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -554,6 +555,8 @@ def _said_by(error: ValueError) -> str:
 
 def _read(name: str, texts: Mapping[str, str]) -> float:
     words, unit, least, most = _WORDS[name]
+    if unit == "Hz" and re.search("rpm|min", texts[name], re.IGNORECASE):
+        raise ValueError(f"{words} is in Hz, not in turns a minute.")
     return number_of(texts[name], words, unit, least, most)
 
 

@@ -90,16 +90,16 @@ def recordings_of(
     """The recordings of a series along a direction; without files the one that is shown.
 
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; `kept` are answers on the machine for those that say nothing of it. A unit that
-    a person gave holds for files of the same kind and columns. In another unit, or one that is not
-    known, a file cannot be compared and is left out.
+    that is `shown`; `kept` are answers on the machine for those that say nothing of it. Columns and
+    a unit that a person gave hold for files of the same kind and columns. In another unit, or one
+    that is not known, a file cannot be compared and is left out.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
     recordings, origins, left_out = [], [], list(series.left_out)
     families = {table.name: (Path(table.name).suffix, *table.names) for table in series.tables}
     family = families.get(shown.recording.name)
-    own = {name: text for name, text in changed.items() if name != "unit"}
+    own = {name: text for name, text in changed.items() if name not in ("unit", "columns")}
     for table in series.tables:
         answers = dict(changed if families[table.name] == family else own)
         if table.name != shown.recording.name:
@@ -108,7 +108,8 @@ def recordings_of(
             told, form = fill(table, answers)
             found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
         except FormError as error:
-            left_out.append(f"{table.name}: {error}")
+            words = str(error)
+            left_out.append(words if words.startswith(table.name) else f"{table.name}: {words}")
             continue
         if found.in_si != shown.in_si:
             left_out.append(f"{table.name}: its unit is not that of {shown.recording.name}.")

@@ -169,6 +169,7 @@ def test_what_the_file_does_not_tell_is_asked_for():
     ("field", "text", "told"),
     [
         ("sample_rate", "fast", "must be a number, not “fast”"),
+        ("sample_rate", "12000 rpm", "in Hz, not in turns a minute"),
         ("sample_rate", "-5", "possible: 1 to 1·10⁷ Hz"),
         ("shaft_speed", "0", "possible:"),
         ("shaft_speed", "rpm", "is missing"),
@@ -460,6 +461,17 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     answer(made, part="3")
     assert made.state.refused == {"part": "two.csv has no such recording."}
+
+
+def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
+    files = {"alone.csv": NOISE[:, :1], "two.csv": NOISE}
+    heads = {"alone.csv": "time [s],a [g]", "two.csv": "time [s],a [g],b [g]"}
+    made = brought("rig.zip", zipped(**{name.replace(".", "_"): csv_of(columns, heads[name])
+                                        for name, columns in files.items()}))  # fmt: skip
+    answer(made, columns="time s;y;")
+    found = made.recordings(made.measured, "y")
+    assert [one.name for one in found.recordings] == ["rig.zip/alone.csv", "rig.zip/two.csv"]
+    assert found.left_out == ()
 
 
 def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():

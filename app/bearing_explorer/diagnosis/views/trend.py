@@ -278,7 +278,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             return "Nothing is computed yet." if several else "One file is no trend yet."
         words = words_on(found.trend, found.measured.in_si)
         if out := found.recordings.left_out:
-            more = f" and {len(out) - MOST_NAMED} more" if len(out) > MOST_NAMED else ""
+            more = f" And {len(out) - MOST_NAMED} more." if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
         if found.measured is not measured:
             words += " Your answers have changed since: compute it again."

@@ -219,8 +219,8 @@ class Bookmarks:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
         self._compared += (Reference(scene, name, bearing="" if name else bearing),)
-        name = self.compared[-1].name
-        self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: “{name}”, for comparison.")
+        said = f"“{name}”" if name else "the scene as it is now"  # its name follows from others
+        self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: {said}, for comparison.")
 
     def kept(self, name: str) -> dict[str, str]:
         """The scene of now for the browser to keep."""

@@ -68,7 +68,6 @@ _BAR_WORDS = """
 const text = si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
-room += 2*Math.min(Math.abs(row.right), 4)  // numbers of neighbours are further apart than bars
 return row.most || room > 7.4*text.length ? text : ''
 """
 _BALL_WORDS = """

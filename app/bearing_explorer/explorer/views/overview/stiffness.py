@@ -108,7 +108,7 @@ class OverviewStiffness(View):
     def build(self, packed: PackedSource) -> Any:
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in SYMBOLS]
         plot = style.bare_figure(
-            Range1d(0.0, WIDE, syncable=False), Range1d(-HIGH, 0.0, syncable=False), height=90
+            Range1d(0.0, WIDE, syncable=False), Range1d(-HIGH, 0.0, syncable=False), height=70
         )
         draw(plot, packed, LAYERS)
         return self.only_with_numbers(plot, sizing_mode="stretch_both")

@@ -242,6 +242,6 @@ def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
     """Knocks, but the speed decides whose they are."""
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
-        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm: the shaft speed "
-        "decides."
+        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm or come from "
+        "elsewhere: the shaft speed decides."
     )

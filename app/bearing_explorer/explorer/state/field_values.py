@@ -139,7 +139,11 @@ def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
         raise ValueError(f"{shown}: {label_inside(field)} goes from {span}.")
     if not least <= value <= most:
         shown = with_unit(field.read_sign * value, field.shown_unit)
-        raise ValueError(f"{shown} is out of range: {label_inside(field)} goes from {span}.")
+        meant = field.shown_unit == "Hz" and text[-1:].isdecimal() and least <= value / 60.0 <= most
+        question = f" Did you mean {text} rpm?" if meant else ""
+        raise ValueError(
+            f"{shown} is out of range: {label_inside(field)} goes from {span}.{question}"
+        )
     return value
 
 

@@ -47,6 +47,11 @@ def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
     assert str(found.value) == sentence
 
 
+def test_turns_a_minute_typed_as_hertz_are_asked_about() -> None:
+    with pytest.raises(ValueError, match=r"1797 Hz is out of range.*Did you mean 1797 rpm\?$"):
+        read("shaft_speed_hz", "1797", limits_of(presets["fan-rig"]))
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

@@ -154,6 +154,9 @@ def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray
         there = bits[place : place + len(hashed)]
         hashed += (there ^ (there >> np.uint64(29))) * factor
         moves |= there != bits[: len(hashed)]
+    ordered = np.sort(hashed)  # a tenth of the time that the places of equal ones take
+    if not (ordered[1:] == ordered[:-1]).any():
+        return found
     again = np.ones(len(hashed), dtype=bool)
     again[np.unique(hashed, return_index=True)[1]] = False
     for begin, end in zip(*runs(again & moves), strict=True):

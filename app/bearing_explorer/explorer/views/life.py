@@ -172,7 +172,9 @@ class LifeOfBearing(View):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         if results.compared:
-            heads = ("quantity", *(name for name, _ in scenes_of(results)))
+            heads = ["quantity"]
+            for name, _ in scenes_of(results):  # two may have been given one name
+                heads.append(f"{name} ({len(heads)})" if name in heads else name)
             both = [(_text(name), *values) for name, *values in side_by_side(results, facts_of)]
             return dict(zip(heads, map(np.array, zip(*both, strict=True)), strict=True))
         groups = groups_of(results)

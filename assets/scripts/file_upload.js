@@ -6,7 +6,7 @@ const stored = () => {
 }
 const TREND = 500  // px: the least height of its card with figures
 // Documents and pictures that people keep beside their records, as `diagnose` of a folder knows them.
-const no_record = /^(readme|licen[cs]e)\b|\.(md|rst|pdf|html?|py|ipynb|docx?|pptx?|png|jpe?g|svg)$/i
+const no_record = /^(readme|licen[cs]e)(\.(txt|rst))?$|\.(md|rst|pdf|docx?|pptx?|html?|py|ipynb|png|jpe?g|svg)$/i
 const store = (name) => {
   window.signal_files = name
   try { sessionStorage.setItem("signal-files", name) } catch { /* a browser that stores nothing */ }

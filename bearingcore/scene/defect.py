@@ -36,6 +36,10 @@ corner of the curved race."""
 
 TWO_PI = 2.0 * math.pi
 
+ANGLE_ROUNDING = 1e-9
+"""Angle [rad] below which edges are at one place: a nanometre on the largest race, and more than
+rounding leaves of angles that were typed in degrees and added."""
+
 
 @dataclass(frozen=True)
 class Defect:
@@ -75,10 +79,11 @@ class Defect:
     row: int | None = None
 
     def __post_init__(self) -> None:
-        # 360° typed as a decimal must not fail on the last digit of 2π
-        most = TWO_PI * (1.0 + 1e-9)
+        # 360° typed as a decimal must not fail on the last digit of 2π, nor leave a wall
+        most = TWO_PI + ANGLE_ROUNDING
         checks.keep_number(self, "extent", at_least=0.0, at_most=most, unit="rad")
-        checks.keep(self, extent=min(self.extent, TWO_PI))
+        if self.extent > TWO_PI - ANGLE_ROUNDING:
+            checks.keep(self, extent=TWO_PI)
         checks.keep_number(self, "depth", at_least=0.0, unit="m")
         checks.keep_number(self, "center", unit="rad")
         checks.choice("race", self.race, RACES)
@@ -307,7 +312,7 @@ def _touching(defects: tuple[Defect, ...]) -> list[list[Defect]]:
                 other.race == defect.race
                 and (other.row is None or defect.row is None or other.row == defect.row)
                 and abs(float(_wrapped(np.array(other.center - defect.center))))
-                <= 0.5 * (other.extent + defect.extent)
+                <= 0.5 * (other.extent + defect.extent) + ANGLE_ROUNDING
                 for other in group
             )
         ]
@@ -352,7 +357,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, A
     ]
     begin = min(c - half for c, half, _ in places)
     end = max(c + half for c, half, _ in places)
-    if end - begin >= TWO_PI:
+    if end - begin > TWO_PI - ANGLE_ROUNDING:
         raise checks.refuse(
             "defect",
             f"{len(group)} around the whole race",
@@ -360,7 +365,8 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, A
         )
     middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
     angle = _nodes(half) + middle
-    cuts = sorted({edge for c, w, _ in places for edge in (c - w, c + w)})
+    edges = np.sort([edge for c, w, _ in places for edge in (c - w, c + w)])
+    cuts = edges[np.diff(edges, prepend=-math.inf) > ANGLE_ROUNDING].tolist()
     deepest = max(h for _, _, h in places)
     path = np.minimum(
         edge_drop(angle - begin, first, bearing, deepest),

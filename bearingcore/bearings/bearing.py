@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass, field
 from typing import Any, Self, cast
@@ -26,8 +27,12 @@ from bearingcore.common import checks, scene_file
 ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
 """Fields that may be estimates."""
 
-NOT_RATED = ("radial_clearance", "density", "estimated", "kind", "dynamic_load_rating")
-"""Fields that C_r does not depend on."""
+RATED = (
+    *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "roller_length"),
+    *("inner_groove_radius", "outer_groove_radius", "groove_center_distance"),
+    *("ball_youngs_modulus", "ball_poisson"),
+)
+"""Fields that C_r depends on, besides how many rows there are and what each has of its own."""
 _ABOVE_0 = (
     *("groove_center_radius", "load_deflection_factor"),
     *("outer_raceway_radius", "inner_raceway_radius"),
@@ -201,10 +206,21 @@ class Bearing(InRows):
         kept: dict[str, Any] = {
             "estimated": tuple(name for name in self.estimated if name not in changes)
         }
-        changed = {name for name, value in changes.items() if getattr(self, name, None) != value}
-        if changed - set(NOT_RATED):
-            kept["dynamic_load_rating"] = None
-        return cast(Self, self.kind.replaced(self, kept | changes))
+        new = cast(Self, self.kind.replaced(self, kept | changes))
+        if "dynamic_load_rating" in changes:
+            return new
+        rating = self.dynamic_load_rating if new.rated == self.rated else None
+        return dataclasses.replace(new, dynamic_load_rating=rating)
+
+    @property
+    def rated(self) -> tuple[object, ...]:
+        """Numbers that C_r depends on: dimensions, and what each row has of its own.
+
+        Not among them is what shifts loads, but no dimension: clearance, preload, the places of
+        rows and how they face.
+        """
+        rows = tuple(tuple(self.unlike(row).items()) for row in self.all_rows)
+        return tuple(getattr(self, name) for name in RATED), rows
 
     @property
     def ball_material(self) -> str:

@@ -28,7 +28,8 @@ def as_kind(bearing: Bearing, variant: str) -> Bearing:
     if variant == bearing.kind.variant(bearing):
         return bearing
     made = KIND_OF_VARIANT[variant].nearest(bearing, variant)
-    return dataclasses.replace(made, estimated=bearing.estimated)
+    rating = bearing.dynamic_load_rating if made.rated == bearing.rated else None
+    return dataclasses.replace(made, estimated=bearing.estimated, dynamic_load_rating=rating)
 
 
 def scene_with(scene: Scene, bearing: Bearing) -> Scene:

@@ -138,7 +138,8 @@ class SelfAligning(Kind):
         dimensions=(),
         notes=("a ball in its grooves, gaps drawn large",),
     )
-    needed_directions = ("x", "y", "z")  # its ring tilts freely: what holds it is the shaft
+    directions = needed_directions = ("x", "y", "z")
+    carries = "the ring of a self-aligning bearing tilts freely and carries no moment"
     left_out = "the ring of a self-aligning bearing tilts freely"
     shoulders = ("inner",)
     rating_unknown = "to be computed for a self-aligning bearing"

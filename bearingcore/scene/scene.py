@@ -177,10 +177,20 @@ class Scene:
         return tuple(name for name in self.needed_dofs if name not in TILTS)
 
     def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
-        """Sentence on tilts, free or held; empty where the load causes none."""
-        if set(TILTS) & set(self.free_dofs(dofs)):
-            return FREE_TILT_WORDS
-        return HELD_TILT_WORDS if set(TILTS) & set(self.needed_dofs) else ""
+        """Sentences on tilts, free or held, and on loads that this bearing does not carry.
+
+        Empty where the load causes no tilt and is carried.
+        """
+        free = self.free_dofs(dofs)
+        if set(TILTS) & set(free):
+            words = FREE_TILT_WORDS
+        else:
+            words = HELD_TILT_WORDS if set(TILTS) & set(self.needed_dofs) else ""
+        loads = {name: getattr(self.load, LOAD_ALONG[name]) for name in DOF_NAMES}
+        held = [LOAD_ALONG[name] for name in DOF_NAMES if loads[name] and name not in free]
+        if held:
+            words += f" What holds the shaft carries {' and '.join(held)}, not this bearing."
+        return words.lstrip()
 
     @property
     def active_dofs(self) -> tuple[str, ...]:

@@ -29,7 +29,9 @@ def random_scene(rng: np.random.Generator, kind: str) -> Scene:
     dofs: tuple[str, ...] | str | None = None
     if kind == "rollers":
         load = Load(loads[0], loads[1])
-    elif kind != "self-aligning":
+    elif kind == "self-aligning":
+        load = Load(*loads[:3])
+    else:
         dofs = ("tilt free", ("x", "y", "z"), ("x", "y"))[int(rng.choice(3, p=[0.7, 0.2, 0.1]))]
     defect = Defect(
         extent=float(rng.uniform(0.0, 1.5)),

@@ -121,8 +121,11 @@ def places(draw: st.DrawFn) -> Place:
     if scene.bearing.kind.line_contact:  # radial only, and without a contact angle
         for name in ("fz", "my", "contact_angle", "dofs"):
             changed.pop(name, None)
-    if scene.bearing.kind.name == "self-aligning" and "contact_angle" in changed:
-        changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
+    if scene.bearing.kind.name == "self-aligning":  # it carries no moment, at any angle above 0
+        for name in ("my", "dofs"):
+            changed.pop(name, None)
+        if "contact_angle" in changed:
+            changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
     scene = scene.replace(**changed)
     if draw(st.booleans()):
         bearing = scene.bearing

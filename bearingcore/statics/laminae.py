@@ -148,8 +148,14 @@ def compressions(state: Equilibrium) -> Array:
 
 
 def carried(state: Equilibrium) -> Array:
-    """Compressions [m] of rollers, loads [N] of balls (n, elements): `strips` takes either."""
-    return compressions(state) if state.scene.bearing.kind.line_contact else state.ball_load
+    """Compressions [m] of rollers, loads [N] of balls: `strips` takes either.
+
+    (2, n, elements), at the inner race first: balls with mass press the outer one harder.
+    """
+    if state.scene.bearing.kind.line_contact:
+        pressed = compressions(state)
+        return np.stack([pressed, pressed])
+    return np.stack([state.inner_load, state.ball_load])
 
 
 def strips(bearing: Bearing, carried: Array, power: float) -> Iterator[Array]:

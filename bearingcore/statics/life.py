@@ -33,7 +33,8 @@ further; here rows that are unlike share C_r in proportion to what ISO 281 rates
 that rows which carry parts of the load in that proportion last as C_r says: alone, row k counts as
 C_r i^0.3 C_k/Σ C, and all rows together have C_r = i^(−0.3) Σ C_k.
 
-Which loads are averaged, and how: `bearingcore.statics.race_loads`.
+Which loads are averaged, and how: `bearingcore.statics.race_loads`. Those of balls with mass hold
+their centrifugal load.
 
 What the standard leaves out, and a damaged race has: it rates fatigue that begins below smooth
 races. Pressure on the edges of a defect is several times that of the smooth race, each passing ball
@@ -84,6 +85,13 @@ GIVEN, OF_A_CATALOGUE = "given", "of a catalogue, by the bearing's number"
 NO_RATING = (
     "a number [N], as the catalogue has it: this bearing has none, as its number is not known or "
     "its dimensions were changed. dynamic_load_rating(bearing) is that of ISO 281"
+)
+
+ROWS_OF_RADIAL_CONTACT = 0.90 / 0.95
+"""Rating of rows of deep groove balls, which share a load less evenly, over that of other rows."""
+
+MAKERS_RATING = (
+    "a number [N], the rating that the maker's catalogue has for this very bearing. It is not {}"
 )
 
 HEAVIEST_SHARE = 0.5
@@ -267,7 +275,9 @@ def life(
     if dynamic_load_rating is None:
         dynamic_load_rating = scene.bearing.dynamic_load_rating
         if dynamic_load_rating is None:
-            raise checks.refuse("dynamic_load_rating", None, NO_RATING, "N")
+            why = _rating_unknown(scene.bearing)
+            wanted = MAKERS_RATING.format(why) if why else NO_RATING
+            raise checks.refuse("dynamic_load_rating", None, wanted, "N")
     C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
@@ -388,7 +398,8 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     """Basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
 
     Of balls C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm,
-    for i rows of Z balls, b_m = 1.3. Of rollers of length l C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4)
+    for i rows of Z balls, b_m = 1.3. Of several rows of deep groove balls (α = 0) it is 0.90/0.95
+    of that (λ of ISO/TR 1281-1). Of rollers of length l C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4)
     D^(29/27), b_m = 1.1; l is the length that touches, without the roller's chamfers. f_c are the
     standard's tables as formulas, 0.2 % from each of their numbers: that of balls holds for grooves
     of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
@@ -400,8 +411,7 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     hybrid ones, which ISO 20056 rates: their rating comes from the catalogue.
     """
     bearing = bearing_of(bearing)
-    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
-    if words := bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else ""):
+    if words := _rating_unknown(bearing):
         raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
     if bearing.roller_length is not None:
         return float(
@@ -414,10 +424,12 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
                 len(bearing.all_rows),
             )
         )
+    rows = len(bearing.all_rows)
+    radial = all(bearing.of_row(k).contact_angle == 0.0 for k in range(rows))
+    uneven = ROWS_OF_RADIAL_CONTACT if rows > 1 and radial else 1.0
     if not bearing.rows_are_alike:
         each = _ratings_alone(bearing)
-        return float(sum(each) * len(each) ** (POINT_CONTACT.row_power - 1.0))
-    rows = len(bearing.all_rows)
+        return float(uneven * sum(each) * rows ** (POINT_CONTACT.row_power - 1.0))
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
     full = capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])
@@ -432,7 +444,13 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     C = dynamic_rating(
         full * min(float(wider), 1.0), bearing.n_balls, bearing.ball_diameter, cosine, rows
     )
-    return float(C)
+    return float(uneven * C)
+
+
+def _rating_unknown(bearing: Bearing) -> str:
+    """Reason why ISO 281 gives no rating from the dimensions; empty where it gives one."""
+    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
+    return bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else "")
 
 
 @lru_cache(maxsize=256)

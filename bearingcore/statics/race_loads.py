@@ -32,6 +32,9 @@ loads are then averaged over a whole turn of the cage, and over TURNS_OF_ROWS wa
 are turned to each other, spread evenly. What passes a standing place then varies a little; that is
 counted by the second average too, which is on the safe side.
 
+Balls with mass press the outer race harder than the inner one, by their centrifugal load: each race
+has loads of its own (`static_state`).
+
 A race of rollers is a chain of laminae too, each of which has places and loads of its own: all of
 this holds for each of them (`bearingcore.statics.laminae`).
 
@@ -53,7 +56,8 @@ from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.scene.defect import Defect
 from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import Equilibrium, equilibrium
+from bearingcore.statics.ball_positions import static_state
+from bearingcore.statics.equilibrium import Equilibrium
 from bearingcore.statics.laminae import carried, strips
 from bearingcore.statics.status import StaticStatus
 
@@ -108,13 +112,13 @@ def snapshot_loads(
     Right for a healthy bearing with rows alike. Half a ball spacing on is looked at too: where the
     bearing carries nothing there, it has no life.
     """
-    state = equilibrium(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
+    state = static_state(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     loads = carried(state)
     if unknown := _unknown(state, loads):
         return unknown
     heaviest = float(state.ball_load[0].max())
     return _averaged(
-        scene, loads[:1], heaviest, np.full(1, 1.0), load_exponent, scatter, turning_race
+        scene, loads[:, :1], heaviest, np.full(1, 1.0), load_exponent, scatter, turning_race
     )
 
 
@@ -131,13 +135,13 @@ def race_loads(
     turned = _rows_turned(scene)
     for one in turned:
         places, weight = _panels(one, "outer")
-        state = equilibrium(one, places)
+        state = static_state(one, places)
         loads.append(carried(state))
         if unknown := _unknown(state, loads[-1]):
             return unknown
         heaviest = max(heaviest, float(state.ball_load.max()))
         weights.append(weight / len(turned))
-    all_loads, all_weights = np.concatenate(loads), np.concatenate(weights)
+    all_loads, all_weights = np.concatenate(loads, axis=1), np.concatenate(weights)
     return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter, turning_race)
 
 
@@ -170,19 +174,18 @@ def _averaged(
     scatter: float,
     turning_race: str,
 ) -> RaceLoads:
-    """Both races under what is `carried` (n, balls), where nothing turns against the load."""
-    rows = [loads[:, own] for own in scene.bearing.balls_of_rows]
+    """Both races under what is `carried` (2, n, balls), where nothing turns against the load."""
     chain = load_exponent * scatter
-    turning, standing = (
+    powers = (load_exponent, chain) if turning_race == "inner" else (chain, load_exponent)
+    inner, outer = (
         tuple(
             together(
                 [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
             )
-            for row in rows
+            for row in (carried_there[:, own] for own in scene.bearing.balls_of_rows)
         )
-        for power in (load_exponent, chain)
+        for carried_there, power in zip(loads, powers, strict=True)
     )
-    inner, outer = (turning, standing) if turning_race == "inner" else (standing, turning)
     return RaceLoads(inner, outer, heaviest)
 
 
@@ -204,7 +207,7 @@ def _mean(loads: Array, weights: Array, power: float) -> float:
 
 def _unknown(state: Equilibrium, loads: Array) -> RaceLoads | None:
     """NaN with the reason, where the loads of some cage angle are not known; None where all are."""
-    failed = np.flatnonzero(~np.isfinite(loads).all(axis=1))
+    failed = np.flatnonzero(~np.isfinite(loads).all(axis=(0, 2)))
     if not failed.size:
         return None
     first = int(failed[0])
@@ -263,39 +266,45 @@ def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) ->
     # a ball at the cage angle c is at θ = c − ψ of an inner race turned by ψ = ψ_0 + c/ratio
     first = 2.0 * math.pi * np.arange(n) / n * (ratio - 1.0) / ratio
     offset = places / (ratio - 1.0)  # ψ at the first of the n steps
-    loads = np.empty((n, places.size, bearing.total_balls))
+    loads = np.empty((2, n, places.size, bearing.total_balls))
     heaviest = 0.0
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
-        state = equilibrium(turned, (places + psi_0) * ratio / (ratio - 1.0))
-        loads[k] = carried(state)
-        if unknown := _unknown(state, loads[k]):
+        state = static_state(turned, (places + psi_0) * ratio / (ratio - 1.0))
+        loads[:, k] = carried(state)
+        if unknown := _unknown(state, loads[:, k]):
             return unknown
         heaviest = max(heaviest, float(state.ball_load.max()))
     chain = load_exponent * scatter
     order = np.arange(n // 2 + 1)[:, None, None]
 
-    def races(load: Array, theta: Array) -> tuple[float, float]:
-        """Inner and outer race under loads (n, places, N_b) of balls at places θ."""
-        size = float(load.max())
-        if size == 0.0:
-            return 0.0, 0.0
+    def inner_race(load: Array, theta: Array) -> float:
+        """Equivalent load under loads (n, places, N_b) of balls at places θ."""
+        size = float(load.max()) or 1.0
         used = (load / size) ** load_exponent
         along = float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
-        # a place φ of the outer race meets every θ at ψ = φ − θ: the series in ψ interpolates
-        series = np.fft.rfft(used, axis=0) / n
+        return size * along ** (1.0 / chain)
+
+    def outer_race(load: Array, theta: Array) -> float:
+        """The same; a place φ of it meets every θ at ψ = φ − θ: the series in ψ interpolates."""
+        size = float(load.max()) or 1.0
+        series = np.fft.rfft((load / size) ** load_exponent, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
         passing = np.fft.irfft(np.mean(shifted, axis=2) @ weights, FINER * n) * (FINER * n)
         standing = float(np.mean(np.maximum(passing, 0.0) ** scatter))
-        return size * along ** (1.0 / chain), size * standing ** (1.0 / chain)
+        return size * standing ** (1.0 / chain)
 
-    found = []
-    each_row = np.split(loads, len(bearing.all_rows), axis=2)
-    for row, own in zip(bearing.all_rows, each_row, strict=True):
-        theta = places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
-        parts = zip(*(races(strip, theta) for strip in strips(bearing, own, chain)), strict=True)
-        found.append([together(part, chain) for part in parts])
-    inner, outer = zip(*found, strict=True)
+    thetas = [
+        places[:, None] + row.turn + bearing.ball_spacing * np.arange(bearing.n_balls)
+        for row in bearing.all_rows
+    ]
+    inner, outer = (
+        tuple(
+            together([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
+            for theta, row in zip(thetas, np.split(there, len(thetas), axis=2), strict=True)
+        )
+        for race, there in zip((inner_race, outer_race), loads, strict=True)
+    )
     return RaceLoads(inner, outer, heaviest)
 
 

@@ -125,9 +125,10 @@ class Equilibrium:
 
     @property
     def shares(self) -> Array:
-        """(n,) share of the time of each angle: `weights`, or all alike."""
-        n = len(self.cage_angles)
-        return np.full(n, 1.0 / n) if self.weights is None else self.weights
+        """(n,) share of the time of each angle: `weights`, else `time_shares`."""
+        if self.weights is not None:
+            return self.weights
+        return time_shares(self.cage_angles, self.scene.bearing.period)
 
     @property
     def carries(self) -> NDArray[np.bool_]:
@@ -252,6 +253,22 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> Array:
     if scene.defect_turns:
         period = 2.0 * math.pi * scene.bearing.cage_ratio
     return np.linspace(0.0, period, 8 * (n - 1) + 1 if has_long_period(scene) else n)
+
+
+def time_shares(cage_angles: Array, period: float) -> Array:
+    """Share of the time (n,) that each cage angle (n,) [rad] stands for, by the trapezium rule.
+
+    Both ends of a period are one position, each of which counts half. All angles are alike where
+    they do not rise, or where one more even step would end a period [rad].
+    """
+    steps = np.diff(cage_angles)
+    shares = np.ones(cage_angles.size)
+    if steps.size and steps.min() > 0.0:
+        periods = (steps.sum() + steps[-1]) / period
+        is_even = np.ptp(steps) <= 1e-9
+        if not (is_even and periods > 0.5 and abs(periods - round(periods)) <= 1e-9):
+            shares = np.append(steps, 0.0) + np.insert(steps, 0, 0.0)
+    return shares / shares.sum() if shares.size else shares
 
 
 def has_long_period(scene: Scene) -> bool:

@@ -27,6 +27,7 @@ from bearingcore.statics.equilibrium import (
     TERM_UNITS,
     UNEXPLAINED,
     default_cage_angles,
+    time_shares,
     too_many_contacts,
 )
 from bearingcore.statics.shortage import explanation, is_unbounded
@@ -95,10 +96,11 @@ class Maps:
 
     @cached_property
     def mean_loaded_balls(self) -> Array:
-        """(m,) loaded balls, averaged over the cage angles that have an answer; NaN without."""
-        known = self.converged.sum(axis=1)
-        balls = np.where(self.converged, self.loaded_balls, 0).sum(axis=1)
-        return np.where(known > 0, balls / np.maximum(known, 1), math.nan)
+        """(m,) loaded balls, averaged in time over the angles that have an answer; NaN without."""
+        shares = time_shares(self.cage_angles, self.scene.bearing.period)
+        known = self.converged @ shares
+        balls = np.where(self.converged, self.loaded_balls, 0) @ shares
+        return np.where(known > 0.0, balls / np.maximum(known, 1e-300), math.nan)
 
     def table(self) -> ResultTable:
         """A row a point: extent, cage angle, loaded balls, greatest load, stiffness terms."""

@@ -62,7 +62,7 @@ def induced_thrust(scene: Scene) -> float:
     tight = dataclasses.replace(scene.bearing, radial_clearance=0.0, rows=rows)
     held = dataclasses.replace(scene.healthy(), bearing=tight)
     found = equilibrium(held, default_cage_angles(held, _ANGLES), ("x", "y"))
-    return float(np.mean(one_way * _thrusts(found).sum(axis=1)))
+    return float(one_way * found.shares @ _thrusts(found).sum(axis=1))
 
 
 def _one_way(bearing: Bearing) -> list[int]:

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from bearingcore.common.arrays import Array, least_and_greatest
 from bearingcore.scene.scene import Scene
+from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import ANGLES_A_PERIOD, STIFFNESS_TERMS, Equilibrium
-from bearingcore.statics.equilibrium import equilibrium as massless_equilibrium
 from bearingcore.statics.positions import ROUNDS, extremes, over_all_positions, positions
 
 BALL_LOAD = "ball_load"
@@ -49,9 +48,8 @@ def static_ranges(
     n: int = ANGLES_A_PERIOD,
     *,
     rounds: int = ROUNDS,
-    solve: Callable[..., Equilibrium] = massless_equilibrium,
 ) -> StaticRanges:
-    """Solve a scene at all its positions, and find the ends of what is named.
+    """Solve a scene at all its positions, and find the ends of what is named; see `static_state`.
 
     Parameters
     ----------
@@ -61,15 +59,13 @@ def static_ranges(
         of `STIFFNESS_TERMS`, or `BALL_LOAD`.
     n, rounds
         as of `positions` and `extremes`.
-    solve
-        `equilibrium`, or `static_state` for balls with mass.
     """
     found = positions(scene, n)
-    state = over_all_positions(scene, n, solve)
+    state = over_all_positions(scene, n, static_state)
     names = list(names)
 
     def at(cage_angles: Array, shaft_angles: Array) -> Array:
-        return _numbers(solve(scene, cage_angles, shaft_angles=shaft_angles), names)
+        return _numbers(static_state(scene, cage_angles, shaft_angles=shaft_angles), names)
 
     ends = extremes(found, _numbers(state, names), at, rounds=rounds)
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends[:2])
@@ -80,10 +76,7 @@ def ranges_of(state: Equilibrium) -> StaticRanges:
     """The ends of a state at equally spaced angles over a period, its ends included."""
     names = [*STIFFNESS_TERMS, BALL_LOAD]
     ends = least_and_greatest(_numbers(state, names), 1)
-    weights = np.ones(len(state.cage_angles))
-    weights[[0, -1]] = 0.5
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends)
-    state = dataclasses.replace(state, weights=weights / weights.sum())
     return StaticRanges(state, least, greatest)
 
 

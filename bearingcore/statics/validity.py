@@ -219,8 +219,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
 
 NOT_IN_STATICS = "the static model leaves it out"
 NOT_IN_STATICS_WITH_MASS = (
-    "the loads and stiffness of balls with mass hold it, these limits, maps, natural frequencies "
-    "and life leave it out"
+    "the loads, stiffness and life of balls with mass hold it, these limits, maps and natural "
+    "frequencies leave it out"
 )
 
 NO_STATE = "no cage angle has a static equilibrium"

@@ -21,7 +21,7 @@ from bearingcore.common.lazy import cached_property
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
 from bearingcore.scene.defect import Defect
-from bearingcore.scene.scene import DOF_NAMES, Scene
+from bearingcore.scene.scene import DOF_NAMES, MASSLESS, Scene
 from bearingcore.statics.life import race_ratings
 from bearingcore.sweep.outputs import (
     IN_ROWS,
@@ -153,10 +153,14 @@ class Grid:
 
     @property
     def in_rows(self) -> bool:
-        """True where scenes that differ in extent alone are solved together: no defect turns."""
+        """True where scenes that differ in extent alone are solved together.
+
+        No defect turns then, and no ball has a mass.
+        """
         several = self.scene.defect if isinstance(self.scene.defect, tuple) else [self.scene.defect]
         standing = all(defect.race == "outer" for defect in several)
-        return set(self.needs) <= IN_ROWS and "extent" in self.dims and standing
+        light = self.scene.balls == MASSLESS and "balls" not in self.dims
+        return set(self.needs) <= IN_ROWS and "extent" in self.dims and standing and light
 
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""

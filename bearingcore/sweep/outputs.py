@@ -23,7 +23,7 @@ from bearingcore.dynamics.motion import simulate
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.record import simulated_record
 from bearingcore.dynamics.speed_runs import SETTLING_SHARE
-from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, Scene
+from bearingcore.scene.scene import DOF_NAMES, DOF_SYMBOLS, MASSLESS, Scene
 from bearingcore.signals.recording import DIRECTIONS
 from bearingcore.statics.ball_positions import static_state
 from bearingcore.statics.equilibrium import (
@@ -332,7 +332,12 @@ def of_scene(
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
         LIFE: lambda: _life(scene, settings, numbers),
-        MODES: lambda: _bands_over_all_positions(found, labels, settings.cage_angles, numbers),
+        MODES: lambda: _bands_over_all_positions(
+            found if scene.balls == MASSLESS else _massless_states(scene, settings.cage_angles),
+            labels,
+            settings.cage_angles,
+            numbers,
+        ),
         MOTION: lambda: _motion(scene, settings, numbers),
         RECORD: lambda: _record(scene, settings, numbers),
         MASS: lambda: _mass(scene, settings, numbers),
@@ -363,6 +368,11 @@ def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
             if key in numbers and np.isfinite(numbers[key]):
                 numbers[key] = np.array(value)
     return code, numbers
+
+
+def _massless_states(scene: Scene, n: int) -> StaticRanges:
+    """States of the scene without its balls' mass, which natural frequencies leave out."""
+    return static_ranges(scene.replace(balls=MASSLESS), (), n, rounds=0)
 
 
 def _bands_over_all_positions(

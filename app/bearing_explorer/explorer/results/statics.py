@@ -55,7 +55,7 @@ def ranges(scene: Scene, coarse: bool) -> StaticRanges:
     free = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
     names = dict.fromkeys((*free, "k_xx", "k_yy", BALL_LOAD))
     n, rounds = (ANGLES_A_PERIOD // 3 + 1, 1) if coarse else (ANGLES_A_PERIOD, ROUNDS)
-    return static_ranges(scene, names, n, rounds=rounds, solve=core.static_state)
+    return static_ranges(scene, names, n, rounds=rounds)
 
 
 @cached

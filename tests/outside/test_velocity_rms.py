@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 
 from bearingcore import Recording
-from bearingcore.signals.indicators import indicators, severity_zone, velocity_rms
+from bearingcore.errors import FieldError
+from bearingcore.signals.indicators import (
+    displacement_rms,
+    indicators,
+    severity_zone,
+    velocity_rms,
+)
 from tests.outside.witness import witness
 
 RATE = 25_600.0
@@ -57,6 +63,55 @@ def test_tones_up_to_both_ends_are_kept(frequency: float, duration: float) -> No
 def test_tones_outside_the_band_are_left_out(frequency: float) -> None:
     """Of 10 to 1000 Hz they are no part; a twentieth is what the signal's ends leave of 7 Hz."""
     assert float(velocity_rms(tone(frequency, 10.0), RATE)) < 0.05
+
+
+@pytest.mark.parametrize(("frequency", "least", "most"), [(7.0, 0.9, 1.0), (5.0, 0.24, 0.4)])
+def test_short_signals_count_a_part_of_what_is_below_the_band(
+    frequency: float, least: float, most: float
+) -> None:
+    """Of one second, as `velocity_rms` says of itself."""
+    for phase in np.linspace(0.0, math.pi, 9):
+        assert least < float(velocity_rms(tone(frequency, 1.0, 1.0, phase), RATE)) < most
+
+
+@pytest.mark.parametrize("samples", [[], [math.nan], [1.0], [1.0, math.inf], 3.0])
+def test_what_is_no_signal_is_refused(samples: object) -> None:
+    for of in (velocity_rms, displacement_rms):
+        with pytest.raises(FieldError, match="two or more finite numbers"):
+            of(samples, RATE, (10.0, 1000.0))  # type: ignore[arg-type]
+
+
+@witness(
+    "indicator: displacement_rms", "signal: displacement_rms", "signal: severity_zone",
+    by="tones by definition; boundaries of ISO 10816-3, Tables A.1 and A.2",
+    compared="displacement of tones from 2 to 160 Hz, zones of slow machines", within=0.04,
+)  # fmt: skip
+def test_slow_machines_are_judged_by_their_displacement_too() -> None:
+    """2.0 mm/s at 6.37 Hz are 50 µm: zone B by velocity, C by displacement (group 2, rigid)."""
+    for duration in (2.5, 2.63, 10.0):
+        for frequency in (2.0, 3.1, 6.37, 160.0):
+            for phase in np.linspace(0.0, math.pi, 5):
+                signal = tone(frequency, duration, 2e-3, phase)
+                moved = float(displacement_rms(signal, RATE, (2.0, 1000.0)))
+                assert moved * 2.0 * math.pi * frequency == pytest.approx(2e-3, rel=0.04)
+    signal = tone(6.37, 10.0, 2e-3)[:, None]
+    slow, fast = (
+        indicators(Recording(signal, RATE, ("y",), shaft_speed=2.0 * math.pi * turns / 60.0))
+        for turns in (382.0, 1500.0)
+    )
+    sizes = float(slow.velocity_rms[0]), float(slow.displacement_rms[0])
+    assert (severity_zone(sizes[0], "medium, rigid"), 1e6 * sizes[1]) == (
+        "B",
+        pytest.approx(50.0, 0.01),
+    )
+    assert severity_zone(sizes[0], "medium, rigid", sizes[1]) == "C"
+    assert severity_zone(sizes[0], "medium, flexible", sizes[1]) == "B"
+    assert float(fast.displacement_rms[0]) < 0.05 * sizes[1]  # its band begins at 10 Hz
+    printed = {"medium, rigid": (22, 45, 71), "medium, flexible": (37, 71, 113),
+               "large, rigid": (29, 57, 90), "large, flexible": (45, 90, 140)}  # fmt: skip
+    for machine, ends in printed.items():
+        zones = [severity_zone(0.0, machine, 1e-6 * (end + d)) for end in ends for d in (-0.5, 0.5)]
+        assert "".join(zones) == "ABBCCD"
 
 
 def test_drift_and_offset_are_no_vibration() -> None:

@@ -15,7 +15,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
-from bearingcore.signals import SHAFT_SPEEDS, ZONES, severity_zone
+from bearingcore.signals import DISPLACEMENT_ZONES, SHAFT_SPEEDS, ZONES, severity_zone
 
 MEDIUM = "15 to 300 kW"
 LARGE = "over 300 kW"
@@ -106,10 +106,12 @@ def no_velocity(measured: Measured) -> str:
 
 
 def zone_of(measured: Measured, machine: str) -> str:
-    """The zone of the greatest velocity; empty where there is none."""
+    """The zone of the greatest velocity and displacement; empty where there is none."""
     if no_zone(measured, machine):
         return ""
-    return severity_zone(float(measured.indicators.velocity_rms.max()), machine)
+    found = measured.indicators
+    velocity, displacement = found.velocity_rms.max(), found.displacement_rms.max()
+    return severity_zone(float(velocity), machine, float(displacement))
 
 
 def no_zone(measured: Measured, machine: str) -> str:
@@ -132,9 +134,15 @@ def severity(measured: Measured, machine: str) -> str:
         return f"No zone of ISO 20816-3: {why}."
     most, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)
     power, support = (_WORDS[part] for part in machine.split(", "))
-    ends = style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])
+    size = f"{style.number(1e3 * most, 3)} mm/s"
+    ends = f"{style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])} mm/s"
+    moved = 1e6 * float(measured.indicators.displacement_rms.max())
+    if zone != severity_zone(most, machine):
+        size += f" and {style.number(moved, 3)} µm"
+        limits = [style.number(1e6 * end, 3) for end in DISPLACEMENT_ZONES[machine]]
+        ends += f" and {style.list_words(limits)} µm, the worse of which counts,"
     return (
-        f"Zone {zone} of ISO 20816-3 with {style.number(1e3 * most, 3)} mm/s: {MEANING[zone]}. For "
-        f"machines of {power} on a {support} support, boundaries {ends} mm/s of ISO 10816-3:2009, "
+        f"Zone {zone} of ISO 20816-3 with {size}: {MEANING[zone]}. For "
+        f"machines of {power} on a {support} support, boundaries {ends} of ISO 10816-3:2009, "
         "which it replaced; check them there before you act on them."
     )

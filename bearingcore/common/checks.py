@@ -120,12 +120,14 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
 
 
 def finite(field: str, values: ArrayLike, unit: str) -> Array:
-    """`values` as a row of finite floats (n,), a copy; else ValueError."""
+    """`values`, one or a row, as a row of finite floats (n,), a copy; else ValueError."""
     allowed = f"finite numbers [{unit}]"
     try:
-        row = np.array(values, dtype=float).reshape(-1)
+        row = np.array(values, dtype=float, ndmin=1)
     except (TypeError, ValueError, OverflowError):
         raise FieldTypeError(field, values, allowed) from None
+    if row.ndim > 1:
+        raise refuse(field, f"an array of shape {row.shape}", f"{allowed} in a row, shape (n,)")
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)
     return row

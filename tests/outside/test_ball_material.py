@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from bearingcore import Bearing, Scene, presets
+from bearingcore import Bearing, Scene, life, presets, scene_of
 from bearingcore.bearings.designation import read_designation
 from bearingcore.bearings.material import BALL_MATERIALS
 from bearingcore.errors import FieldError
@@ -79,6 +79,8 @@ def test_the_rating_of_steel_balls_is_not_that_of_a_hybrid(steel: Bearing) -> No
     hybrid = steel.with_balls_of(BALL_MATERIALS["silicon nitride"])
     with pytest.raises(FieldError, match="ISO 20056"):
         dynamic_load_rating(hybrid)
+    with pytest.raises(FieldError, match="maker's catalogue"):
+        life(scene_of("6205/HC5"))
     assert dynamic_load_rating(steel) > 0.0
     found = read_designation("6205-2RSLTN9/HC5C3WT")
     assert (found.dynamic_load_rating, found.clearance_class) == (None, "C3")

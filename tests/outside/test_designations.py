@@ -302,6 +302,23 @@ def test_balls_of_spindle_bearings_differ_as_the_note_says() -> None:
 
 @witness(
     "function: life",
+    by="worked example 2 of NTN's catalogue 2203 by ISO 281 (6208, 3.2 and 1.8 kN): P 4.38 kN",
+    compared="equivalent load of ISO 16281, 4.00 kN: 9 % below; 13,700 h for 10,500", within=0.09,
+)  # fmt: skip
+def test_combined_loads_last_longer_by_iso_16281() -> None:
+    """LIFE.md says why; of a 7310 DB under 3 and 5 kN ISO 281 has P = 0.57 F_r + 0.93 F_a."""
+    bearing = read_designation("6208").bearing.replace(radial_clearance=0.0)
+    scene = scene_of("6208").replace(bearing=bearing, fx=0.0, fy=-3200.0, fz=1800.0)
+    found = life(scene.replace(shaft_speed=650.0 * math.pi / 30.0), 32.5e3)
+    assert found.equivalent_load == pytest.approx(4380.0, rel=0.09)
+    assert (found.hours, found.equivalent_load) == pytest.approx((13_700.0, 4004.0), rel=2e-3)
+    pair = life(scene_of("7310 BECBP DB").replace(fx=0.0, fy=-3000.0, fz=5000.0))
+    by_factors = (pair.dynamic_load_rating / (0.57 * 3000.0 + 0.93 * 5000.0)) ** 3
+    assert (pair.million_revolutions, by_factors) == pytest.approx((11_686.0, 7030.0), rel=1e-3)
+
+
+@witness(
+    "function: life",
     by="worked examples: SKF general catalogue (6309), NTN ball and roller bearings (6208)",
     compared="life in hours", within=0.012,
 )  # fmt: skip

@@ -83,8 +83,9 @@ def test_combined_load_at_a_fixed_angle(zone: float) -> None:
 @witness(
     "ball bearing: statics", "tapered bearing: statics",
     by="NSK, Rolling Bearings E1102, Appendix 15: axial load and axial displacement",
-    compared="axial displacement by number: balls 6 %, rollers 3 % above the rounded formulas",
-    within=0.08,
+    compared="axial displacement by number: balls all 6 %, rollers all 3 % above the formulas: "
+    "how it goes with angle and size, K itself to 10 %",
+    within=0.02,
 )  # fmt: skip
 @pytest.mark.parametrize("name", ["7210 B", "7305 A", "30206", "32315"])
 def test_axial_displacements_of_a_makers_formulas(name: str) -> None:
@@ -92,8 +93,13 @@ def test_axial_displacements_of_a_makers_formulas(name: str) -> None:
     b, load = read_designation(name).bearing, 20.0
     sine, D = math.sin(b.contact_angle), 1e3 * b.ball_diameter
     Q = load / (b.n_balls * sine)
-    known = 0.00044 / sine * (Q**2 / D) ** (1.0 / 3.0)
+    known = 1.06 * 0.00044 / sine * (Q**2 / D) ** (1.0 / 3.0)
     if b.roller_length is not None:
-        known = 0.000077 * load**0.9 / (sine**1.9 * b.n_balls**0.9 * (1e3 * b.roller_length) ** 0.8)
+        known = (
+            1.03
+            * 0.000077
+            * load**0.9
+            / (sine**1.9 * b.n_balls**0.9 * (1e3 * b.roller_length) ** 0.8)
+        )
     scene = scene_of(b, ("z",), fz=load)
-    assert 1e3 * equilibrium(scene, [0.0]).displacement[0, 2] == pytest.approx(known, rel=0.08)
+    assert 1e3 * equilibrium(scene, [0.0]).displacement[0, 2] == pytest.approx(known, rel=0.02)

@@ -163,6 +163,20 @@ def test_axial_stiffness_of_pairs_is_the_catalogues() -> None:
 
 
 @witness(
+    "rows bearing: stiffness", "function: read_designation",
+    by="IBC, super precision bearings, TI-I-5050.0: 55 and 320 N/µm under 95 N",
+    compared="k_zz and k_yy of a 7008 C pair by number: 16 and 14 % below; their ratio to 3 %",
+    within=0.17,
+)  # fmt: skip
+def test_stiffness_of_a_pair_of_ibc() -> None:
+    """Of 192 pairs of IBC k_zz is 0.72 to 1.24 times theirs, 0.93 at the median."""
+    pair = preloaded("7008 C", 95)
+    axial, radial = (1e-6 * pair.term(name)[0] for name in ("k_zz", "k_yy"))
+    assert (axial, radial) == pytest.approx((55.0, 320.0), rel=0.17)
+    assert radial / axial == pytest.approx(320.0 / 55.0, rel=0.03)
+
+
+@witness(
     "rows bearing: stiffness",
     by="NSK's table A of the same: radial over axial stiffness",
     compared="k_yy over k_zz at 15° under four preloads, at 25 and 30°", within=0.1,

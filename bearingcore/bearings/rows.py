@@ -25,9 +25,6 @@ ARRANGEMENTS = ("back-to-back", "face-to-face", "tandem")
 
 MOST_ROWS = 8
 
-SAME_PLACE = 1e-12
-"""[m] below which rows are at one place: what rounding leaves of numbers that were added."""
-
 USUAL_DISTANCE = 1.5
 """Distance of the rows of a new pair, in ball diameters."""
 
@@ -142,8 +139,9 @@ def arrangement_of(rows: tuple[Row, ...]) -> str:
     if len(rows) != 2:
         return ""
     low, high = rows
-    apart = abs(low.place + high.place), abs(low.offset + high.offset)
-    if max(apart) > SAME_PLACE or high.place < 0.0:
+    # rounding of numbers that were added makes no other arrangement
+    uneven = max(abs(low.place + high.place), abs(low.offset + high.offset))
+    if uneven > 1e-12 or high.place < 0.0:
         return ""
     if low.facing == high.facing:
         return "tandem" if high.offset == 0.0 else ""

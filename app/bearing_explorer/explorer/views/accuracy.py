@@ -5,8 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Mapping
-from itertools import chain, pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import panel as pn
@@ -22,17 +21,22 @@ from bearing_explorer.explorer.results.accuracy import (
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
+from bearing_explorer.explorer.views.stability_charts import (
+    StabilityPicture,
+    orbit_marks,
+    step_marks,
+)
 from bearing_explorer.explorer.views.work_precision import (
-    REST,
     WorkPrecision,
+    details,
     paragraph,
     prose,
+    verdict,
 )
 from bearing_explorer.kit.compute.jobs import Work
-from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
-from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
+from bearing_explorer.kit.widgets.form import Fields, FieldSpec, choices, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
     HARD_CASES,
@@ -40,38 +44,21 @@ from bearingcore.experiments import (
     STATIC_ERRORS,
     Experiment,
     Measurements,
-    OrbitAtSpeed,
-    StabilityChart,
 )
 from bearingcore.scene import WITH_MASS, preset_labels
 
-
-class Chart(NamedTuple):
-    """A chart: its experiment, its reference in that, and its heading."""
-
-    experiment: str
-    reference: str
-    title: str
-    wide: bool = False
-
-
-CHARTS = {
-    "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
-    "Statics": (
-        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
-        *(Chart("statics", case, f"The same, {case}") for case in HARD_CASES),
-    ),
-}
-"""The charts by what they are of: each has one reference."""
-STEPS_AND_ORBITS = "Stability"
-SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
+MOTION, STATICS, STABILITY_CHARTS = "Motion", "Statics", "Stability"
+CHARTS = {MOTION: ("motion", ("",)), STATICS: ("statics", ("", *HARD_CASES))}
+"""The experiment of each subject, and the references in it: a chart for each."""
+SECTIONS = (*CHARTS, STABILITY_CHARTS)
 """Subjects to choose from, of which the page shows one."""
-ERRORS = {
-    "motion": MOTION_ERRORS,
-    "statics": STATIC_ERRORS,
-}
-"""Errors that can be drawn, by experiment."""
+ERRORS = {MOTION: tuple(MOTION_ERRORS), STATICS: tuple(STATIC_ERRORS)}
+"""Errors that can be drawn, by subject."""
 
+_CONTROLS = """
+:host { flex-wrap: wrap; align-items: start; gap: 6px 14px; margin-top: 8px; }
+.job { flex: 1 1 330px !important; margin: 0; }
+"""
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
 
 
@@ -87,16 +74,16 @@ class Accuracy(SceneJobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "Run time against error, one reference to a chart. Low is exact, left is cheap. Grey line: "
-        "points that no other beats in both. Dashed: an error of 0.1 dB or 1 %. Ring: in use. "
-        "Crosses on the upper edge failed; point at one for the reason. Dotted: the order of "
-        "convergence that theory gives. Letters at the points: steps a second, or tolerance."
+        "Error against computing time: low is exact, left is cheap. Each point is a method at one "
+        "setting, steps a second or a tolerance, compared with two independent solvers at 10⁻¹³. "
+        "The ring is in use. The grey line joins points that no other beats in both, the dotted "
+        "ones have the order of convergence that theory gives. Crosses on the upper edge failed; "
+        "point at one for the reason. RK4 is compiled as a whole; SciPy and CVODE call compiled "
+        "right-hand sides from Python, so their evaluations say more about the method than time "
+        "does."
     )
     start = "Measure on this machine"
-    bounds = (
-        "Points come one by one. SciPy's DOP853, Radau and BDF are shown as shipped only: they "
-        "take longer than all others together."
-    )
+    bounds = "Points come one by one; SciPy's DOP853, Radau and BDF take too long."
     computes = False
     sentence_looks = ("unseen",)
 
@@ -106,27 +93,39 @@ class Accuracy(SceneJobView[Found]):
 
     def build(self, packed: PackedSource) -> Any:
         self._chosen = Fields(lambda _: self._redraw())
-        self._chosen.add("charts", select("Charts of", [[name, name] for name in SECTIONS]))
-        self._chosen.add("cost", select("Cost as", COSTS))
-        self._origin, self._foot = prose("", REST), prose()
+        for name, label, options in (
+            ("charts", "Charts of", [[name, name] for name in SECTIONS]),
+            ("error", "Error of", [[name, name] for name in ERRORS[MOTION]]),
+            ("cost", "Cost as", COSTS),
+        ):
+            self._chosen.add(name, select(label, options))
+        self._origin, self._foot = prose(), prose()
         self._charts = {
-            heading: [
-                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw, one.wide))
-                for one in charts
-            ]
-            for heading, charts in CHARTS.items()
+            heading: [(case, WorkPrecision(case)) for case in cases]
+            for heading, (_, cases) in CHARTS.items()
         }
-        self._stability = prose()
+        self._orbits = StabilityPicture(
+            "Growth of a disturbance from one ball pass to the next",
+            "Shaft speed",
+            "Largest growth factor",
+        )
+        self._steps = StabilityPicture(
+            "Amplitude of the vibration over the right one, by the steps",
+            "Steps per second",
+            "Amplitude over the right one",
+        )
         self._sections = {
             heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
             for heading, made in self._charts.items()
         }
-        self._sections[STEPS_AND_ORBITS] = stack(self._stability)
-        self._place = stack(*self._sections.values(), margin=(14, 0, 0, 0))
+        self._sections[STABILITY_CHARTS] = stack(
+            self._orbits.panel, self._steps.panel, stylesheets=[_grid(360)]
+        )
+        self._place = stack(*self._sections.values())
         return [
-            self.job,
-            row(*self._chosen.widgets.values(), self._origin),
             self._place,
+            row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS]),
+            self._origin,
             self._foot,
         ]
 
@@ -137,6 +136,13 @@ class Accuracy(SceneJobView[Found]):
     def _turn_to(self, heading: str) -> None:
         """Leave the browser one section alone: it takes long to build them all."""
         section = self._sections[heading]
+        if heading in ERRORS and self._chosen.values["error"] not in ERRORS[heading]:
+            options = choices([[name, name] for name in ERRORS[heading]])
+            first = ERRORS[heading][0]
+            self._chosen.values["error"] = first
+            self._chosen.widgets["error"].param.update(**options, value=first)
+        for name in ("error", "cost"):
+            self._chosen.widgets[name].visible = heading in ERRORS
         if list(self._place) != [section]:
             self._place.objects = [section]
             panes = section.select(pn.pane.Bokeh)
@@ -162,11 +168,9 @@ class Accuracy(SceneJobView[Found]):
     def begin(self, given: Mapping[str, str]) -> None:
         super().begin(given)
         measured = given["experiment"]
-        drawn = (
-            name for name, charts in CHARTS.items() for c in charts if c.experiment == measured
-        )
+        drawn = (heading for heading, (name, _) in CHARTS.items() if name == measured)
         if measured != EVERYTHING:
-            self._chosen.put({"charts": next(drawn, STEPS_AND_ORBITS)})
+            self._chosen.put({"charts": next(drawn, STABILITY_CHARTS)})
             self._redraw()
 
     # The picture
@@ -180,16 +184,16 @@ class Accuracy(SceneJobView[Found]):
     def sentence(self, results: Results) -> str:
         found, scene = self.found, results.scene
         preset = preset_like(scene)
-        words = f"Shipped: {preset_labels[preset]}."
+        words = f"Measured beforehand, for {preset_labels[preset]}."
         if presets[preset] != scene:
             words = (
-                f"Nothing is shipped for this scene. Shipped points are those of "
-                f"{preset_labels[preset]} as it comes; “Measure on this machine” takes this scene."
+                f"The points were measured beforehand, for {preset_labels[preset]} as it comes; "
+                "“Measure on this machine” takes this scene."
             )
         if found is not None:
             words = f"Measured on this machine: {found.result.count} points. {words}"
             if self._same:
-                words += " Pale: shipped."
+                words += " Pale: measured beforehand."
             if found.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
@@ -227,79 +231,64 @@ class Accuracy(SceneJobView[Found]):
             **(base.refused if presets[preset] == results.scene else {}),
             **(own.refused if own is not None else {}),
         }
-        cost = self._chosen.values["cost"]
-        for one, chart in chain.from_iterable(self._charts.values()):
-            part, pale = _part(own, one), _part(base, one)
+        cost, error = self._chosen.values["cost"], self._chosen.values["error"]
+        heading = self._chosen.values["charts"]
+        for case, chart in self._charts.get(heading, ()):
+            name = CHARTS[heading][0]
+            part, pale = _part(own, name, case), _part(base, name, case)
             if part is not None and not self._same:
                 pale = None  # of another scene
-            chart.draw(part, pale, cost, reasons.get(one.experiment, ""))
-        known = [found for found in (own, base) if found is not None]
-        steps = next((found.stability for found in known if found.stability is not None), None)
-        orbits = next((found.orbits for found in known if found.orbits), ())
-        self._stability.object = paragraph(steps_sentence(steps)) + paragraph(
-            orbits_sentence(orbits)
-        )
-        self._foot.object = foot(own, base, self._shown(results))
+            chart.draw(part, pale, error, cost, reasons.get(name, ""))
+        if heading == STABILITY_CHARTS:
+            known = [found for found in (own, base) if found is not None]
+            steps = next((found.stability for found in known if found.stability is not None), None)
+            orbits = next((found.orbits for found in known if found.orbits), ())
+            in_use = _step_rate_in_use(self._shown(results))
+            self._orbits.show(orbit_marks(orbits, results.scene.shaft_speed))
+            self._steps.show(step_marks(steps, in_use))
+        self._caption.put(title=self.title_of(results))
+        shown = self._shown(results)
+        parts = shown[CHARTS[heading][0]].per_reference() if heading in CHARTS else {}
+        words = "".join(details(part, error) for part in parts.values() if part.points)
+        self._foot.object = foot(words, own, base, shown)
+
+    def title_of(self, results: Results) -> str:
+        """The verdict on the chart that is shown."""
+        chosen = self._chosen.values
+        if chosen["charts"] not in CHARTS:
+            return "Where methods fail: speeds and steps that are unstable"
+        name, (case, *_) = CHARTS[chosen["charts"]]
+        one = self._shown(results).get(name)
+        part = None if one is None else one.per_reference().get(case)
+        if part is None or not part.points:
+            return self.title
+        return verdict(part, chosen["error"], chosen["cost"])
 
 
-def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
+def _part(found: Measurements | None, name: str, case: str) -> Experiment | None:
     """The part of measurements that a chart shows."""
-    one = None if found is None else found.experiments.get(chart.experiment)
-    part = None if one is None else one.per_reference().get(chart.reference)
+    one = None if found is None else found.experiments.get(name)
+    part = None if one is None else one.per_reference().get(case)
     return part if part is not None and part.points else None
 
 
-def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]) -> str:
-    """Methods left out and the reasons; versions and machines."""
+def _step_rate_in_use(shown: Mapping[str, Experiment]) -> float:
+    """Steps a second [Hz] of the program's own motion, as far as it was measured."""
+    points = shown["motion"].points if "motion" in shown else ()
+    return next((point.value for point in points if point.in_use), math.nan)
+
+
+def foot(
+    words: str, own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]
+) -> str:
+    """The words on the charts, methods left out and machines, as HTML that opens on a click."""
     left = "".join(
         f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"
         for name, one in shown.items()
         if one.left_out
     )
-    words = f"<h4>What was left out, and why</h4><ul>{left}</ul>" if left else ""
-    for kind, found in (("Shipped", base), ("This machine", own)):
+    words += f"<p>Left out:</p><ul>{left}</ul>" if left else ""
+    for kind, found in (("Measured beforehand", base), ("This machine", own)):
         if found is not None:
             words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
-    return words
-
-
-def steps_sentence(chart: StabilityChart | None) -> str:
-    """Step rates at which each method diverges, found and expected."""
-    if chart is None:
-        return "Stability of the steps is not measured yet."
-    words = []
-    for name in dict.fromkeys(t.method for t in chart.trials):
-        found, limit = chart.stability_limit(name), chart.linear_limit[name]
-        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
-        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
-        expected = style.number(limit, 2) if limit else "none"
-        words.append(f"{name} {met} (linear theory: {expected})")
-    frequency = style.with_prefix(chart.highest_frequency, "Hz")
-    return (
-        f"Steps per period of the highest frequency, {frequency}, below which the motion diverges: "
-        f"{', '.join(words)}."
-    )
-
-
-def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
-    """Where the periodic motion loses its stability, and how."""
-    found = [one for one in orbits if one.multipliers]
-    if not found:
-        why = orbits[0].status if orbits else "not measured yet"
-        return f"No periodic motion over the shaft speed: {why}."
-
-    def at(one: OrbitAtSpeed) -> str:
-        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
-
-    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
-    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
-    first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
-    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
-    named = dict.fromkeys([found[0], *changed, found[-1]])
-    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
-    missing = len(orbits) - len(found)
-    rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    return (
-        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
-        f"the orbit is unstable: {sizes}.{rest}"
-    )
+    return f"<details><summary>Orders, failures, references, machines</summary>{words}</details>"

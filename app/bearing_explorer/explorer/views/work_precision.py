@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import panel as pn
@@ -14,6 +13,7 @@ from bokeh.models import (
     CustomJS,
     FixedTicker,
     HoverTool,
+    Label,
     Range1d,
     Span,
 )
@@ -21,23 +21,27 @@ from bokeh.models import (
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
-from bearing_explorer.kit.widgets.form import Fields, row, select, stack
+from bearing_explorer.kit.widgets.form import stack
 from bearingcore.common import decibels, scientific
 from bearingcore.experiments import METHODS, Experiment, Point
 
-HEIGHT, TALL = 260, 430
+HEIGHT, TALL = 280, 375
 """[px] of a chart, and of one that has a row for itself."""
 COLORS = (
-    "#0072B2", "#D55E00", "#009E73", "#AA3377", "#E69F00", "#56B4E9", style.INK,
+    "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
+    "#661100",
 )  # fmt: skip
-"""Okabe and Ito's, which colour-blind people can distinguish."""
-MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",
-           "plus": "✚", "star": "★"}  # fmt: skip
+"""One for each method, which colour-blind people can distinguish on a light and a dark page."""
+MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "star")
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
+ABOVE = (
+    "The page takes its steps from the highest natural frequency, not from an error, and it filters "
+    "accelerations, which are compared unfiltered here: “twice as many steps” below has what is left"
+)
 NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
@@ -45,10 +49,10 @@ PALE = 0.3
 """Opacity of shipped points beside those of this machine."""
 
 _WIDE = ":host { grid-column: 1 / -1; }"
-REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
 
 _POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
+_NAMES = ("cost", "error", "slot", "name", "text", "right", "down")
 
 _PLACE_LABELS = """
 const {x_range, y_range} = plot
@@ -56,79 +60,73 @@ let inner_width = 0, inner_height = 0
 try { ({inner_width, inner_height} = plot) } catch {}
 if (!(inner_width > 0)) return  // not laid out yet
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.3 : 1
-const {cost, error, label, first, text, right, down} = source.data
+const {cost, error, label, method, first, text, right, down} = points.data
 const part = (value, {start, end}) => Math.log(value/start)/Math.log(end/start)
-const points = Array.from(cost, (value, i) =>
+const places = Array.from(cost, (value, i) =>
   [part(value, x_range)*inner_width, (1 - part(error[i], y_range))*inner_height])
-const taken = points.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
+const taken = places.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
+const line = (1 - part(limit.y, y_range))*inner_height
+taken.push([0, line - 2, inner_width, line + 2], [0, line - 18*larger, 100*larger, line])
 const free = ([left, top, end, bottom]) => left >= 0 && end <= inner_width && top >= 0
   && bottom <= inner_height && taken.every((other) =>
     end <= other[0] || left >= other[2] || bottom <= other[1] || top >= other[3])
-const order = points.map((_, i) => i).sort((a, b) => first[b] - first[a])
-for (const i of order) {
-  text[i] = ""
-  const [x, y] = points[i]
-  const width = 6*larger*label[i].length + 4, half = 6*larger
-  search: for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
-    for (const side of [9, -9 - width]) {
+const beside = (i, words, letter) => {
+  const [x, y] = places[i]
+  const width = letter*larger*words.length + 4, half = letter*larger
+  for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
+    for (const side of [11, -11 - width]) {
       const box = [x + side, y + height - half, x + side + width, y + height + half]
       if (!free(box)) continue
       taken.push(box)
-      ;[text[i], right[i], down[i]] = [label[i], side, height]
-      break search
+      return [side, height]
     }
   }
 }
-source.change.emit()
+const own = names.data
+for (const k of own.name.keys()) {
+  own.text[k] = ""
+  for (const i of places.keys()) {
+    const place = method[i] == own.name[k] && beside(i, own.name[k], 6.6)
+    if (!place) continue
+    ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
+    ;[own.right[k], own.down[k]] = place
+    break
+  }
+}
+const order = places.map((_, i) => i).sort((a, b) => first[b] - first[a])
+for (const i of order) {
+  const place = label[i] && beside(i, label[i], 6)
+  text[i] = place ? label[i] : ""
+  if (place) [right[i], down[i]] = place
+}
+points.change.emit()
+names.change.emit()
 """
-"""Put each label where it covers neither a point nor another label, if there is such a place."""
+"""Put the name of each method beside one of its points, then each setting, where they cover
+neither a point nor another label, if there is such a place."""
 
 
 def look(slot: int) -> tuple[int, str]:
     """Place in COLORS, and marker; after all colours the markers change, so none are alike."""
-    markers = list(MARKERS)
-    return slot % len(COLORS), markers[(slot + slot // len(COLORS)) % len(markers)]
+    return slot % len(COLORS), MARKERS[(slot + slot // len(COLORS)) % len(MARKERS)]
 
 
 class WorkPrecision:
-    """A chart against one reference, a choice of the error, and a sentence.
+    """A chart against one reference and its sentence.
 
     Parameters
     ----------
-    title
-        what is compared, with the reference.
-    errors
-        meaning of each error that can be drawn, by name.
-    redraw
-        called when another error is chosen.
-    wide
-        whether it has a row for itself.
+    case
+        the hard case that it is of; empty for the one that has a row for itself.
     """
 
-    def __init__(
-        self,
-        title: str,
-        errors: Mapping[str, str],
-        redraw: Callable[[], None],
-        wide: bool = False,
-    ) -> None:
-        self.error = next(iter(errors))
+    def __init__(self, case: str = "") -> None:
+        self._case = case
         self._drawn: object = None
-        self._fields = Fields(lambda _: self._chosen(redraw))
-        options = [[name, name] for name in errors]
-        self._fields.add("error", select("Error of", options))
-        self.plot = self._figure(TALL if wide else HEIGHT)
-        self._words = prose()
-        self.panel = stack(
-            row(prose(f"<h4>{html.escape(title)}</h4>", REST), self._fields.widgets["error"]),
-            self.plot,
-            self._words,
-            stylesheets=[_WIDE] if wide else [],
-        )
-
-    def _chosen(self, redraw: Callable[[], None]) -> None:
-        self.error = self._fields.values["error"]
-        redraw()
+        self.plot = self._figure(HEIGHT if case else TALL)
+        self._head, self._words = prose(), prose()
+        self._head.visible = bool(case)
+        self.panel = stack(self._head, self.plot, self._words, stylesheets=[] if case else [_WIDE])
 
     def _figure(self, height: int) -> Any:
         # with words, or no room would be left for them
@@ -150,9 +148,13 @@ class WorkPrecision:
         self._lines = column_source("costs", "errors", "slot", "alpha")
         self._slopes = column_source("costs", "errors")
         self._points = column_source(*_POINTS)
+        self._names = column_source(*_NAMES)
         self._used = column_source("cost", "error")
-        self._allowed = Span(dimension="width", line_color="#009E73", line_dash=[6, 4])
+        self._allowed = Span(dimension="width", line_color=style.FAINT_INK, line_dash=[6, 4])
+        self._limit = Label(x=4, y=1.0, x_units="screen", y_offset=2, text_color=style.FAINT_INK,
+                            text_font=style.FONT, text_font_size=style.SMALL_TEXT_SIZE)  # fmt: skip
         plot.add_layout(self._allowed)
+        plot.add_layout(self._limit)
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
                   line_alpha=0.45)  # fmt: skip
         plot.multi_line("costs", "errors", source=self._slopes, line_color=style.FAINT_INK,
@@ -163,10 +165,16 @@ class WorkPrecision:
                               fill_color=colors, line_color=colors, alpha="alpha")  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        plot.text("cost", "error", text="text", source=self._points, text_alpha="alpha",
-                  text_color=colors, text_font_size="10px", text_font={"value": style.FONT},
-                  text_baseline="middle", x_offset="right", y_offset="down")  # fmt: skip
-        place = CustomJS(args={"plot": plot, "source": self._points}, code=_PLACE_LABELS)
+        for source, look_of in (
+            (self._points, {"text_alpha": "alpha", "text_font_size": "10px"}),
+            (self._names, {"text_font_size": "11px", "text_font_style": value("bold")}),
+        ):
+            plot.text("cost", "error", text="text", source=source, text_color=colors,
+                      text_font={"value": style.FONT}, text_baseline="middle", x_offset="right",
+                      y_offset="down", **look_of)  # fmt: skip
+        args = {"plot": plot, "points": self._points, "names": self._names,
+                "limit": self._limit}  # fmt: skip
+        place = CustomJS(args=args, code=_PLACE_LABELS)
         self._points.js_on_change("data", place)
         for change in ("inner_width", "inner_height"):
             plot.js_on_change(change, place)
@@ -181,20 +189,22 @@ class WorkPrecision:
         self,
         found: Experiment | None,
         shipped: Experiment | None,
+        error: str,
         cost: str,
         refused: str,
     ) -> None:
         """Show points found on this machine and shipped ones, pale where there are both.
 
-        `cost`: "seconds" or "evaluations". `refused`: why there are no points.
+        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations". `refused`: why
+        there are no points.
         """
-        state = (found, shipped, cost, refused, self.error)
+        state = (found, shipped, error, cost, refused)
         if self._drawn == state:
             return
-        self._drawn = state
+        self._drawn, self.error = state, error
         main = found or shipped
-        self.plot.visible = main is not None and bool(main.points)
-        not_here = f"Not for this scene: {refused}. " if refused else ""
+        self.plot.visible = main is not None
+        not_here = f"{refused} " if refused and found is None else ""
         if main is None:
             self._words.object = paragraph(not_here or NOT_YET)
             return
@@ -203,9 +213,8 @@ class WorkPrecision:
         self._fill(parts, cost)
         own = [p for p in main.points if self._placed(p, cost) and p.in_use]
         self._used.data = self._at(own, cost)
-        self._words.object = legend(methods_of(parts)) + paragraph(
-            not_here + sentence(main, self.error)
-        )
+        self._head.object = f"<h4>{html.escape(f'{self._case}: {verdict(main, error, cost)}')}</h4>"
+        self._words.object = paragraph(not_here + sentence(main, error))
 
     def _known(self, point: Point) -> bool:
         """True where there is something to draw: an error of this name, or a failure."""
@@ -232,27 +241,32 @@ class WorkPrecision:
         self.plot.x_range.update(start=left, end=right, reset_start=left, reset_end=right)
         self.plot.y_range.update(start=bottom, end=top, reset_start=bottom, reset_end=top)
         timed = cost == "seconds"
-        per = " per equilibrium" if main.name == "statics" else ""
-        self.plot.xaxis.axis_label = f"Time{per}" if timed else main.evaluations.capitalize()
+        work = "an equilibrium" if main.name == "statics" else "0.1 s of motion"
+        self.plot.xaxis.axis_label = (
+            f"Time to compute {work}" if timed else main.evaluations.capitalize()
+        )
         self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", self.plot)
         unit = " (dB)" if main.unit(self.error) == "dB" else ""
         self.plot.yaxis.axis_label = f"Error of {self.error}{unit}"
-        self._allowed.location = allowed
+        self._allowed.location = self._limit.y = allowed
+        self._limit.text = f"allowed: {with_unit(main, self.error, allowed)}"
         frontier = [p for p in main.frontier(self.error, cost) if self._placed(p, cost)]
         self._best.data = self._at(frontier, cost)
-        rows, lines = [], []
+        rows, lines, names = [], [], []
         for one, alpha in parts:
-            single = all(len(one.of(method)) == 1 for method in one.methods)
             for slot, method in enumerate(methods_of(parts)):
                 color, marker = look(slot)
                 own = one.of(method)
                 line = self._at([p for p in own if self._placed(p, cost)], cost)
                 lines.append((line["cost"], line["error"], color, alpha))
+                if own and one is main:
+                    names.append((left, top, color, method, "", 0.0, 0.0))
                 for p in filter(self._known, own):
                     placed = self._placed(p, cost)
                     at = getattr(p, cost)
                     at = at if math.isfinite(at) and at > 0.0 else right / 1.3
-                    label = method if single else p.label
+                    label = p.label if p in frontier else ""
+                    label = f"in use: {p.label}" if p.in_use else label
                     rows.append((
                         at, p.errors[self.error] if placed else top / 2.0, color,
                         marker if placed else "x", alpha, label, method, p.setting,
@@ -260,6 +274,7 @@ class WorkPrecision:
                         p.status if p.failed or placed else BEYOND, 8 if placed else 11,
                         alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
                     ))  # fmt: skip
+        self._names.data = columns_of(_NAMES, names)
         self._points.data = columns_of(_POINTS, rows)
         self._lines.data = columns_of(("costs", "errors", "slot", "alpha"), lines)
         self._slopes.data = columns_of(("costs", "errors"), self._theory(main, cost))
@@ -285,25 +300,55 @@ def with_unit(one: Experiment, error: str, value: float) -> str:
     return f"{text} dB" if one.unit(error) == "dB" else text
 
 
+def verdict(one: Experiment, error: str, cost: str) -> str:
+    """Compare the cheapest method within the allowed error with the next of another program."""
+    allowed = ALLOWED[one.unit(error)]
+    limit = with_unit(one, error, allowed)
+    within = sorted(
+        (p for p in one.points if not p.failed and p.errors.get(error, math.inf) <= allowed),
+        key=lambda p: getattr(p, cost),
+    )
+    if not within:
+        return f"No method is within {limit}"
+    best = within[0].method
+    others = [p for p in within if p.method.split()[0] != best.split()[0]]
+    if not others:
+        return f"Only {best} is within {limit}"
+    ratio = f"{float(f'{getattr(others[0], cost) / getattr(within[0], cost):.2g}'):g}"
+    how = "with fixed steps " if best in METHODS and METHODS[best].fixed_step else ""
+    less = f"{ratio} times cheaper" if cost == "seconds" else f"done with {ratio} times fewer"
+    what = "" if cost == "seconds" else f" {one.evaluations.removesuffix(' per equilibrium')}"
+    return f"Within {limit}, {best} {how}is {less}{what} than {others[0].method}"
+
+
+def said(one: Experiment, error: str, point: Point) -> str:
+    """A point for a sentence: method, setting, time and error."""
+    words = with_unit(one, error, point.errors[error])
+    setting = f", {point.setting}" if point.setting else ""
+    return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
+
+
 def sentence(one: Experiment, error: str) -> str:
-    """Comparison of the points of one chart, which all have the same reference."""
-
-    def said(point: Point) -> str:
-        words = with_unit(one, error, point.errors[error])
-        setting = f", {point.setting}" if point.setting else ""
-        return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
-
+    """Name the fastest point within the allowed error and the one in use, which may be above it."""
     allowed = ALLOWED[one.unit(error)]
     frontier = one.frontier(error)
     within = [point for point in frontier if point.errors[error] <= allowed]
     limit = with_unit(one, error, allowed)
     parts = []
     if within:
-        parts.append(f"Fastest within {limit}: {said(within[0])}")
+        parts.append(f"Fastest within {limit}: {said(one, error, within[0])}")
     elif frontier:
-        parts.append(f"None is within {limit}; the nearest is {said(frontier[-1])}")
-    used = [p for p in one.points if p.in_use and error in p.errors]
-    parts += [f"In use: {said(point)}" for point in used]
+        parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
+    for point in (p for p in one.points if p.in_use and error in p.errors):
+        parts.append(f"In use: {said(one, error, point)}")
+        if point.errors[error] > allowed and one.name == "motion":
+            parts += [ABOVE]
+    return ". ".join(parts) + "."
+
+
+def details(one: Experiment, error: str) -> str:
+    """Orders of convergence, failures and the reference of one chart, as HTML."""
+    parts = []
     slopes = {m: one.order(m, error) for m in one.methods if m in METHODS and METHODS[m].order}
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
@@ -319,26 +364,19 @@ def sentence(one: Experiment, error: str) -> str:
     parts += [f"{p.method}: {BEYOND}" for p in endless]
     (reference,) = one.references.values()
     apart = reference.agreement.get(error, math.nan)
-    verdict = "agree" if reference.trusted else "do not agree, so small errors mean little"
+    trust = "agree" if reference.trusted else "do not agree, so small errors mean little"
     parts.append(
-        f"Reference: {style.list_words(reference.families)} {verdict}"
+        f"Reference: {style.list_words(reference.families)} {trust}"
         + (f", {with_unit(one, error, apart)} apart" if math.isfinite(apart) else "")
     )
     parts += [part for part in (reference.note,) if part]
-    return ". ".join(part.rstrip(".") for part in parts) + "."
+    words = html.escape(". ".join(part.rstrip(".") for part in parts))
+    return f"<p>{words}.</p>"
 
 
 def methods_of(parts: list[tuple[Experiment, float]]) -> tuple[str, ...]:
     """Names of all methods, of which each keeps its colour while points come."""
     return tuple(dict.fromkeys(method for one, _ in parts for method in one.methods))
-
-
-def legend(methods: Sequence[str]) -> str:
-    """Colours and markers of the methods as HTML."""
-    looks = [look(slot) for slot in range(len(methods))]
-    return style.legend(
-        [(COLORS[c], MARKERS[m], name) for (c, m), name in zip(looks, methods, strict=True)]
-    )
 
 
 def prose(content: str = "", *more: str) -> pn.pane.HTML:

@@ -1,0 +1,219 @@
+"""Where methods fail: growth of a disturbance over the shaft speed, amplitude over the steps."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import NamedTuple
+
+from bokeh.models import BoxAnnotation, HoverTool, Label, Range1d, Span
+
+from bearing_explorer.explorer.views.work_precision import (
+    COLORS,
+    column_source,
+    columns_of,
+    look,
+    paragraph,
+    prose,
+)
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.widgets.form import stack
+from bearingcore.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
+
+HEIGHT = 340
+UNSTABLE = "#D55E00"
+STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
+
+
+class Mark(NamedTuple):
+    """A point: place, colour, marker, colour of its line, words beside it and of its tooltip."""
+
+    x: float
+    y: float
+    color: str
+    marker: str
+    line: str
+    words: str
+    why: str
+
+
+class Marks(NamedTuple):
+    """What a picture shows.
+
+    Attributes
+    ----------
+    marks
+        in the order of the lines.
+    stable
+        where the stable part begins or ends: {"top": a height} or {"left": a rate [Hz]}.
+    now, now_words
+        place [Hz] and name of the vertical line.
+    sentence
+        on the picture.
+    """
+
+    marks: list[Mark]
+    stable: dict[str, float]
+    now: float
+    now_words: str
+    sentence: str
+
+
+class StabilityPicture:
+    """A chart on logarithmic axes, its stable and unstable part shaded, failures as crosses.
+
+    Parameters
+    ----------
+    title, x, y
+        heading, and names of the axes.
+    """
+
+    def __init__(self, title: str, x: str, y: str) -> None:
+        ranges = [Range1d(1.0, 10.0, syncable=False) for _ in range(2)]
+        sides = [style.AxisQuantity(x, "", "Hz"), style.AxisQuantity(y, "", "")]
+        self.plot = plot = style.make_figure(
+            *sides, *ranges, height=HEIGHT, x_axis_type="log", y_axis_type="log",
+            sizing_mode="stretch_width",
+        )  # fmt: skip
+        for axis in plot.axis:
+            axis.formatter = style.logarithmic_ticks()
+        text = {"text_font": style.FONT, "text_font_size": style.SMALL_TEXT_SIZE}
+        self._areas = [
+            BoxAnnotation(fill_color=color, fill_alpha=alpha, line_color=None, level="image")
+            for color, alpha in ((STABLE_PAPER, 1.0), (UNSTABLE, 0.12))
+        ]
+        self._words = [
+            Label(x=0, y=0, x_offset=6, y_offset=4, text=words, text_color=color, **text)
+            for words, color in (("stable", STABLE_INK), ("unstable", UNSTABLE))
+        ]
+        self._now = Span(dimension="height", line_color=style.INK, line_dash=[2, 4])
+        self._now_words = Label(x=0, y=0, x_offset=4, y_offset=4, text_color=style.INK, **text)
+        for part in (*self._areas, *self._words, self._now, self._now_words):
+            plot.add_layout(part)
+        self._marks = column_source(*Mark._fields)
+        self._lines = column_source("xs", "ys", "color")
+        plot.multi_line("xs", "ys", source=self._lines, line_color="color", line_width=1.4)
+        marks = plot.scatter("x", "y", source=self._marks, marker="marker", size=9,
+                             fill_color="color", line_color="color", line_width=1.6)  # fmt: skip
+        plot.text("x", "y", text="words", source=self._marks, text_color="color", x_offset=9,
+                  y_offset=5, **{name: {"value": one} for name, one in text.items()})  # fmt: skip
+        plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))
+        self._sentence = prose()
+        self.panel = stack(prose(f"<h4>{title}</h4>"), plot, self._sentence)
+
+    def show(self, shown: Marks) -> None:
+        """Draw marks; an infinite one is a cross on the upper edge."""
+        marks = shown.marks
+        self.plot.visible = bool(marks)
+        self._sentence.object = paragraph(shown.sentence)
+        if not marks:
+            return
+        xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
+        left, right = min(xs) / 1.2, max(xs) * 1.5
+        bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
+        for side, (start, end) in (
+            (self.plot.x_range, (left, right)),
+            (self.plot.y_range, (bottom, top)),
+        ):
+            side.update(start=start, end=end, reset_start=start, reset_end=end)
+        stable, unstable = self._areas
+        stable.update(**shown.stable)
+        other = {"top": "bottom", "left": "right"}
+        unstable.update(**{other[side]: place for side, place in shown.stable.items()})
+        self._words[0].update(x=shown.stable.get("left", left), y=bottom)
+        self._words[1].update(x=left, y=shown.stable.get("top", bottom))
+        self._now.location = shown.now
+        self._now_words.update(x=shown.now, y=bottom, text=shown.now_words)
+        placed = [m if math.isfinite(m.y) else m._replace(y=top / 1.5, marker="x") for m in marks]
+        self._marks.data = columns_of(Mark._fields, placed)
+        lines = [
+            [m for m in marks if m.line == line and math.isfinite(m.y)]
+            for line in dict.fromkeys(m.line for m in marks)
+        ]
+        self._lines.data = columns_of(
+            ("xs", "ys", "color"),
+            [([m.x for m in one], [m.y for m in one], one[0].line) for one in lines if one],
+        )
+
+
+def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Marks:
+    """Growth of a disturbance over the shaft speed; `shaft_speed` [rad/s] is that of the scene."""
+    marks, before = [], ""
+    for orbit in orbits:
+        state = orbit.loss or ("stable" if orbit.multipliers else orbit.status)
+        size = orbit.size if orbit.multipliers else math.inf
+        color = style.DEFECTIVE if state == "stable" else UNSTABLE
+        speed = orbit.shaft_speed / (2.0 * math.pi)
+        words = "" if state in (before, "stable") else state
+        why = f"{style.number(speed, 3)} Hz: {state}"
+        if orbit.multipliers:
+            why += f", factor {style.number(size, 3)}"
+        marks.append(Mark(speed, size, color, "circle", style.DEFECTIVE, words, why))
+        before = state
+    now = shaft_speed / (2.0 * math.pi)
+    return Marks(marks, {"top": 1.0}, now, "this scene", orbits_sentence(orbits))
+
+
+def step_marks(chart: StabilityChart | None, in_use: float) -> Marks:
+    """Amplitude over the steps a second; `in_use` [Hz] is the step rate of the page."""
+    if chart is None:
+        return Marks([], {}, in_use, "", steps_sentence(chart))
+    marks = []
+    for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
+        color, marker = look(slot)
+        trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
+        failed = [t for t in trials if t.verdict == DIVERGED]
+        for trial in trials:
+            broken = trial.verdict == DIVERGED
+            state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
+            words = f"{method}: {DIVERGED}" if failed and trial is failed[-1] and not slot else ""
+            words = method if trial is trials[-1 if slot else -3] else words
+            why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
+            size = math.inf if broken else trial.amplitude
+            marks.append(
+                Mark(trial.step_rate, size, COLORS[color], marker, COLORS[color], words, why)
+            )
+    limit = next(iter(chart.linear_limit.values()))
+    return Marks(marks, {"left": limit}, in_use, "in use", steps_sentence(chart))
+
+
+def steps_sentence(chart: StabilityChart | None) -> str:
+    """Step rates at which each method diverges, found and expected."""
+    if chart is None:
+        return "Stability of the steps is not measured yet."
+    words = []
+    for name in dict.fromkeys(t.method for t in chart.trials):
+        found, limit = chart.stability_limit(name), chart.linear_limit[name]
+        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
+        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
+        expected = style.number(limit, 2) if limit else "none"
+        words.append(f"{name} {met} (linear theory: {expected})")
+    frequency = style.with_prefix(chart.highest_frequency, "Hz")
+    return (
+        f"Steps per period of the highest frequency, {frequency}, below which the motion diverges: "
+        f"{', '.join(words)}."
+    )
+
+
+def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
+    """Where the periodic motion loses its stability, and how."""
+    found = [one for one in orbits if one.multipliers]
+    if not found:
+        why = orbits[0].status if orbits else "not measured yet"
+        return f"No periodic motion over the shaft speed: {why}."
+
+    def at(one: OrbitAtSpeed) -> str:
+        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
+
+    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
+    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
+    first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
+    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
+    named = dict.fromkeys([found[0], *changed, found[-1]])
+    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
+    missing = len(orbits) - len(found)
+    rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
+    return (
+        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
+        f"the orbit is unstable: {sizes}.{rest}"
+    )

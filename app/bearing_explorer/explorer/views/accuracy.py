@@ -56,16 +56,18 @@ ERRORS = {MOTION: tuple(MOTION_ERRORS), STATICS: tuple(STATIC_ERRORS)}
 """Errors that can be drawn, by subject."""
 
 _CONTROLS = """
-:host { flex-wrap: wrap; align-items: start; gap: 6px 14px; margin-top: 8px; }
-.job { flex: 1 1 330px !important; margin: 0; }
+:host { flex-wrap: wrap; gap: 6px 14px; }
+:host > * { align-self: start !important; }
+.job { flex: 1 1 330px !important; margin: 0 !important; }
 """
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
 
 
-def _grid(least: int) -> str:
-    """Style of charts side by side, each at least that many pixels wide."""
-    columns = f"repeat(auto-fit, minmax(min(100%, {least}px), 1fr))"
-    return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
+_GRID = """
+:host { display: grid; gap: 14px 26px;
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 360px), 1fr)); }
+"""
+"""Style of charts side by side."""
 
 
 class Accuracy(SceneJobView[Found]):
@@ -74,7 +76,7 @@ class Accuracy(SceneJobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "Error against computing time: low is exact, left is cheap. Each point is a method at one "
+        "Error against cost: low is exact, left is cheap. Each point is a method at one "
         "setting, steps a second or a tolerance, compared with two independent solvers at 10⁻¹³. "
         "The ring is in use. The grey line joins points that no other beats in both, the dotted "
         "ones have the order of convergence that theory gives. Crosses on the upper edge failed; "
@@ -83,7 +85,7 @@ class Accuracy(SceneJobView[Found]):
         "does."
     )
     start = "Measure on this machine"
-    bounds = "Points come one by one; SciPy's DOP853, Radau and BDF take too long."
+    bounds = "Points come one by one; SciPy's DOP853, Radau and BDF take too long here."
     computes = False
     sentence_looks = ("unseen",)
 
@@ -105,29 +107,30 @@ class Accuracy(SceneJobView[Found]):
             for heading, (_, cases) in CHARTS.items()
         }
         self._orbits = StabilityPicture(
-            "Growth of a disturbance from one ball pass to the next",
+            "Periodic motion: growth of a disturbance with each ball pass",
             "Shaft speed",
             "Largest growth factor",
         )
         self._steps = StabilityPicture(
-            "Amplitude of the vibration over the right one, by the steps",
+            "Fixed steps: amplitude of the vibration",
             "Steps per second",
             "Amplitude over the right one",
         )
-        self._sections = {
-            heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
-            for heading, made in self._charts.items()
+        panels = {
+            heading: [chart.panel for _, chart in made] for heading, made in self._charts.items()
         }
-        self._sections[STABILITY_CHARTS] = stack(
-            self._orbits.panel, self._steps.panel, stylesheets=[_grid(360)]
-        )
-        self._place = stack(*self._sections.values())
-        return [
-            self._place,
-            row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS]),
-            self._origin,
-            self._foot,
-        ]
+        both = stack(self._orbits.panel, self._steps.panel, stylesheets=[_GRID])
+        self._sections = {
+            STABILITY_CHARTS: (both, stack()),
+            **{
+                name: (first, stack(*more, stylesheets=[_GRID]))
+                for name, (first, *more) in panels.items()
+            },
+        }
+        first, more = zip(*self._sections.values(), strict=True)
+        self._first, self._more = stack(*first), stack(*more)
+        controls = row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS])
+        return [self._first, controls, self._origin, self._more, self._foot]
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
@@ -135,17 +138,16 @@ class Accuracy(SceneJobView[Found]):
 
     def _turn_to(self, heading: str) -> None:
         """Leave the browser one section alone: it takes long to build them all."""
-        section = self._sections[heading]
+        first, more = self._sections[heading]
         if heading in ERRORS and self._chosen.values["error"] not in ERRORS[heading]:
             options = choices([[name, name] for name in ERRORS[heading]])
-            first = ERRORS[heading][0]
-            self._chosen.values["error"] = first
-            self._chosen.widgets["error"].param.update(**options, value=first)
+            self._chosen.values["error"] = error = ERRORS[heading][0]
+            self._chosen.widgets["error"].param.update(**options, value=error)
         for name in ("error", "cost"):
             self._chosen.widgets[name].visible = heading in ERRORS
-        if list(self._place) != [section]:
-            self._place.objects = [section]
-            panes = section.select(pn.pane.Bokeh)
+        if list(self._first) != [first]:
+            self._first.objects, self._more.objects = [first], [more]
+            panes = [pane for part in (first, more) for pane in part.select(pn.pane.Bokeh)]
             self._caption.put(
                 figures=[plot.id for pane in panes for plot in figures_in(pane.object)]
             )
@@ -192,8 +194,6 @@ class Accuracy(SceneJobView[Found]):
             )
         if found is not None:
             words = f"Measured on this machine: {found.result.count} points. {words}"
-            if self._same:
-                words += " Pale: measured beforehand."
             if found.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
@@ -211,12 +211,6 @@ class Accuracy(SceneJobView[Found]):
         if self._results is not None:
             self._show(self._results)
 
-    @property
-    def _same(self) -> bool:
-        """Whether the scene that was measured here is a preset as it comes."""
-        scene = None if self.found is None else self.found.scene
-        return scene is not None and presets.get(preset_like(scene)) == scene
-
     def _redraw(self) -> None:
         if self.parts is not None:
             self._turn_to(self._chosen.values["charts"])
@@ -233,22 +227,23 @@ class Accuracy(SceneJobView[Found]):
         }
         cost, error = self._chosen.values["cost"], self._chosen.values["error"]
         heading = self._chosen.values["charts"]
+        shown = self._shown(results)
+        name, _ = CHARTS.get(heading, ("", ()))
+        parts = shown[name].per_reference() if name in shown else {}
         for case, chart in self._charts.get(heading, ()):
-            name = CHARTS[heading][0]
-            part, pale = _part(own, name, case), _part(base, name, case)
-            if part is not None and not self._same:
-                pale = None  # of another scene
-            chart.draw(part, pale, error, cost, reasons.get(name, ""))
+            part = parts.get(case)
+            has_points = part is not None and part.points
+            chart.draw(part if has_points else None, error, cost, reasons.get(name, ""))
         if heading == STABILITY_CHARTS:
             known = [found for found in (own, base) if found is not None]
             steps = next((found.stability for found in known if found.stability is not None), None)
             orbits = next((found.orbits for found in known if found.orbits), ())
-            in_use = _step_rate_in_use(self._shown(results))
+            points = shown["motion"].points if "motion" in shown else ()
+            in_use = next((point.value for point in points if point.in_use), math.nan)
             self._orbits.show(orbit_marks(orbits, results.scene.shaft_speed))
             self._steps.show(step_marks(steps, in_use))
+            self._caption.put(line="Crosses failed: point at one for the reason.")
         self._caption.put(title=self.title_of(results))
-        shown = self._shown(results)
-        parts = shown[CHARTS[heading][0]].per_reference() if heading in CHARTS else {}
         words = "".join(details(part, error) for part in parts.values() if part.points)
         self._foot.object = foot(words, own, base, shown)
 
@@ -256,26 +251,13 @@ class Accuracy(SceneJobView[Found]):
         """The verdict on the chart that is shown."""
         chosen = self._chosen.values
         if chosen["charts"] not in CHARTS:
-            return "Where methods fail: speeds and steps that are unstable"
+            return "Where methods fail: unstable speeds, and steps that are too long"
         name, (case, *_) = CHARTS[chosen["charts"]]
         one = self._shown(results).get(name)
         part = None if one is None else one.per_reference().get(case)
         if part is None or not part.points:
             return self.title
         return verdict(part, chosen["error"], chosen["cost"])
-
-
-def _part(found: Measurements | None, name: str, case: str) -> Experiment | None:
-    """The part of measurements that a chart shows."""
-    one = None if found is None else found.experiments.get(name)
-    part = None if one is None else one.per_reference().get(case)
-    return part if part is not None and part.points else None
-
-
-def _step_rate_in_use(shown: Mapping[str, Experiment]) -> float:
-    """Steps a second [Hz] of the program's own motion, as far as it was measured."""
-    points = shown["motion"].points if "motion" in shown else ()
-    return next((point.value for point in points if point.in_use), math.nan)
 
 
 def foot(

@@ -6,7 +6,8 @@ import math
 from itertools import pairwise
 from typing import NamedTuple
 
-from bokeh.models import BoxAnnotation, HoverTool, Label, Range1d, Span
+from bokeh.core.properties import value
+from bokeh.models import BoxAnnotation, FixedTicker, HoverTool, Label, Range1d, Span
 
 from bearing_explorer.explorer.views.work_precision import (
     COLORS,
@@ -15,8 +16,10 @@ from bearing_explorer.explorer.views.work_precision import (
     look,
     paragraph,
     prose,
+    set_range,
 )
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 
@@ -26,15 +29,18 @@ STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 
 class Mark(NamedTuple):
-    """A point: place, colour, marker, colour of its line, words beside it and of its tooltip."""
+    """A point: place, colour as a place in COLORS, marker, words beside it and of its tooltip."""
 
     x: float
     y: float
-    color: str
+    slot: int
     marker: str
-    line: str
     words: str
     why: str
+    line: int = 0
+    align: str = "right"
+    right: float = -9.0
+    down: float = 4.0
 
 
 class Marks(NamedTuple):
@@ -70,13 +76,15 @@ class StabilityPicture:
 
     def __init__(self, title: str, x: str, y: str) -> None:
         ranges = [Range1d(1.0, 10.0, syncable=False) for _ in range(2)]
-        sides = [style.AxisQuantity(x, "", "Hz"), style.AxisQuantity(y, "", "")]
+        sides = [style.AxisQuantity(name, "", "") for name in (x, y)]
         self.plot = plot = style.make_figure(
             *sides, *ranges, height=HEIGHT, x_axis_type="log", y_axis_type="log",
             sizing_mode="stretch_width",
         )  # fmt: skip
-        for axis in plot.axis:
-            axis.formatter = style.logarithmic_ticks()
+        for axis, unit, steps in ((plot.xaxis, "Hz", (1, 2, 5)), (plot.yaxis, "", (1, 3))):
+            axis.formatter = style.logarithmic_ticks(unit)
+            ticks = [m * 10.0**e for e in range(-9, 9) for m in steps]
+            axis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
         text = {"text_font": style.FONT, "text_font_size": style.SMALL_TEXT_SIZE}
         self._areas = [
             BoxAnnotation(fill_color=color, fill_alpha=alpha, line_color=None, level="image")
@@ -91,12 +99,14 @@ class StabilityPicture:
         for part in (*self._areas, *self._words, self._now, self._now_words):
             plot.add_layout(part)
         self._marks = column_source(*Mark._fields)
-        self._lines = column_source("xs", "ys", "color")
-        plot.multi_line("xs", "ys", source=self._lines, line_color="color", line_width=1.4)
+        self._lines = column_source("xs", "ys", "slot")
+        color = by_number("slot", COLORS)
+        plot.multi_line("xs", "ys", source=self._lines, line_color=color, line_width=1.4)
         marks = plot.scatter("x", "y", source=self._marks, marker="marker", size=9,
-                             fill_color="color", line_color="color", line_width=1.6)  # fmt: skip
-        plot.text("x", "y", text="words", source=self._marks, text_color="color", x_offset=9,
-                  y_offset=5, **{name: {"value": one} for name, one in text.items()})  # fmt: skip
+                             fill_color=color, line_color=color, line_width=1.6)  # fmt: skip
+        plot.text("x", "y", text="words", source=self._marks, text_color=color,
+                  text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
+                  text_align="align", x_offset="right", y_offset="down")  # fmt: skip
         plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))
         self._sentence = prose()
         self.panel = stack(prose(f"<h4>{title}</h4>"), plot, self._sentence)
@@ -111,11 +121,8 @@ class StabilityPicture:
         xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
         left, right = min(xs) / 1.2, max(xs) * 1.5
         bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
-        for side, (start, end) in (
-            (self.plot.x_range, (left, right)),
-            (self.plot.y_range, (bottom, top)),
-        ):
-            side.update(start=start, end=end, reset_start=start, reset_end=end)
+        set_range(self.plot.x_range, left, right)
+        set_range(self.plot.y_range, bottom, top)
         stable, unstable = self._areas
         stable.update(**shown.stable)
         other = {"top": "bottom", "left": "right"}
@@ -126,14 +133,11 @@ class StabilityPicture:
         self._now_words.update(x=shown.now, y=bottom, text=shown.now_words)
         placed = [m if math.isfinite(m.y) else m._replace(y=top / 1.5, marker="x") for m in marks]
         self._marks.data = columns_of(Mark._fields, placed)
-        lines = [
-            [m for m in marks if m.line == line and math.isfinite(m.y)]
-            for line in dict.fromkeys(m.line for m in marks)
-        ]
-        self._lines.data = columns_of(
-            ("xs", "ys", "color"),
-            [([m.x for m in one], [m.y for m in one], one[0].line) for one in lines if one],
-        )
+        lines = []
+        for line in dict.fromkeys(mark.line for mark in marks):
+            known = [(m.x, m.y) for m in marks if m.line == line and math.isfinite(m.y)]
+            lines.append(([x for x, _ in known], [y for _, y in known], line))
+        self._lines.data = columns_of(("xs", "ys", "slot"), lines)
 
 
 def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Marks:
@@ -142,13 +146,12 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Marks:
     for orbit in orbits:
         state = orbit.loss or ("stable" if orbit.multipliers else orbit.status)
         size = orbit.size if orbit.multipliers else math.inf
-        color = style.DEFECTIVE if state == "stable" else UNSTABLE
         speed = orbit.shaft_speed / (2.0 * math.pi)
         words = "" if state in (before, "stable") else state
         why = f"{style.number(speed, 3)} Hz: {state}"
         if orbit.multipliers:
             why += f", factor {style.number(size, 3)}"
-        marks.append(Mark(speed, size, color, "circle", style.DEFECTIVE, words, why))
+        marks.append(Mark(speed, size, int(state != "stable"), "circle", words, why))
         before = state
     now = shaft_speed / (2.0 * math.pi)
     return Marks(marks, {"top": 1.0}, now, "this scene", orbits_sentence(orbits))
@@ -162,17 +165,15 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Marks:
     for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
         color, marker = look(slot)
         trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
-        failed = [t for t in trials if t.verdict == DIVERGED]
-        for trial in trials:
-            broken = trial.verdict == DIVERGED
+        states = [trial.verdict == DIVERGED for trial in trials]
+        for i, trial in enumerate(trials):
+            broken, first = states[i], not any(s == states[i] for s in states[:i])
             state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
-            words = f"{method}: {DIVERGED}" if failed and trial is failed[-1] and not slot else ""
-            words = method if trial is trials[-1 if slot else -3] else words
             why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
+            words = "" if not first else f"{method} {DIVERGED}" if broken else method
             size = math.inf if broken else trial.amplitude
-            marks.append(
-                Mark(trial.step_rate, size, COLORS[color], marker, COLORS[color], words, why)
-            )
+            place = ("left", -5.0, 18.0 if slot else -7.0)
+            marks.append(Mark(trial.step_rate, size, color, marker, words, why, color, *place))
     limit = next(iter(chart.linear_limit.values()))
     return Marks(marks, {"left": limit}, in_use, "in use", steps_sentence(chart))
 
@@ -183,15 +184,13 @@ def steps_sentence(chart: StabilityChart | None) -> str:
         return "Stability of the steps is not measured yet."
     words = []
     for name in dict.fromkeys(t.method for t in chart.trials):
-        found, limit = chart.stability_limit(name), chart.linear_limit[name]
-        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
-        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
-        expected = style.number(limit, 2) if limit else "none"
-        words.append(f"{name} {met} (linear theory: {expected})")
+        limits = (chart.stability_limit(name), chart.linear_limit[name])
+        here, theory = (style.number(rate / chart.highest_frequency, 2) for rate in limits)
+        words.append(f"{name} {here} (linear theory: {theory})")
     frequency = style.with_prefix(chart.highest_frequency, "Hz")
     return (
-        f"Steps per period of the highest frequency, {frequency}, below which the motion diverges: "
-        f"{', '.join(words)}."
+        f"Steps in a period of the highest frequency, {frequency}, below which the motion "
+        f"diverges: {', '.join(words)}."
     )
 
 
@@ -209,11 +208,6 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
     first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
     words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
-    named = dict.fromkeys([found[0], *changed, found[-1]])
-    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
     missing = len(orbits) - len(found)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    return (
-        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
-        f"the orbit is unstable: {sizes}.{rest}"
-    )
+    return f"{words}.{rest}"

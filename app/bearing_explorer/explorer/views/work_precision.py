@@ -11,7 +11,6 @@ from bokeh.core.properties import value
 from bokeh.models import (
     ColumnDataSource,
     CustomJS,
-    FixedTicker,
     HoverTool,
     Label,
     Range1d,
@@ -22,10 +21,10 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore.common import decibels, scientific
+from bearingcore.common import decibels, percent, scientific
 from bearingcore.experiments import METHODS, Experiment, Point
 
-HEIGHT, TALL = 280, 375
+HEIGHT, TALL = 280, 360
 """[px] of a chart, and of one that has a row for itself."""
 COLORS = (
     "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
@@ -39,18 +38,14 @@ UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
 ABOVE = (
-    "The page takes its steps from the highest natural frequency, not from an error, and it filters "
-    "accelerations, which are compared unfiltered here: “twice as many steps” below has what is left"
+    "The page takes its steps from the highest natural frequency, not from an error, and filters "
+    "accelerations, which are compared unfiltered here: “twice as many steps” below has the rest"
 )
-NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
+NOT_YET = "Nothing was measured beforehand for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
-PALE = 0.3
-"""Opacity of shipped points beside those of this machine."""
 
-_WIDE = ":host { grid-column: 1 / -1; }"
-
-_POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
+_POINTS = ("cost", "error", "slot", "marker", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
 _NAMES = ("cost", "error", "slot", "name", "text", "right", "down")
 
@@ -126,27 +121,21 @@ class WorkPrecision:
         self.plot = self._figure(HEIGHT if case else TALL)
         self._head, self._words = prose(), prose()
         self._head.visible = bool(case)
-        self.panel = stack(self._head, self.plot, self._words, stylesheets=[] if case else [_WIDE])
+        self.panel = stack(self._head, self.plot, self._words)
 
     def _figure(self, height: int) -> Any:
         # with words, or no room would be left for them
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
-            *sides,
-            *ranges,
-            height=height,
-            x_axis_type="log",
-            y_axis_type="log",
+            *sides, *ranges, height=height, x_axis_type="log", y_axis_type="log",
             sizing_mode="stretch_width",
-        )
-        ticks = [m * 10.0**e for e in range(-9, 13) for m in (1, 3)]
-        plot.xaxis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
+        )  # fmt: skip
+        style.fixed_ticks(plot.xaxis, [10.0**e for e in range(-9, 13)])
         plot.yaxis.formatter = style.logarithmic_ticks()
         colors = by_number("slot", COLORS)
         self._best = column_source("cost", "error")
-        self._lines = column_source("costs", "errors", "slot", "alpha")
-        self._slopes = column_source("costs", "errors")
+        self._lines = column_source("costs", "errors", "slot")
         self._points = column_source(*_POINTS)
         self._names = column_source(*_NAMES)
         self._used = column_source("cost", "error")
@@ -157,21 +146,18 @@ class WorkPrecision:
         plot.add_layout(self._limit)
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
                   line_alpha=0.45)  # fmt: skip
-        plot.multi_line("costs", "errors", source=self._slopes, line_color=style.FAINT_INK,
-                        line_dash=value([2, 4]))  # fmt: skip
-        plot.multi_line("costs", "errors", source=self._lines, line_color=colors,
-                        line_alpha="alpha", line_width=1.2)  # fmt: skip
+        plot.multi_line("costs", "errors", source=self._lines, line_color=colors, line_width=1.2)
         points = plot.scatter("cost", "error", source=self._points, marker="marker", size="size",
-                              fill_color=colors, line_color=colors, alpha="alpha")  # fmt: skip
+                              fill_color=colors, line_color=colors)  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        for source, look_of in (
-            (self._points, {"text_alpha": "alpha", "text_font_size": "10px"}),
-            (self._names, {"text_font_size": "11px", "text_font_style": value("bold")}),
-        ):
+        for source, size, weight in (
+            (self._points, "10px", "normal"), (self._names, "11px", "bold")
+        ):  # fmt: skip
             plot.text("cost", "error", text="text", source=source, text_color=colors,
-                      text_font={"value": style.FONT}, text_baseline="middle", x_offset="right",
-                      y_offset="down", **look_of)  # fmt: skip
+                      text_font=value(style.FONT), text_font_size=size,
+                      text_font_style=value(weight), text_baseline="middle",
+                      x_offset="right", y_offset="down")  # fmt: skip
         args = {"plot": plot, "points": self._points, "names": self._names,
                 "limit": self._limit}  # fmt: skip
         place = CustomJS(args=args, code=_PLACE_LABELS)
@@ -185,118 +171,83 @@ class WorkPrecision:
         plot.add_tools(HoverTool(renderers=[points], visible=False, tooltips=tips))
         return plot
 
-    def draw(
-        self,
-        found: Experiment | None,
-        shipped: Experiment | None,
-        error: str,
-        cost: str,
-        refused: str,
-    ) -> None:
-        """Show points found on this machine and shipped ones, pale where there are both.
+    def draw(self, shown: Experiment | None, error: str, cost: str, refused: str) -> None:
+        """Show the points of an experiment; `refused`: why there are none.
 
-        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations". `refused`: why
-        there are no points.
+        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations".
         """
-        state = (found, shipped, error, cost, refused)
+        state = (shown, error, cost, refused)
         if self._drawn == state:
             return
-        self._drawn, self.error = state, error
-        main = found or shipped
-        self.plot.visible = main is not None
-        not_here = f"{refused} " if refused and found is None else ""
-        if main is None:
-            self._words.object = paragraph(not_here or NOT_YET)
+        self._drawn = state
+        self.plot.visible = shown is not None
+        if shown is None:
+            self._words.object = paragraph(refused or NOT_YET)
             return
-        faint = shipped if found is not None else None
-        parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
-        self._fill(parts, cost)
-        own = [p for p in main.points if self._placed(p, cost) and p.in_use]
-        self._used.data = self._at(own, cost)
-        self._head.object = f"<h4>{html.escape(f'{self._case}: {verdict(main, error, cost)}')}</h4>"
-        self._words.object = paragraph(not_here + sentence(main, error))
+        self._fill(shown, error, cost)
+        heading = f"{self._case.capitalize()}. {verdict(shown, error, cost)}"
+        self._head.object = f"<h4>{html.escape(heading)}</h4>"
+        self._words.object = paragraph(sentence(shown, error))
 
-    def _known(self, point: Point) -> bool:
-        """True where there is something to draw: an error of this name, or a failure."""
-        return point.failed or not math.isnan(point.errors.get(self.error, math.nan))
+    def _fill(self, shown: Experiment, error: str, cost: str) -> None:
+        def place(point: Point) -> tuple[float, float]:
+            return getattr(point, cost), point.errors.get(error, math.nan)
 
-    def _at(self, points: list[Point], cost: str) -> dict[str, list[float]]:
-        """Places of points in the figure."""
-        errors = [point.errors[self.error] for point in points]
-        return {"cost": [getattr(point, cost) for point in points], "error": errors}
+        def is_placed(point: Point) -> bool:
+            return not point.failed and all(math.isfinite(v) and v > 0.0 for v in place(point))
 
-    def _placed(self, point: Point, cost: str) -> bool:
-        at = (getattr(point, cost), point.errors.get(self.error, math.nan))
-        return not point.failed and all(math.isfinite(v) and v > 0.0 for v in at)
-
-    def _fill(self, parts: list[tuple[Experiment, float]], cost: str) -> None:
-        main = parts[-1][0]
-        every = [p for one, _ in parts for p in one.points if self._known(p)]
-        good = [point for point in every if self._placed(point, cost)]
-        costs = [getattr(p, cost) for p in every]
+        known = [p for p in shown.points if p.failed or not math.isnan(place(p)[1])]
+        good = [point for point in known if is_placed(point)]
+        costs = [place(p)[0] for p in known]
         left, right = _around([c for c in costs if math.isfinite(c) and c > 0.0], 1.8)
-        allowed = ALLOWED[main.unit(self.error)]
-        bottom, top = _around([*(p.errors[self.error] for p in good), allowed], 2.5)
+        allowed = ALLOWED[shown.unit(error)]
+        bottom, top = _around([*(place(p)[1] for p in good), allowed], 2.5)
         top *= 6.0
-        self.plot.x_range.update(start=left, end=right, reset_start=left, reset_end=right)
-        self.plot.y_range.update(start=bottom, end=top, reset_start=bottom, reset_end=top)
+        set_range(self.plot.x_range, left, right)
+        set_range(self.plot.y_range, bottom, top)
         timed = cost == "seconds"
-        work = "an equilibrium" if main.name == "statics" else "0.1 s of motion"
+        work = "an equilibrium" if shown.name == "statics" else "0.1 s of motion"
         self.plot.xaxis.axis_label = (
-            f"Time to compute {work}" if timed else main.evaluations.capitalize()
+            f"Time to compute {work}" if timed else shown.evaluations.capitalize()
         )
-        self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", self.plot)
-        unit = " (dB)" if main.unit(self.error) == "dB" else ""
-        self.plot.yaxis.axis_label = f"Error of {self.error}{unit}"
+        self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "")
+        unit = " (dB)" if shown.unit(error) == "dB" else ""
+        self.plot.yaxis.axis_label = f"Error of {error}{unit}"
         self._allowed.location = self._limit.y = allowed
-        self._limit.text = f"allowed: {with_unit(main, self.error, allowed)}"
-        frontier = [p for p in main.frontier(self.error, cost) if self._placed(p, cost)]
-        self._best.data = self._at(frontier, cost)
+        self._limit.text = f"allowed: {with_unit(shown, error, allowed)}"
+        frontier = [p for p in shown.frontier(error, cost) if is_placed(p)]
         rows, lines, names = [], [], []
-        for one, alpha in parts:
-            for slot, method in enumerate(methods_of(parts)):
-                color, marker = look(slot)
-                own = one.of(method)
-                line = self._at([p for p in own if self._placed(p, cost)], cost)
-                lines.append((line["cost"], line["error"], color, alpha))
-                if own and one is main:
-                    names.append((left, top, color, method, "", 0.0, 0.0))
-                for p in filter(self._known, own):
-                    placed = self._placed(p, cost)
-                    at = getattr(p, cost)
-                    at = at if math.isfinite(at) and at > 0.0 else right / 1.3
-                    label = p.label if p in frontier else ""
-                    label = f"in use: {p.label}" if p.in_use else label
-                    rows.append((
-                        at, p.errors[self.error] if placed else top / 2.0, color,
-                        marker if placed else "x", alpha, label, method, p.setting,
-                        style.with_prefix(p.seconds, "s"), p.evaluations,
-                        p.status if p.failed or placed else BEYOND, 8 if placed else 11,
-                        alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
-                    ))  # fmt: skip
+        for slot, method in enumerate(shown.methods):
+            color, marker = look(slot)
+            names.append((left, top, color, method, "", 0.0, 0.0))
+            line = [place(p) for p in good if p.method == method]
+            lines.append(([c for c, _ in line], [e for _, e in line], color))
+            for p in (p for p in known if p.method == method):
+                across, up = place(p)
+                across = across if math.isfinite(across) and across > 0.0 else right / 1.3
+                label = p.label if p in frontier else ""
+                placed = is_placed(p)
+                rows.append((
+                    across, up if placed else top / 2.0, color, marker if placed else "x",
+                    f"in use: {p.label}" if p.in_use else label, method, p.setting,
+                    style.with_prefix(p.seconds, "s"), p.evaluations,
+                    p.status if p.failed or placed else BEYOND, 8 if placed else 11,
+                    (p in frontier) + p.in_use, "", 0.0, 0.0,
+                ))  # fmt: skip
+        self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
+        self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
         self._names.data = columns_of(_NAMES, names)
         self._points.data = columns_of(_POINTS, rows)
-        self._lines.data = columns_of(("costs", "errors", "slot", "alpha"), lines)
-        self._slopes.data = columns_of(("costs", "errors"), self._theory(main, cost))
-
-    def _theory(self, one: Experiment, cost: str) -> list[tuple[list[float], list[float]]]:
-        """Through the cheapest point of each method of a known order, a line of that order."""
-        lines = []
-        for method in one.methods:
-            order = METHODS[method].order if method in METHODS else 0
-            placed = [p for p in one.of(method) if self._placed(p, cost)]
-            if order and len(placed) > 2:
-                a, *_, b = (getattr(point, cost) for point in placed)
-                error = placed[0].errors[self.error]
-                lines.append(([a, b], [error, error * (b / a) ** -order]))
-        return lines
+        self._lines.data = columns_of(("costs", "errors", "slot"), lines)
 
 
 def with_unit(one: Experiment, error: str, value: float) -> str:
     """An error for a sentence: in powers of ten where it is small."""
     if one.unit(error) == "dB" and value >= 0.01:
         return decibels(value)
-    text = style.number(value, 2) if 0.01 <= value < 1000.0 else scientific(value)
+    if 0.01 <= value < 10.0:
+        return percent(value, 2)
+    text = style.number(value, 2) if 0.01 <= value < 1000.0 else scientific(value, 2)
     return f"{text} dB" if one.unit(error) == "dB" else text
 
 
@@ -336,10 +287,11 @@ def sentence(one: Experiment, error: str) -> str:
     limit = with_unit(one, error, allowed)
     parts = []
     if within:
-        parts.append(f"Fastest within {limit}: {said(one, error, within[0])}")
+        also = ", and in use" if within[0].in_use else ""
+        parts.append(f"Fastest within {limit}{also}: {said(one, error, within[0])}")
     elif frontier:
         parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
-    for point in (p for p in one.points if p.in_use and error in p.errors):
+    for point in (p for p in one.points if p.in_use and error in p.errors and p not in within[:1]):
         parts.append(f"In use: {said(one, error, point)}")
         if point.errors[error] > allowed and one.name == "motion":
             parts += [ABOVE]
@@ -374,14 +326,9 @@ def details(one: Experiment, error: str) -> str:
     return f"<p>{words}.</p>"
 
 
-def methods_of(parts: list[tuple[Experiment, float]]) -> tuple[str, ...]:
-    """Names of all methods, of which each keeps its colour while points come."""
-    return tuple(dict.fromkeys(method for one, _ in parts for method in one.methods))
-
-
-def prose(content: str = "", *more: str) -> pn.pane.HTML:
-    """Headings and paragraphs in the type of the page; `more` styles."""
-    styles = [asset_text("accuracy.css"), *more]
+def prose(content: str = "") -> pn.pane.HTML:
+    """Headings and paragraphs in the type of the page."""
+    styles = [asset_text("accuracy.css")]
     return pn.pane.HTML(content, stylesheets=styles, sizing_mode="stretch_width", margin=0)
 
 
@@ -395,6 +342,11 @@ def _around(values: list[float], room: float) -> tuple[float, float]:
     low, high = (min(values), max(values)) if values else (1.0, 1.0)
     room = max(room, math.sqrt(SHORTEST * low / high))
     return low / room, high * room
+
+
+def set_range(side: Range1d, start: float, end: float) -> None:
+    """Set the ends of an axis, also for when it is reset."""
+    side.update(start=start, end=end, reset_start=start, reset_end=end)
 
 
 def column_source(*columns: str) -> ColumnDataSource:

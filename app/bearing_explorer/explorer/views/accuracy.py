@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import panel as pn
+from bokeh.models import Plot
 
 from bearing_explorer.explorer.results.accuracy import (
-    EVERYTHING,
-    TRIALS,
+    SUBJECTS,
     Found,
     compute,
     preset_like,
@@ -36,24 +36,22 @@ from bearing_explorer.explorer.views.work_precision import (
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
-from bearing_explorer.kit.widgets.form import Fields, FieldSpec, choices, row, select, stack
+from bearing_explorer.kit.widgets.form import Fields, choices, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
     HARD_CASES,
     MOTION_ERRORS,
+    STABILITY,
     STATIC_ERRORS,
     Experiment,
     Measurements,
 )
 from bearingcore.scene import WITH_MASS, preset_labels
 
-MOTION, STATICS, STABILITY_CHARTS = "Motion", "Statics", "Stability"
-CHARTS = {MOTION: ("motion", ("",)), STATICS: ("statics", ("", *HARD_CASES))}
-"""The experiment of each subject, and the references in it: a chart for each."""
-SECTIONS = (*CHARTS, STABILITY_CHARTS)
-"""Subjects to choose from, of which the page shows one."""
-ERRORS = {MOTION: tuple(MOTION_ERRORS), STATICS: tuple(STATIC_ERRORS)}
-"""Errors that can be drawn, by subject."""
+CHARTS = {"motion": ("",), "statics": ("", *HARD_CASES)}
+"""The references of each experiment: a chart for each."""
+ERRORS = {"motion": tuple(MOTION_ERRORS), "statics": tuple(STATIC_ERRORS)}
+"""Errors that can be drawn, by experiment."""
 
 _CONTROLS = """
 :host { flex-wrap: wrap; gap: 6px 14px; }
@@ -85,7 +83,7 @@ class Accuracy(SceneJobView[Found]):
         "does."
     )
     start = "Measure on this machine"
-    bounds = "Points come one by one; SciPy's DOP853, Radau and BDF take too long here."
+    bounds = "Measures what is shown, without SciPy's DOP853, Radau and BDF, which are slow."
     computes = False
     sentence_looks = ("unseen",)
 
@@ -96,15 +94,14 @@ class Accuracy(SceneJobView[Found]):
     def build(self, packed: PackedSource) -> Any:
         self._chosen = Fields(lambda _: self._redraw())
         for name, label, options in (
-            ("charts", "Charts of", [[name, name] for name in SECTIONS]),
-            ("error", "Error of", [[name, name] for name in ERRORS[MOTION]]),
+            ("charts", "Charts of", SUBJECTS.items()),
+            ("error", "Error of", ((name, name) for name in ERRORS["motion"])),
             ("cost", "Cost as", COSTS),
         ):
-            self._chosen.add(name, select(label, options))
+            self._chosen.add(name, select(label, [list(option) for option in options]))
         self._origin, self._foot = prose(), prose()
         self._charts = {
-            heading: [(case, WorkPrecision(case)) for case in cases]
-            for heading, (_, cases) in CHARTS.items()
+            name: {case: WorkPrecision(case) for case in cases} for name, cases in CHARTS.items()
         }
         self._orbits = StabilityPicture(
             "Periodic motion: growth of a disturbance with each ball pass",
@@ -116,17 +113,12 @@ class Accuracy(SceneJobView[Found]):
             "Steps per second",
             "Amplitude over the right one",
         )
-        panels = {
-            heading: [chart.panel for _, chart in made] for heading, made in self._charts.items()
-        }
-        both = stack(self._orbits.panel, self._steps.panel, stylesheets=[_GRID])
         self._sections = {
-            STABILITY_CHARTS: (both, stack()),
-            **{
-                name: (first, stack(*more, stylesheets=[_GRID]))
-                for name, (first, *more) in panels.items()
-            },
+            name: (cases[""].panel, side_by_side(c.panel for case, c in cases.items() if case))
+            for name, cases in self._charts.items()
         }
+        both = side_by_side((self._orbits.panel, self._steps.panel))
+        self._sections[STABILITY] = both, stack()
         first, more = zip(*self._sections.values(), strict=True)
         self._first, self._more = stack(*first), stack(*more)
         controls = row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS])
@@ -134,51 +126,40 @@ class Accuracy(SceneJobView[Found]):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self._turn_to(self._chosen.values["charts"])
+        self._turn_to(self._subject)
 
-    def _turn_to(self, heading: str) -> None:
+    @property
+    def _subject(self) -> str:
+        """Name of what is shown."""
+        return str(self._chosen.values["charts"])
+
+    def still_figures(self) -> list[Plot]:
+        parts = self._sections[self._subject]
+        panes = [pane for part in parts for pane in part.select(pn.pane.Bokeh)]
+        return [plot for pane in panes for plot in figures_in(pane.object)]
+
+    def _turn_to(self, subject: str) -> None:
         """Leave the browser one section alone: it takes long to build them all."""
-        first, more = self._sections[heading]
-        if heading in ERRORS and self._chosen.values["error"] not in ERRORS[heading]:
-            options = choices([[name, name] for name in ERRORS[heading]])
-            self._chosen.values["error"] = error = ERRORS[heading][0]
-            self._chosen.widgets["error"].param.update(**options, value=error)
+        first, more = self._sections[subject]
         for name in ("error", "cost"):
-            self._chosen.widgets[name].visible = heading in ERRORS
+            self._chosen.widgets[name].visible = subject in ERRORS
         if list(self._first) != [first]:
             self._first.objects, self._more.objects = [first], [more]
-            panes = [pane for part in (first, more) for pane in part.select(pn.pane.Bokeh)]
-            self._caption.put(
-                figures=[plot.id for pane in panes for plot in figures_in(pane.object)]
-            )
+            self._caption.put(figures=[plot.id for plot in self.still_figures()])
 
     # The job
 
-    def fields(self) -> list[FieldSpec]:
-        options = [[name, words] for name, words in TRIALS.items()]
-        return [{"name": "experiment", "label": "What to measure", "options": options}]
-
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {"experiment": next(iter(TRIALS))}, {}
-
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         name, scene = given["experiment"], editor.scene
-        if name not in TRIALS:
-            raise ValueError("There is no such experiment.")
         return lambda job: compute(job, scene, name)
 
     def begin(self, given: Mapping[str, str]) -> None:
-        super().begin(given)
-        measured = given["experiment"]
-        drawn = (heading for heading, (name, _) in CHARTS.items() if name == measured)
-        if measured != EVERYTHING:
-            self._chosen.put({"charts": next(drawn, STABILITY_CHARTS)})
-            self._redraw()
+        super().begin({"experiment": self._subject})
 
     # The picture
 
     def _shown(self, results: Results) -> Mapping[str, Experiment]:
-        """The experiments shown: of this machine, and shipped where there are none of it."""
+        """The experiments shown: of this machine, or else measured beforehand."""
         base = shipped(preset_like(results.scene))
         own = {} if self.found is None else self.found.result.experiments
         return {**base.experiments, **own}
@@ -208,61 +189,64 @@ class Accuracy(SceneJobView[Found]):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         self._origin.object = paragraph(sentence)
-        if self._results is not None:
-            self._show(self._results)
+        if self.parts is None and self.found is not None:  # outside of the page
+            experiments = self.found.result.experiments
+            self._chosen.put({"charts": next(iter(experiments), STABILITY)})
+        self._redraw()
 
     def _redraw(self) -> None:
+        errors = ERRORS.get(self._subject, ())
+        if errors and self._chosen.values["error"] not in errors:
+            self._chosen.values["error"] = errors[0]
+            options = choices([[name, name] for name in errors])
+            self._chosen.widgets["error"].param.update(**options, value=errors[0])
         if self.parts is not None:
-            self._turn_to(self._chosen.values["charts"])
+            self._turn_to(self._subject)
         if self._results is not None:
-            self._show(self._results)
+            self._draw_charts(self._results)
 
-    def _show(self, results: Results) -> None:
-        preset = preset_like(results.scene)
+    def _draw_charts(self, results: Results) -> None:
+        preset, subject = preset_like(results.scene), self._subject
         base = shipped(preset)
-        own = None if self.found is None else self.found.result
+        known = [base] if self.found is None else [self.found.result, base]
         reasons = {
             **(base.refused if presets[preset] == results.scene else {}),
-            **(own.refused if own is not None else {}),
+            **(known[0].refused if self.found is not None else {}),
         }
-        cost, error = self._chosen.values["cost"], self._chosen.values["error"]
-        heading = self._chosen.values["charts"]
+        error, cost = self._chosen.values["error"], self._chosen.values["cost"]
         shown = self._shown(results)
-        name, _ = CHARTS.get(heading, ("", ()))
-        parts = shown[name].per_reference() if name in shown else {}
-        for case, chart in self._charts.get(heading, ()):
-            part = parts.get(case)
-            has_points = part is not None and part.points
-            chart.draw(part if has_points else None, error, cost, reasons.get(name, ""))
-        if heading == STABILITY_CHARTS:
-            known = [found for found in (own, base) if found is not None]
-            steps = next((found.stability for found in known if found.stability is not None), None)
+        parts = shown[subject].per_reference() if subject in shown else {}
+        for case, chart in self._charts.get(subject, {}).items():
+            chart.draw(parts.get(case), error, cost, reasons.get(subject, ""))
+        if subject == STABILITY:
+            steps = next((found.stability for found in known if found.stability), None)
             orbits = next((found.orbits for found in known if found.orbits), ())
             points = shown["motion"].points if "motion" in shown else ()
             in_use = next((point.value for point in points if point.in_use), math.nan)
-            self._orbits.show(orbit_marks(orbits, results.scene.shaft_speed))
-            self._steps.show(step_marks(steps, in_use))
+            self._orbits.show(*orbit_marks(orbits, results.scene.shaft_speed))
+            self._steps.show(*step_marks(steps, in_use))
             self._caption.put(line="Crosses failed: point at one for the reason.")
         self._caption.put(title=self.title_of(results))
         words = "".join(details(part, error) for part in parts.values() if part.points)
-        self._foot.object = foot(words, own, base, shown)
+        self._foot.object = foot(words, known, shown)
 
     def title_of(self, results: Results) -> str:
         """The verdict on the chart that is shown."""
-        chosen = self._chosen.values
-        if chosen["charts"] not in CHARTS:
+        if self._subject == STABILITY:
             return "Where methods fail: unstable speeds, and steps that are too long"
-        name, (case, *_) = CHARTS[chosen["charts"]]
-        one = self._shown(results).get(name)
-        part = None if one is None else one.per_reference().get(case)
+        experiment = self._shown(results).get(self._subject)
+        part = None if experiment is None else experiment.per_reference().get("")
         if part is None or not part.points:
             return self.title
-        return verdict(part, chosen["error"], chosen["cost"])
+        return verdict(part, self._chosen.values["error"], self._chosen.values["cost"])
 
 
-def foot(
-    words: str, own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]
-) -> str:
+def side_by_side(panels: Iterable[pn.Column]) -> pn.Column:
+    """Charts in as many columns as there is room for."""
+    return stack(*panels, stylesheets=[_GRID])
+
+
+def foot(words: str, known: Sequence[Measurements], shown: Mapping[str, Experiment]) -> str:
     """The words on the charts, methods left out and machines, as HTML that opens on a click."""
     left = "".join(
         f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"
@@ -270,7 +254,6 @@ def foot(
         if one.left_out
     )
     words += f"<p>Left out:</p><ul>{left}</ul>" if left else ""
-    for kind, found in (("Measured beforehand", base), ("This machine", own)):
-        if found is not None:
-            words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
+    for kind, found in zip(("Measured beforehand", "This machine"), known[::-1], strict=False):
+        words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
     return f"<details><summary>Orders, failures, references, machines</summary>{words}</details>"

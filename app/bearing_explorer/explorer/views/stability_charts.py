@@ -43,26 +43,9 @@ class Mark(NamedTuple):
     down: float = 4.0
 
 
-class Marks(NamedTuple):
-    """What a picture shows.
-
-    Attributes
-    ----------
-    marks
-        in the order of the lines.
-    stable
-        where the stable part begins or ends: {"top": a height} or {"left": a rate [Hz]}.
-    now, now_words
-        place [Hz] and name of the vertical line.
-    sentence
-        on the picture.
-    """
-
-    marks: list[Mark]
-    stable: dict[str, float]
-    now: float
-    now_words: str
-    sentence: str
+Picture = tuple[list[Mark], dict[str, float], tuple[float, str], str]
+"""Marks; where the stable part begins or ends ({"top": a height} or {"left": a rate [Hz]}); place
+[Hz] and name of the vertical line; the sentence."""
 
 
 class StabilityPicture:
@@ -111,11 +94,12 @@ class StabilityPicture:
         self._sentence = prose()
         self.panel = stack(prose(f"<h4>{title}</h4>"), plot, self._sentence)
 
-    def show(self, shown: Marks) -> None:
-        """Draw marks; an infinite one is a cross on the upper edge."""
-        marks = shown.marks
+    def show(
+        self, marks: list[Mark], stable: dict[str, float], now: tuple[float, str], words: str
+    ) -> None:
+        """Draw a `Picture`; an infinite mark is a cross on the upper edge."""
         self.plot.visible = bool(marks)
-        self._sentence.object = paragraph(shown.sentence)
+        self._sentence.object = paragraph(words)
         if not marks:
             return
         xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
@@ -123,14 +107,13 @@ class StabilityPicture:
         bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
         set_range(self.plot.x_range, left, right)
         set_range(self.plot.y_range, bottom, top)
-        stable, unstable = self._areas
-        stable.update(**shown.stable)
         other = {"top": "bottom", "left": "right"}
-        unstable.update(**{other[side]: place for side, place in shown.stable.items()})
-        self._words[0].update(x=shown.stable.get("left", left), y=bottom)
-        self._words[1].update(x=left, y=shown.stable.get("top", bottom))
-        self._now.location = shown.now
-        self._now_words.update(x=shown.now, y=bottom, text=shown.now_words)
+        self._areas[0].update(**stable)
+        self._areas[1].update(**{other[side]: place for side, place in stable.items()})
+        self._words[0].update(x=stable.get("left", left), y=bottom)
+        self._words[1].update(x=left, y=stable.get("top", bottom))
+        self._now.location = now[0]
+        self._now_words.update(x=now[0], y=bottom, text=now[1])
         placed = [m if math.isfinite(m.y) else m._replace(y=top / 1.5, marker="x") for m in marks]
         self._marks.data = columns_of(Mark._fields, placed)
         lines = []
@@ -140,7 +123,7 @@ class StabilityPicture:
         self._lines.data = columns_of(("xs", "ys", "slot"), lines)
 
 
-def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Marks:
+def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture:
     """Growth of a disturbance over the shaft speed; `shaft_speed` [rad/s] is that of the scene."""
     marks, before = [], ""
     for orbit in orbits:
@@ -153,14 +136,14 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Marks:
             why += f", factor {style.number(size, 3)}"
         marks.append(Mark(speed, size, int(state != "stable"), "circle", words, why))
         before = state
-    now = shaft_speed / (2.0 * math.pi)
-    return Marks(marks, {"top": 1.0}, now, "this scene", orbits_sentence(orbits))
+    now = shaft_speed / (2.0 * math.pi), "this scene"
+    return marks, {"top": 1.0}, now, orbits_sentence(orbits)
 
 
-def step_marks(chart: StabilityChart | None, in_use: float) -> Marks:
+def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
     """Amplitude over the steps a second; `in_use` [Hz] is the step rate of the page."""
     if chart is None:
-        return Marks([], {}, in_use, "", steps_sentence(chart))
+        return [], {}, (in_use, ""), steps_sentence(chart)
     marks = []
     for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
         color, marker = look(slot)
@@ -175,7 +158,7 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Marks:
             place = ("left", -5.0, 18.0 if slot else -7.0)
             marks.append(Mark(trial.step_rate, size, color, marker, words, why, color, *place))
     limit = next(iter(chart.linear_limit.values()))
-    return Marks(marks, {"left": limit}, in_use, "in use", steps_sentence(chart))
+    return marks, {"left": limit}, (in_use, "in use"), steps_sentence(chart)
 
 
 def steps_sentence(chart: StabilityChart | None) -> str:

@@ -180,8 +180,8 @@ class WorkPrecision:
         if self._drawn == state:
             return
         self._drawn = state
-        self.plot.visible = shown is not None
-        if shown is None:
+        self.plot.visible = has_points = shown is not None and bool(shown.points)
+        if shown is None or not has_points:
             self._words.object = paragraph(refused or NOT_YET)
             return
         self._fill(shown, error, cost)

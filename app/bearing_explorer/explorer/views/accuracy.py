@@ -56,7 +56,7 @@ ERRORS = {"motion": tuple(MOTION_ERRORS), "statics": tuple(STATIC_ERRORS)}
 _CONTROLS = """
 :host { flex-wrap: wrap; gap: 6px 14px; }
 :host > * { align-self: start !important; }
-.job { flex: 1 1 330px !important; margin: 0 !important; }
+.job { flex: 1 1 330px !important; margin: 0 !important; padding-top: 20px; }
 """
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
 

@@ -87,7 +87,7 @@ class StabilityPicture:
         plot.multi_line("xs", "ys", source=self._lines, line_color=color, line_width=1.4)
         marks = plot.scatter("x", "y", source=self._marks, marker="marker", size=9,
                              fill_color=color, line_color=color, line_width=1.6)  # fmt: skip
-        plot.text("x", "y", text="words", source=self._marks, text_color=color,
+        plot.text("x", "y", text="words", source=self._marks, text_color=style.INK,
                   text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
                   text_align="align", x_offset="right", y_offset="down")  # fmt: skip
         plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))

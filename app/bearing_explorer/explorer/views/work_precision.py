@@ -81,7 +81,7 @@ const own = names.data
 for (const k of own.name.keys()) {
   own.text[k] = ""
   for (const i of places.keys()) {
-    const place = method[i] == own.name[k] && beside(i, own.name[k], 6.6)
+    const place = own.name[k] && method[i] == own.name[k] && beside(i, own.name[k], 6.6)
     if (!place) continue
     ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
     ;[own.right[k], own.down[k]] = place
@@ -151,10 +151,11 @@ class WorkPrecision:
                               fill_color=colors, line_color=colors)  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        for source, size, weight in (
-            (self._points, "10px", "normal"), (self._names, "11px", "bold")
-        ):  # fmt: skip
-            plot.text("cost", "error", text="text", source=source, text_color=colors,
+        for source, color, size, weight in (
+            (self._points, style.FAINT_INK, "10px", "normal"),
+            (self._names, colors, "11px", "bold"),
+        ):
+            plot.text("cost", "error", text="text", source=source, text_color=color,
                       text_font=value(style.FONT), text_font_size=size,
                       text_font_style=value(weight), text_baseline="middle",
                       x_offset="right", y_offset="down")  # fmt: skip
@@ -236,6 +237,8 @@ class WorkPrecision:
                 ))  # fmt: skip
         self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
         self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
+        # Bokeh reads colours of a text that has become longer before it has them
+        names += [(left, top, 0, "", "", 0.0, 0.0)] * (len(COLORS) - len(names))
         self._names.data = columns_of(_NAMES, names)
         self._points.data = columns_of(_POINTS, rows)
         self._lines.data = columns_of(("costs", "errors", "slot"), lines)

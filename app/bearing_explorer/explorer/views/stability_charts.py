@@ -25,6 +25,8 @@ from bearingcore.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 
 HEIGHT = 340
 UNSTABLE = "#D55E00"
+LEAST = 1e-6
+"""What is less is drawn there, as the axis has no zero."""
 STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 
@@ -102,6 +104,7 @@ class StabilityPicture:
         self._sentence.object = paragraph(words)
         if not marks:
             return
+        marks = [mark._replace(y=max(mark.y, LEAST)) for mark in marks]
         xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
         left, right = min(xs) / 1.2, max(xs) * 1.5
         bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
@@ -157,7 +160,8 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
             size = math.inf if broken else trial.amplitude
             place = ("left", -5.0, 18.0 if slot else -7.0)
             marks.append(Mark(trial.step_rate, size, color, marker, words, why, color, *place))
-    limit = next(iter(chart.linear_limit.values()))
+    rates = [trial.step_rate for trial in chart.trials]
+    limit = min(max(next(iter(chart.linear_limit.values())), min(rates) / 2.0), 2.0 * max(rates))
     return marks, {"left": limit}, (in_use, "in use"), steps_sentence(chart)
 
 

@@ -137,7 +137,9 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture
         why = f"{style.number(speed, 3)} Hz: {state}"
         if orbit.multipliers:
             why += f", factor {style.number(size, 3)}"
-        marks.append(Mark(speed, size, int(state != "stable"), "circle", words, why))
+        higher = sum(1 for mark in marks if mark.words) % 2  # or names of neighbours would overlap
+        mark = Mark(speed, size, int(state != "stable"), "circle", words, why)
+        marks.append(mark._replace(down=4.0 - 14.0 * higher))
         before = state
     now = shaft_speed / (2.0 * math.pi), "this scene"
     return marks, {"top": 1.0}, now, orbits_sentence(orbits)

@@ -128,7 +128,8 @@ class StabilityPicture:
 
 def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture:
     """Growth of a disturbance over the shaft speed; `shaft_speed` [rad/s] is that of the scene."""
-    marks, before = [], ""
+    marks: list[Mark] = []
+    before = ""
     for orbit in orbits:
         state = orbit.loss or ("stable" if orbit.multipliers else orbit.status)
         size = orbit.size if orbit.multipliers else math.inf

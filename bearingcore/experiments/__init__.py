@@ -19,6 +19,7 @@ from bearingcore.experiments.simpler_models import SPECTRUM as SPECTRUM
 from bearingcore.experiments.simpler_models import Alternative as Alternative
 from bearingcore.experiments.simpler_models import Alternatives as Alternatives
 from bearingcore.experiments.simpler_models import alternatives as alternatives
+from bearingcore.experiments.stability import DIVERGED as DIVERGED
 from bearingcore.experiments.stability import StabilityChart as StabilityChart
 from bearingcore.experiments.statics import HARD_CASES as HARD_CASES
 from bearingcore.experiments.statics import STATIC_ERRORS as STATIC_ERRORS

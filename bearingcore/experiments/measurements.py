@@ -53,8 +53,8 @@ class Machine:
     date
         day of the measurement, as ISO 8601 has it.
     c_loop
-        [s] that a plain C loop of 1.4 s of motion took in the same minute; NaN where it did not
-        run.
+        [s] that a plain C loop took in the same minute for 1.4 s of the fan rig's motion in two
+        directions, 65536 steps a second; NaN where it did not run.
     """
 
     processor: str
@@ -69,7 +69,8 @@ class Machine:
         versions = ", ".join(f"{name} {version}" for name, version in self.versions.items())
         loop = ""
         if math.isfinite(self.c_loop):
-            loop = f"; a plain C loop of 1.4 s of motion took {with_prefix(self.c_loop, 's')} then"
+            per = with_prefix(self.c_loop / 14.0, "s")
+            loop = f"; a plain C loop took {per} for 0.1 s of the fan rig at 65536 steps/s then"
         return f"{self.processor}, {self.cores} cores, {self.date}; {versions}{loop}."
 
 

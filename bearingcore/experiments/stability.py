@@ -31,8 +31,7 @@ from bearingcore.statics.positions import over_all_positions
 STABLE, DIVERGED = "stable", "diverged"
 
 GROWN = 100.0
-"""Root mean square of the housing's acceleration over that with the program's own steps from which
-a motion has diverged."""
+"""Amplitude from which a motion has diverged."""
 
 FIXED_STEP = tuple(name for name, method in METHODS.items() if method.fixed_step)
 
@@ -45,13 +44,19 @@ class Trial:
     ----------
     method, step_rate [Hz]
         name of the method, and steps a second.
-    verdict
-        "diverged" where the motion has grown beyond any bound, else "stable".
+    amplitude
+        root mean square of the housing's acceleration over that with the program's own steps;
+        infinite where the motion broke off.
     """
 
     method: str
     step_rate: float
-    verdict: str
+    amplitude: float
+
+    @property
+    def verdict(self) -> str:
+        """Say "diverged" where the motion has grown beyond any bound, else "stable"."""
+        return STABLE if self.amplitude < GROWN else DIVERGED
 
 
 @shown_as_table
@@ -87,11 +92,12 @@ class StabilityChart:
         return limit
 
     def table(self) -> ResultTable:
-        """A row a trial: method, steps a second and verdict, with the linear limit."""
+        """A row a trial: method, steps a second, amplitude and verdict, with the linear limit."""
         trials = self.trials
         return table_of(
             ("method", "", "method"),
             ("step_rate", "Hz", "step_rate"),
+            ("amplitude", "1", "amplitude"),
             ("verdict", "", "verdict"),
             ("linear_limit", "Hz", [self.linear_limit[t.method] for t in trials]),
             of=trials,
@@ -181,7 +187,7 @@ def stability_chart(
     ):
         with np.errstate(all="ignore"):
             size = _size(METHODS[name].march(problem, rate, duration, rate))
-        trials.append(Trial(name, rate, STABLE if size < GROWN * good else DIVERGED))
+        trials.append(Trial(name, rate, size / max(good, 1e-300)))
     return StabilityChart(limits, highest, tuple(trials), len(trials) == len(tasks))
 
 

@@ -555,30 +555,26 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk: Visitor,
 ) -> None:
     desk.begin("Accuracy")
-    desk.reads(re.compile("Shipped"))
-    desk.reads(re.compile("Fastest within 0.1 dB"))
+    desk.reads(re.compile("Measured beforehand"))
+    desk.reads(re.compile("Within 0.1 dB, RK4 with fixed steps is 130 times cheaper"))
     for charts, words in (
-        ("Stability", "The factor by which a ball pass"),
-        ("Statics", "Solvers, against energy minima"),
+        ("Stability", "growth of a disturbance with each ball pass"),
+        ("Statics", "All balls just touching"),
     ):
         desk.choose("Charts of", charts)
         expect(desk.main.get_by_text(re.compile(words))).to_be_visible()
         desk.look_over()
         desk.wait(lambda: "blank" not in desk.figures())
-    desk.choose("Charts of", "Motion")
-    desk.choose("What to measure", "Statics: solvers")  # shows the charts that it is in
     desk.steady()
     before = desk.figures()
-    desk.press("Measure on this machine")
+    desk.press("Measure on this machine")  # what is shown
     desk.reads(re.compile(r"\d+ points after"))
     desk.reads(re.compile("Measured on this machine"))
     desk.wait(lambda: desk.figures() != before)
+    before = desk.figures()
     desk.press("Compare simpler models", desk.main)
     desk.reads(re.compile(r"\d+ models after"))
-    rows = desk.main.get_by_role("table").get_by_role("row")
-    desk.wait(lambda: rows.count() > 4)
-    for words in rows.all_inner_texts()[1:]:
-        assert re.search(r"\d (dB|%)|not known", words), words
+    desk.wait(lambda: desk.figures() != before)
     desk.choose("Model", "balls with mass")
     desk.press("Take it", desk.main)
     desk.reads(re.compile("Balls are massless in all charts"))

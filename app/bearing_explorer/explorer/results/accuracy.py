@@ -19,15 +19,10 @@ from bearingcore.experiments import (
     measurements_from,
 )
 
-EVERYTHING = "everything"
-TRIALS = {
-    EVERYTHING: "Everything",
-    "motion": "Motion: steps and methods",
-    "statics": "Statics: solvers",
-    STABILITY: "Stability: steps",
-    ORBITS: "Stability: orbit over speed",
-}
-"""Choices of the form by name."""
+SUBJECTS = {"motion": "Motion", "statics": "Statics", STABILITY: "Stability"}
+"""Labels of what is measured, by name."""
+PARTS = {"everything": MEASURED, STABILITY: (STABILITY, ORBITS)}
+"""What several experiments are for; each other subject is one."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +48,9 @@ def preset_like(scene: Scene) -> str:
 
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Measure and show it point by point. Runs in a job's thread."""
-    names = MEASURED if name == EVERYTHING else (name,)
+    names = PARTS.get(name, (name,))
+    if not set(names) <= set(MEASURED):
+        raise ValueError("There is no such experiment.")
     started = time.perf_counter()
     found = measure(
         scene,

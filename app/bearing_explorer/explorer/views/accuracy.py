@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Mapping
-from itertools import chain, pairwise
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import panel as pn
+from bokeh.models import Plot
 
 from bearing_explorer.explorer.results.accuracy import (
-    EVERYTHING,
-    TRIALS,
+    SUBJECTS,
     Found,
     compute,
     preset_like,
@@ -22,63 +21,51 @@ from bearing_explorer.explorer.results.accuracy import (
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
+from bearing_explorer.explorer.views.stability_charts import (
+    StabilityPicture,
+    orbit_marks,
+    step_marks,
+)
 from bearing_explorer.explorer.views.work_precision import (
-    REST,
     WorkPrecision,
+    details,
     paragraph,
     prose,
+    verdict,
 )
 from bearing_explorer.kit.compute.jobs import Work
-from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
-from bearing_explorer.kit.widgets.form import Fields, FieldSpec, row, select, stack
+from bearing_explorer.kit.widgets.form import Fields, choices, row, select, stack
 from bearingcore import presets
 from bearingcore.experiments import (
     HARD_CASES,
     MOTION_ERRORS,
+    STABILITY,
     STATIC_ERRORS,
     Experiment,
     Measurements,
-    OrbitAtSpeed,
-    StabilityChart,
 )
 from bearingcore.scene import WITH_MASS, preset_labels
 
-
-class Chart(NamedTuple):
-    """A chart: its experiment, its reference in that, and its heading."""
-
-    experiment: str
-    reference: str
-    title: str
-    wide: bool = False
-
-
-CHARTS = {
-    "Motion": (Chart("motion", "", "Steps and methods, against two families at 10⁻¹³", wide=True),),
-    "Statics": (
-        Chart("statics", "", "Solvers, against energy minima in 80-bit numbers", wide=True),
-        *(Chart("statics", case, f"The same, {case}") for case in HARD_CASES),
-    ),
-}
-"""The charts by what they are of: each has one reference."""
-STEPS_AND_ORBITS = "Stability"
-SECTIONS = (*CHARTS, STEPS_AND_ORBITS)
-"""Subjects to choose from, of which the page shows one."""
-ERRORS = {
-    "motion": MOTION_ERRORS,
-    "statics": STATIC_ERRORS,
-}
+CHARTS = {"motion": ("",), "statics": ("", *HARD_CASES)}
+"""The references of each experiment: a chart for each."""
+ERRORS = {"motion": tuple(MOTION_ERRORS), "statics": tuple(STATIC_ERRORS)}
 """Errors that can be drawn, by experiment."""
 
+_CONTROLS = """
+:host { flex-wrap: wrap; gap: 6px 14px; }
+:host > * { align-self: start !important; }
+.job { flex: 1 1 330px !important; margin: 0 !important; padding-top: 20px; }
+"""
 COSTS = [["seconds", "time"], ["evaluations", "evaluations"]]
 
 
-def _grid(least: int) -> str:
-    """Style of charts side by side, each at least that many pixels wide."""
-    columns = f"repeat(auto-fit, minmax(min(100%, {least}px), 1fr))"
-    return f":host {{ display: grid; grid-template-columns: {columns}; gap: 14px 26px; }}"
+_GRID = """
+:host { display: grid; gap: 14px 26px;
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 360px), 1fr)); }
+"""
+"""Style of charts side by side."""
 
 
 class Accuracy(SceneJobView[Found]):
@@ -87,16 +74,16 @@ class Accuracy(SceneJobView[Found]):
     name = "accuracy"
     title = "Speed against accuracy"
     about = (
-        "Run time against error, one reference to a chart. Low is exact, left is cheap. Grey line: "
-        "points that no other beats in both. Dashed: an error of 0.1 dB or 1 %. Ring: in use. "
-        "Crosses on the upper edge failed; point at one for the reason. Dotted: the order of "
-        "convergence that theory gives. Letters at the points: steps a second, or tolerance."
+        "Error against cost: low is exact, left is cheap. Each point is a method at one "
+        "setting, steps a second or a tolerance, compared with two independent solvers at 10⁻¹³. "
+        "The ring is in use. The grey line joins points that no other beats in both, the dotted "
+        "ones have the order of convergence that theory gives. Crosses on the upper edge failed; "
+        "point at one for the reason. RK4 is compiled as a whole; SciPy and CVODE call compiled "
+        "right-hand sides from Python, so their evaluations say more about the method than time "
+        "does."
     )
     start = "Measure on this machine"
-    bounds = (
-        "Points come one by one. SciPy's DOP853, Radau and BDF are shown as shipped only: they "
-        "take longer than all others together."
-    )
+    bounds = "Measures what is shown, without SciPy's DOP853, Radau and BDF, which are slow."
     computes = False
     sentence_looks = ("unseen",)
 
@@ -106,73 +93,73 @@ class Accuracy(SceneJobView[Found]):
 
     def build(self, packed: PackedSource) -> Any:
         self._chosen = Fields(lambda _: self._redraw())
-        self._chosen.add("charts", select("Charts of", [[name, name] for name in SECTIONS]))
-        self._chosen.add("cost", select("Cost as", COSTS))
-        self._origin, self._foot = prose("", REST), prose()
+        for name, label, options in (
+            ("charts", "Charts of", SUBJECTS.items()),
+            ("error", "Error of", ((name, name) for name in ERRORS["motion"])),
+            ("cost", "Cost as", COSTS),
+        ):
+            self._chosen.add(name, select(label, [list(option) for option in options]))
+        self._origin, self._foot = prose(), prose()
         self._charts = {
-            heading: [
-                (one, WorkPrecision(one.title, ERRORS[one.experiment], self._redraw, one.wide))
-                for one in charts
-            ]
-            for heading, charts in CHARTS.items()
+            name: {case: WorkPrecision(case) for case in cases} for name, cases in CHARTS.items()
         }
-        self._stability = prose()
+        self._orbits = StabilityPicture(
+            "Periodic motion: growth of a disturbance with each ball pass",
+            "Shaft speed",
+            "Largest growth factor",
+        )
+        self._steps = StabilityPicture(
+            "Fixed steps: amplitude of the vibration",
+            "Steps per second",
+            "Amplitude over the right one",
+        )
         self._sections = {
-            heading: stack(*(chart.panel for _, chart in made), stylesheets=[_grid(360)])
-            for heading, made in self._charts.items()
+            name: (cases[""].panel, side_by_side(c.panel for case, c in cases.items() if case))
+            for name, cases in self._charts.items()
         }
-        self._sections[STEPS_AND_ORBITS] = stack(self._stability)
-        self._place = stack(*self._sections.values(), margin=(14, 0, 0, 0))
-        return [
-            self.job,
-            row(*self._chosen.widgets.values(), self._origin),
-            self._place,
-            self._foot,
-        ]
+        both = side_by_side((self._orbits.panel, self._steps.panel))
+        self._sections[STABILITY] = both, stack()
+        first, more = zip(*self._sections.values(), strict=True)
+        self._first, self._more = stack(*first), stack(*more)
+        controls = row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS])
+        return [self._first, controls, self._origin, self._more, self._foot]
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self._turn_to(self._chosen.values["charts"])
+        self._turn_to(self._subject)
 
-    def _turn_to(self, heading: str) -> None:
+    @property
+    def _subject(self) -> str:
+        """Name of what is shown."""
+        return str(self._chosen.values["charts"])
+
+    def still_figures(self) -> list[Plot]:
+        parts = self._sections[self._subject]
+        panes = [pane for part in parts for pane in part.select(pn.pane.Bokeh)]
+        return [plot for pane in panes for plot in figures_in(pane.object)]
+
+    def _turn_to(self, subject: str) -> None:
         """Leave the browser one section alone: it takes long to build them all."""
-        section = self._sections[heading]
-        if list(self._place) != [section]:
-            self._place.objects = [section]
-            panes = section.select(pn.pane.Bokeh)
-            self._caption.put(
-                figures=[plot.id for pane in panes for plot in figures_in(pane.object)]
-            )
+        first, more = self._sections[subject]
+        for name in ("error", "cost"):
+            self._chosen.widgets[name].visible = subject in ERRORS
+        if list(self._first) != [first]:
+            self._first.objects, self._more.objects = [first], [more]
+            self._caption.put(figures=[plot.id for plot in self.still_figures()])
 
     # The job
 
-    def fields(self) -> list[FieldSpec]:
-        options = [[name, words] for name, words in TRIALS.items()]
-        return [{"name": "experiment", "label": "What to measure", "options": options}]
-
-    def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {"experiment": next(iter(TRIALS))}, {}
-
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         name, scene = given["experiment"], editor.scene
-        if name not in TRIALS:
-            raise ValueError("There is no such experiment.")
         return lambda job: compute(job, scene, name)
 
     def begin(self, given: Mapping[str, str]) -> None:
-        super().begin(given)
-        measured = given["experiment"]
-        drawn = (
-            name for name, charts in CHARTS.items() for c in charts if c.experiment == measured
-        )
-        if measured != EVERYTHING:
-            self._chosen.put({"charts": next(drawn, STEPS_AND_ORBITS)})
-            self._redraw()
+        super().begin({"experiment": self._subject})
 
     # The picture
 
     def _shown(self, results: Results) -> Mapping[str, Experiment]:
-        """The experiments shown: of this machine, and shipped where there are none of it."""
+        """The experiments shown: of this machine, or else measured beforehand."""
         base = shipped(preset_like(results.scene))
         own = {} if self.found is None else self.found.result.experiments
         return {**base.experiments, **own}
@@ -180,16 +167,14 @@ class Accuracy(SceneJobView[Found]):
     def sentence(self, results: Results) -> str:
         found, scene = self.found, results.scene
         preset = preset_like(scene)
-        words = f"Shipped: {preset_labels[preset]}."
+        words = f"Measured beforehand, for {preset_labels[preset]}."
         if presets[preset] != scene:
             words = (
-                f"Nothing is shipped for this scene. Shipped points are those of "
-                f"{preset_labels[preset]} as it comes; “Measure on this machine” takes this scene."
+                f"The points were measured beforehand, for {preset_labels[preset]} as it comes; "
+                "“Measure on this machine” takes this scene."
             )
         if found is not None:
             words = f"Measured on this machine: {found.result.count} points. {words}"
-            if self._same:
-                words += " Pale: shipped."
             if found.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
@@ -204,102 +189,71 @@ class Accuracy(SceneJobView[Found]):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         self._origin.object = paragraph(sentence)
-        if self._results is not None:
-            self._show(self._results)
-
-    @property
-    def _same(self) -> bool:
-        """Whether the scene that was measured here is a preset as it comes."""
-        scene = None if self.found is None else self.found.scene
-        return scene is not None and presets.get(preset_like(scene)) == scene
+        if self.parts is None and self.found is not None:  # outside of the page
+            experiments = self.found.result.experiments
+            self._chosen.put({"charts": next(iter(experiments), STABILITY)})
+        self._redraw()
 
     def _redraw(self) -> None:
+        errors = ERRORS.get(self._subject, ())
+        if errors and self._chosen.values["error"] not in errors:
+            self._chosen.values["error"] = errors[0]
+            options = choices([[name, name] for name in errors])
+            self._chosen.widgets["error"].param.update(**options, value=errors[0])
         if self.parts is not None:
-            self._turn_to(self._chosen.values["charts"])
+            self._turn_to(self._subject)
         if self._results is not None:
-            self._show(self._results)
+            self._draw_charts(self._results)
 
-    def _show(self, results: Results) -> None:
-        preset = preset_like(results.scene)
+    def _draw_charts(self, results: Results) -> None:
+        preset, subject = preset_like(results.scene), self._subject
         base = shipped(preset)
-        own = None if self.found is None else self.found.result
+        known = [base] if self.found is None else [self.found.result, base]
         reasons = {
             **(base.refused if presets[preset] == results.scene else {}),
-            **(own.refused if own is not None else {}),
+            **(known[0].refused if self.found is not None else {}),
         }
-        cost = self._chosen.values["cost"]
-        for one, chart in chain.from_iterable(self._charts.values()):
-            part, pale = _part(own, one), _part(base, one)
-            if part is not None and not self._same:
-                pale = None  # of another scene
-            chart.draw(part, pale, cost, reasons.get(one.experiment, ""))
-        known = [found for found in (own, base) if found is not None]
-        steps = next((found.stability for found in known if found.stability is not None), None)
-        orbits = next((found.orbits for found in known if found.orbits), ())
-        self._stability.object = paragraph(steps_sentence(steps)) + paragraph(
-            orbits_sentence(orbits)
-        )
-        self._foot.object = foot(own, base, self._shown(results))
+        error, cost = self._chosen.values["error"], self._chosen.values["cost"]
+        shown = self._shown(results)
+        parts = shown[subject].per_reference() if subject in shown else {}
+        for case, chart in self._charts.get(subject, {}).items():
+            chart.draw(parts.get(case), error, cost, reasons.get(subject, ""))
+        if subject == STABILITY:
+            steps = next((found.stability for found in known if found.stability), None)
+            orbits = next((found.orbits for found in known if found.orbits), ())
+            points = shown["motion"].points if "motion" in shown else ()
+            in_use = next((point.value for point in points if point.in_use), math.nan)
+            self._orbits.show(*orbit_marks(orbits, results.scene.shaft_speed))
+            self._steps.show(*step_marks(steps, in_use))
+            self._caption.put(line="Crosses failed: point at one for the reason.")
+        self._caption.put(title=self.title_of(results))
+        words = "".join(details(part, error) for part in parts.values() if part.points)
+        self._foot.object = foot(words, known, shown)
+
+    def title_of(self, results: Results) -> str:
+        """The verdict on the chart that is shown."""
+        if self._subject == STABILITY:
+            return "Where methods fail: unstable speeds, and steps that are too long"
+        experiment = self._shown(results).get(self._subject)
+        part = None if experiment is None else experiment.per_reference().get("")
+        if part is None or not part.points:
+            return self.title
+        return verdict(part, self._chosen.values["error"], self._chosen.values["cost"])
 
 
-def _part(found: Measurements | None, chart: Chart) -> Experiment | None:
-    """The part of measurements that a chart shows."""
-    one = None if found is None else found.experiments.get(chart.experiment)
-    part = None if one is None else one.per_reference().get(chart.reference)
-    return part if part is not None and part.points else None
+def side_by_side(panels: Iterable[pn.Column]) -> pn.Column:
+    """Charts in as many columns as there is room for."""
+    return stack(*panels, stylesheets=[_GRID])
 
 
-def foot(own: Measurements | None, base: Measurements, shown: Mapping[str, Experiment]) -> str:
-    """Methods left out and the reasons; versions and machines."""
+def foot(words: str, known: Sequence[Measurements], shown: Mapping[str, Experiment]) -> str:
+    """The words on the charts, methods left out and machines, as HTML that opens on a click."""
     left = "".join(
         f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"
         for name, one in shown.items()
         if one.left_out
     )
-    words = f"<h4>What was left out, and why</h4><ul>{left}</ul>" if left else ""
-    for kind, found in (("Shipped", base), ("This machine", own)):
-        if found is not None:
-            words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
-    return words
-
-
-def steps_sentence(chart: StabilityChart | None) -> str:
-    """Step rates at which each method diverges, found and expected."""
-    if chart is None:
-        return "Stability of the steps is not measured yet."
-    words = []
-    for name in dict.fromkeys(t.method for t in chart.trials):
-        found, limit = chart.stability_limit(name), chart.linear_limit[name]
-        found, limit = found / chart.highest_frequency, limit / chart.highest_frequency
-        met = style.number(found, 2) if math.isfinite(found) else "at every step tried"
-        expected = style.number(limit, 2) if limit else "none"
-        words.append(f"{name} {met} (linear theory: {expected})")
-    frequency = style.with_prefix(chart.highest_frequency, "Hz")
-    return (
-        f"Steps per period of the highest frequency, {frequency}, below which the motion diverges: "
-        f"{', '.join(words)}."
-    )
-
-
-def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
-    """Where the periodic motion loses its stability, and how."""
-    found = [one for one in orbits if one.multipliers]
-    if not found:
-        why = orbits[0].status if orbits else "not measured yet"
-        return f"No periodic motion over the shaft speed: {why}."
-
-    def at(one: OrbitAtSpeed) -> str:
-        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
-
-    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
-    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
-    first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
-    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
-    named = dict.fromkeys([found[0], *changed, found[-1]])
-    sizes = ", ".join(f"{style.number(one.size, 2)} at {at(one)}" for one in named)
-    missing = len(orbits) - len(found)
-    rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
-    return (
-        f"{words}. The factor by which a ball pass changes a small disturbance, 1 and more where "
-        f"the orbit is unstable: {sizes}.{rest}"
-    )
+    words += f"<p>Left out:</p><ul>{left}</ul>" if left else ""
+    for kind, found in zip(("Measured beforehand", "This machine"), known[::-1], strict=False):
+        words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
+    return f"<details><summary>Orders, failures, references, machines</summary>{words}</details>"

@@ -8,49 +8,104 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import panel as pn
+from bokeh.core.properties import value
+from bokeh.models import BoxAnnotation, Range1d
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.explorer.views.work_precision import ALLOWED
-from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.explorer.views.work_precision import (
+    ALLOWED,
+    column_source,
+    columns_of,
+    set_range,
+)
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
 from bearingcore.common import decibels, percent
 from bearingcore.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
-HEADS = ("Model", "Error", "of the", "Time", "Saves", "Remark")
-
+LEAST_HEIGHT = 60
+"""[px] of the chart without a model."""
+_DOTS = ("error", "row", "slot", "marker", "words", "side", "right")
 GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
 class OtherModels(SceneJobView[Alternatives]):
-    """Errors and run times with fewer directions, other edges, balls, orbits, steps and angles."""
+    """Errors and run times with fewer directions, other edges, balls, orbits, steps and angles.
+
+    Each model is a dot at its error over what is allowed.
+    """
 
     name = "alternatives"
-    title = "Would a simpler model do here?"
+    title = "Simpler models of this scene"
     about = (
-        "Other models against the scene's own, each computed. Errors of stiffness hold at 99 % "
-        "of the cage angles; those of spectra up to 1.25 times the highest natural frequency."
+        "Error against the scene's own model: in the green part it is near enough. Each model is "
+        "computed. Allowed are 0.1 dB of spectra and 1 % of the swing of curves. Errors of "
+        "stiffness hold at 99 % of the cage angles; those of spectra up to 1.25 times the highest "
+        "natural frequency."
     )
     start = "Compare simpler models"
     bounds = "A quarter of a second of motion in several models; it takes about a second."
 
     def build(self, packed: PackedSource) -> Any:
-        self._table = pn.pane.HTML(
-            "", stylesheets=[asset_text("alternatives.css")], sizing_mode="stretch_width", margin=0
-        )
+        self.plot = self._figure()
         self._models = Fields(lambda _: None)
         self._models.add("model", select("Model", [["", "none"]]))
         take = button("Take it", lambda: self._use(self._models.values["model"]))
         self._taking = row(self._models.widgets["model"], take, visible=False)
-        return [self.job, self._table, self._taking]
+        return [self.plot, row(self.job, self._taking)]
+
+    def _figure(self) -> Any:
+        """A row for each model, from the top; `_fill` sets their names."""
+        sides = [style.AxisQuantity(name, "", "") for name in ("Error over what is allowed", " ")]
+        ranges = [Range1d(*ends, syncable=False) for ends in ((0.1, 10.0), (0.0, 1.0))]
+        plot = style.make_figure(
+            *sides, *ranges, height=LEAST_HEIGHT, x_axis_type="log", sizing_mode="stretch_width"
+        )
+        plot.visible = False
+        plot.xaxis.formatter = style.logarithmic_ticks()
+        near = {"fill_color": "#E6F3EE", "fill_alpha": 1.0, "line_color": None, "level": "image"}
+        plot.add_layout(BoxAnnotation(right=1.0, **near))
+        self._dots = column_source(*_DOTS)
+        color = by_number("slot", (style.INK, "#00704F", "#D55E00"))
+        plot.scatter("error", "row", source=self._dots, marker="marker", size=9,
+                     fill_color=color, line_color=color)  # fmt: skip
+        plot.text("error", "row", text="words", source=self._dots, text_color=style.INK,
+                  text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
+                  text_baseline="middle", text_align="side", x_offset="right")  # fmt: skip
+        return plot
+
+    def _fill(self, rows: Sequence[Alternative]) -> None:
+        """Draw the models; one without an error is a cross on the right edge."""
+        shares = [one.error / GOOD_ENOUGH[one.quantity == SPECTRUM] for one in rows]
+        known = [share for share in shares if math.isfinite(share)]
+        left, right = max(min([*known, 0.1]), 1e-4) / 2.0, 4.0 * max([*known, 10.0])
+        dots = []
+        for i, (one, share) in enumerate(zip(rows, shares, strict=True)):
+            finite = math.isfinite(share)
+            at = min(max(share, 1.5 * left), right / 1.5) if finite else right / 1.5
+            late = math.log(at / left) > 0.6 * math.log(right / left)
+            words = error_words(one) if finite else one.note
+            if finite and math.isfinite(one.saved):
+                saving = "saves" if one.saved >= 0.0 else "costs more:"
+                words += f", {saving} {style.with_prefix(abs(one.saved), 's')}"
+            dots.append((at, -i, 0 if not finite else 1 if share <= 1.0 else 2,
+                         "circle" if finite else "x", words,
+                         "right" if late else "left", -9 if late else 9))  # fmt: skip
+        self._dots.data = columns_of(_DOTS, dots)
+        names = {-i: one.name for i, one in enumerate(rows)}
+        self.plot.min_border_left = 26 + round(6.6 * max(map(len, names.values()), default=0))
+        style.fixed_ticks(self.plot.yaxis[0], list(names))
+        self.plot.yaxis.major_label_overrides = names
+        set_range(self.plot.x_range, left, right)
+        set_range(self.plot.y_range, 0.4 - len(rows), 0.6)
+        self.plot.update(height=LEAST_HEIGHT + 22 * len(rows), visible=bool(rows))
 
     def _use(self, name: str) -> None:
         """Change the scene to that of the model with this name."""
@@ -91,11 +146,11 @@ class OtherModels(SceneJobView[Alternatives]):
         enough = [
             row.name
             for row in self.found.rows
-            if row.error <= GOOD_ENOUGH[row.quantity == SPECTRUM]
+            if row.error <= GOOD_ENOUGH[row.quantity == SPECTRUM] and row.saved > 0.0
         ]
-        words = "No other model is within 0.1 dB or 1 % of the swing"
+        words = "No faster model is within 0.1 dB or 1 % of the swing"
         if enough:
-            words = f"Within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
+            words = f"Faster, and within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
         if self.found.scene != results.scene:
             words += ". Computed for an earlier scene"
         return f"{words}."
@@ -103,7 +158,7 @@ class OtherModels(SceneJobView[Alternatives]):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         if self.found is not None:
-            self._table.object = table_of_rows(self.found.rows)
+            self._fill(self.found.rows)
             self._offer(self.found.rows)
 
     def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
@@ -116,36 +171,8 @@ def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
     return list(known.values())
 
 
-def table_of_rows(rows: tuple[Alternative, ...]) -> str:
-    """Models as an HTML table."""
-    cells = (
-        (
-            one.name,
-            error_words(one),
-            one.quantity,
-            _seconds(one.seconds),
-            saved_words(one),
-            one.note,
-        )
-        for one in rows
-    )
-    return html_table(HEADS, ([html_text(cell) for cell in row] for row in cells), named=True)
-
-
-def saved_words(row: Alternative) -> str:
-    """Time that a model saves, or costs more than the scene's own."""
-    if not math.isfinite(row.saved):
-        return ""
-    size = style.with_prefix(abs(row.saved), "s")
-    return size if row.saved >= 0.0 else f"costs {size} more"
-
-
 def error_words(row: Alternative) -> str:
     """An error with its unit."""
     if not math.isfinite(row.error):
         return "not known"
     return decibels(row.error) if row.quantity == SPECTRUM else percent(row.error, 2)
-
-
-def _seconds(seconds: float) -> str:
-    return style.with_prefix(seconds, "s") if math.isfinite(seconds) else ""

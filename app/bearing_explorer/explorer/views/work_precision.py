@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import panel as pn
@@ -12,8 +11,8 @@ from bokeh.core.properties import value
 from bokeh.models import (
     ColumnDataSource,
     CustomJS,
-    FixedTicker,
     HoverTool,
+    Label,
     Range1d,
     Span,
 )
@@ -21,34 +20,34 @@ from bokeh.models import (
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
-from bearing_explorer.kit.widgets.form import Fields, row, select, stack
-from bearingcore.common import decibels, scientific
+from bearing_explorer.kit.widgets.form import stack
+from bearingcore.common import decibels, percent, scientific
 from bearingcore.experiments import METHODS, Experiment, Point
 
-HEIGHT, TALL = 260, 430
+HEIGHT, TALL = 280, 360
 """[px] of a chart, and of one that has a row for itself."""
 COLORS = (
-    "#0072B2", "#D55E00", "#009E73", "#AA3377", "#E69F00", "#56B4E9", style.INK,
+    "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
+    "#661100",
 )  # fmt: skip
-"""Okabe and Ito's, which colour-blind people can distinguish."""
-MARKERS = {"circle": "●", "square": "■", "triangle": "▲", "diamond": "◆", "inverted_triangle": "▼",
-           "plus": "✚", "star": "★"}  # fmt: skip
+"""One for each method, which colour-blind people can distinguish on a light and a dark page."""
+MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "star")
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
-NOT_YET = "Nothing is shipped for this chart: “Measure on this machine” draws it."
+ABOVE = (
+    "The page takes its steps from the highest natural frequency, not from an error, and filters "
+    "accelerations, which are compared unfiltered here: “twice as many steps” below has the rest"
+)
+NOT_YET = "Nothing was measured beforehand for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
-PALE = 0.3
-"""Opacity of shipped points beside those of this machine."""
 
-_WIDE = ":host { grid-column: 1 / -1; }"
-REST = ":host { flex: 1 1 0 !important; min-width: 0; }"
-
-_POINTS = ("cost", "error", "slot", "marker", "alpha", "label", "method", "setting", "seconds",
+_POINTS = ("cost", "error", "slot", "marker", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
+_NAMES = ("cost", "error", "slot", "name", "text", "right", "down")
 
 _PLACE_LABELS = """
 const {x_range, y_range} = plot
@@ -56,117 +55,113 @@ let inner_width = 0, inner_height = 0
 try { ({inner_width, inner_height} = plot) } catch {}
 if (!(inner_width > 0)) return  // not laid out yet
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.3 : 1
-const {cost, error, label, first, text, right, down} = source.data
+const {cost, error, label, method, first, text, right, down} = points.data
 const part = (value, {start, end}) => Math.log(value/start)/Math.log(end/start)
-const points = Array.from(cost, (value, i) =>
+const places = Array.from(cost, (value, i) =>
   [part(value, x_range)*inner_width, (1 - part(error[i], y_range))*inner_height])
-const taken = points.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
+const taken = places.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
+const line = (1 - part(limit.y, y_range))*inner_height
+taken.push([0, line - 2, inner_width, line + 2], [0, line - 18*larger, 100*larger, line])
 const free = ([left, top, end, bottom]) => left >= 0 && end <= inner_width && top >= 0
   && bottom <= inner_height && taken.every((other) =>
     end <= other[0] || left >= other[2] || bottom <= other[1] || top >= other[3])
-const order = points.map((_, i) => i).sort((a, b) => first[b] - first[a])
-for (const i of order) {
-  text[i] = ""
-  const [x, y] = points[i]
-  const width = 6*larger*label[i].length + 4, half = 6*larger
-  search: for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
-    for (const side of [9, -9 - width]) {
+const beside = (i, words, letter) => {
+  const [x, y] = places[i]
+  const width = letter*larger*words.length + 4, half = letter*larger
+  for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
+    for (const side of [11, -11 - width]) {
       const box = [x + side, y + height - half, x + side + width, y + height + half]
       if (!free(box)) continue
       taken.push(box)
-      ;[text[i], right[i], down[i]] = [label[i], side, height]
-      break search
+      return [side, height]
     }
   }
 }
-source.change.emit()
+const own = names.data
+for (const k of own.name.keys()) {
+  own.text[k] = ""
+  for (const i of places.keys()) {
+    const place = own.name[k] && method[i] == own.name[k] && beside(i, own.name[k], 6.6)
+    if (!place) continue
+    ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
+    ;[own.right[k], own.down[k]] = place
+    break
+  }
+}
+const order = places.map((_, i) => i).sort((a, b) => first[b] - first[a])
+for (const i of order) {
+  const place = label[i] && beside(i, label[i], 6)
+  text[i] = place ? label[i] : ""
+  if (place) [right[i], down[i]] = place
+}
+points.change.emit()
+names.change.emit()
 """
-"""Put each label where it covers neither a point nor another label, if there is such a place."""
+"""Put the name of each method beside one of its points, then each setting, where they cover
+neither a point nor another label, if there is such a place."""
 
 
 def look(slot: int) -> tuple[int, str]:
     """Place in COLORS, and marker; after all colours the markers change, so none are alike."""
-    markers = list(MARKERS)
-    return slot % len(COLORS), markers[(slot + slot // len(COLORS)) % len(markers)]
+    return slot % len(COLORS), MARKERS[(slot + slot // len(COLORS)) % len(MARKERS)]
 
 
 class WorkPrecision:
-    """A chart against one reference, a choice of the error, and a sentence.
+    """A chart against one reference and its sentence.
 
     Parameters
     ----------
-    title
-        what is compared, with the reference.
-    errors
-        meaning of each error that can be drawn, by name.
-    redraw
-        called when another error is chosen.
-    wide
-        whether it has a row for itself.
+    case
+        the hard case that it is of; empty for the one that has a row for itself.
     """
 
-    def __init__(
-        self,
-        title: str,
-        errors: Mapping[str, str],
-        redraw: Callable[[], None],
-        wide: bool = False,
-    ) -> None:
-        self.error = next(iter(errors))
+    def __init__(self, case: str = "") -> None:
+        self._case = case
         self._drawn: object = None
-        self._fields = Fields(lambda _: self._chosen(redraw))
-        options = [[name, name] for name in errors]
-        self._fields.add("error", select("Error of", options))
-        self.plot = self._figure(TALL if wide else HEIGHT)
-        self._words = prose()
-        self.panel = stack(
-            row(prose(f"<h4>{html.escape(title)}</h4>", REST), self._fields.widgets["error"]),
-            self.plot,
-            self._words,
-            stylesheets=[_WIDE] if wide else [],
-        )
-
-    def _chosen(self, redraw: Callable[[], None]) -> None:
-        self.error = self._fields.values["error"]
-        redraw()
+        self.plot = self._figure(HEIGHT if case else TALL)
+        self._head, self._words = prose(), prose()
+        self._head.visible = bool(case)
+        self.panel = stack(self._head, self.plot, self._words)
 
     def _figure(self, height: int) -> Any:
         # with words, or no room would be left for them
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
-            *sides,
-            *ranges,
-            height=height,
-            x_axis_type="log",
-            y_axis_type="log",
+            *sides, *ranges, height=height, x_axis_type="log", y_axis_type="log",
             sizing_mode="stretch_width",
-        )
-        ticks = [m * 10.0**e for e in range(-9, 13) for m in (1, 3)]
-        plot.xaxis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
+        )  # fmt: skip
+        style.fixed_ticks(plot.xaxis, [10.0**e for e in range(-9, 13)])
         plot.yaxis.formatter = style.logarithmic_ticks()
         colors = by_number("slot", COLORS)
         self._best = column_source("cost", "error")
-        self._lines = column_source("costs", "errors", "slot", "alpha")
-        self._slopes = column_source("costs", "errors")
+        self._lines = column_source("costs", "errors", "slot")
         self._points = column_source(*_POINTS)
+        self._names = column_source(*_NAMES)
         self._used = column_source("cost", "error")
-        self._allowed = Span(dimension="width", line_color="#009E73", line_dash=[6, 4])
+        self._allowed = Span(dimension="width", line_color=style.FAINT_INK, line_dash=[6, 4])
+        self._limit = Label(x=4, y=1.0, x_units="screen", y_offset=2, text_color=style.FAINT_INK,
+                            text_font=style.FONT, text_font_size=style.SMALL_TEXT_SIZE)  # fmt: skip
         plot.add_layout(self._allowed)
+        plot.add_layout(self._limit)
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
                   line_alpha=0.45)  # fmt: skip
-        plot.multi_line("costs", "errors", source=self._slopes, line_color=style.FAINT_INK,
-                        line_dash=value([2, 4]))  # fmt: skip
-        plot.multi_line("costs", "errors", source=self._lines, line_color=colors,
-                        line_alpha="alpha", line_width=1.2)  # fmt: skip
+        plot.multi_line("costs", "errors", source=self._lines, line_color=colors, line_width=1.2)
         points = plot.scatter("cost", "error", source=self._points, marker="marker", size="size",
-                              fill_color=colors, line_color=colors, alpha="alpha")  # fmt: skip
+                              fill_color=colors, line_color=colors)  # fmt: skip
         plot.scatter("cost", "error", source=self._used, size=17, fill_color=None,
                      line_color=style.INK, line_width=1.8)  # fmt: skip
-        plot.text("cost", "error", text="text", source=self._points, text_alpha="alpha",
-                  text_color=colors, text_font_size="10px", text_font={"value": style.FONT},
-                  text_baseline="middle", x_offset="right", y_offset="down")  # fmt: skip
-        place = CustomJS(args={"plot": plot, "source": self._points}, code=_PLACE_LABELS)
+        for source, color, size, weight in (
+            (self._points, style.FAINT_INK, "10px", "normal"),
+            (self._names, colors, "11px", "bold"),
+        ):
+            plot.text("cost", "error", text="text", source=source, text_color=color,
+                      text_font=value(style.FONT), text_font_size=size,
+                      text_font_style=value(weight), text_baseline="middle",
+                      x_offset="right", y_offset="down")  # fmt: skip
+        args = {"plot": plot, "points": self._points, "names": self._names,
+                "limit": self._limit}  # fmt: skip
+        place = CustomJS(args=args, code=_PLACE_LABELS)
         self._points.js_on_change("data", place)
         for change in ("inner_width", "inner_height"):
             plot.js_on_change(change, place)
@@ -177,133 +172,138 @@ class WorkPrecision:
         plot.add_tools(HoverTool(renderers=[points], visible=False, tooltips=tips))
         return plot
 
-    def draw(
-        self,
-        found: Experiment | None,
-        shipped: Experiment | None,
-        cost: str,
-        refused: str,
-    ) -> None:
-        """Show points found on this machine and shipped ones, pale where there are both.
+    def draw(self, shown: Experiment | None, error: str, cost: str, refused: str) -> None:
+        """Show the points of an experiment; `refused`: why there are none.
 
-        `cost`: "seconds" or "evaluations". `refused`: why there are no points.
+        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations".
         """
-        state = (found, shipped, cost, refused, self.error)
+        state = (shown, error, cost, refused)
         if self._drawn == state:
             return
         self._drawn = state
-        main = found or shipped
-        self.plot.visible = main is not None and bool(main.points)
-        not_here = f"Not for this scene: {refused}. " if refused else ""
-        if main is None:
-            self._words.object = paragraph(not_here or NOT_YET)
+        self.plot.visible = has_points = shown is not None and bool(shown.points)
+        if shown is None or not has_points:
+            self._words.object = paragraph(refused or NOT_YET)
             return
-        faint = shipped if found is not None else None
-        parts = [(one, alpha) for one, alpha in ((faint, PALE), (main, 1.0)) if one is not None]
-        self._fill(parts, cost)
-        own = [p for p in main.points if self._placed(p, cost) and p.in_use]
-        self._used.data = self._at(own, cost)
-        self._words.object = legend(methods_of(parts)) + paragraph(
-            not_here + sentence(main, self.error)
-        )
+        self._fill(shown, error, cost)
+        heading = f"{self._case.capitalize()}. {verdict(shown, error, cost)}"
+        self._head.object = f"<h4>{html.escape(heading)}</h4>"
+        self._words.object = paragraph(sentence(shown, error))
 
-    def _known(self, point: Point) -> bool:
-        """True where there is something to draw: an error of this name, or a failure."""
-        return point.failed or not math.isnan(point.errors.get(self.error, math.nan))
+    def _fill(self, shown: Experiment, error: str, cost: str) -> None:
+        def place(point: Point) -> tuple[float, float]:
+            return getattr(point, cost), point.errors.get(error, math.nan)
 
-    def _at(self, points: list[Point], cost: str) -> dict[str, list[float]]:
-        """Places of points in the figure."""
-        errors = [point.errors[self.error] for point in points]
-        return {"cost": [getattr(point, cost) for point in points], "error": errors}
+        def is_placed(point: Point) -> bool:
+            return not point.failed and all(math.isfinite(v) and v > 0.0 for v in place(point))
 
-    def _placed(self, point: Point, cost: str) -> bool:
-        at = (getattr(point, cost), point.errors.get(self.error, math.nan))
-        return not point.failed and all(math.isfinite(v) and v > 0.0 for v in at)
-
-    def _fill(self, parts: list[tuple[Experiment, float]], cost: str) -> None:
-        main = parts[-1][0]
-        every = [p for one, _ in parts for p in one.points if self._known(p)]
-        good = [point for point in every if self._placed(point, cost)]
-        costs = [getattr(p, cost) for p in every]
+        known = [p for p in shown.points if p.failed or not math.isnan(place(p)[1])]
+        good = [point for point in known if is_placed(point)]
+        costs = [place(p)[0] for p in known]
         left, right = _around([c for c in costs if math.isfinite(c) and c > 0.0], 1.8)
-        allowed = ALLOWED[main.unit(self.error)]
-        bottom, top = _around([*(p.errors[self.error] for p in good), allowed], 2.5)
+        allowed = ALLOWED[shown.unit(error)]
+        bottom, top = _around([*(place(p)[1] for p in good), allowed], 2.5)
         top *= 6.0
-        self.plot.x_range.update(start=left, end=right, reset_start=left, reset_end=right)
-        self.plot.y_range.update(start=bottom, end=top, reset_start=bottom, reset_end=top)
+        set_range(self.plot.x_range, left, right)
+        set_range(self.plot.y_range, bottom, top)
         timed = cost == "seconds"
-        per = " per equilibrium" if main.name == "statics" else ""
-        self.plot.xaxis.axis_label = f"Time{per}" if timed else main.evaluations.capitalize()
-        self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "", self.plot)
-        unit = " (dB)" if main.unit(self.error) == "dB" else ""
-        self.plot.yaxis.axis_label = f"Error of {self.error}{unit}"
-        self._allowed.location = allowed
-        frontier = [p for p in main.frontier(self.error, cost) if self._placed(p, cost)]
-        self._best.data = self._at(frontier, cost)
-        rows, lines = [], []
-        for one, alpha in parts:
-            single = all(len(one.of(method)) == 1 for method in one.methods)
-            for slot, method in enumerate(methods_of(parts)):
-                color, marker = look(slot)
-                own = one.of(method)
-                line = self._at([p for p in own if self._placed(p, cost)], cost)
-                lines.append((line["cost"], line["error"], color, alpha))
-                for p in filter(self._known, own):
-                    placed = self._placed(p, cost)
-                    at = getattr(p, cost)
-                    at = at if math.isfinite(at) and at > 0.0 else right / 1.3
-                    label = method if single else p.label
-                    rows.append((
-                        at, p.errors[self.error] if placed else top / 2.0, color,
-                        marker if placed else "x", alpha, label, method, p.setting,
-                        style.with_prefix(p.seconds, "s"), p.evaluations,
-                        p.status if p.failed or placed else BEYOND, 8 if placed else 11,
-                        alpha + (p in frontier) + p.in_use, "", 0.0, 0.0,
-                    ))  # fmt: skip
+        work = "an equilibrium" if shown.name == "statics" else "0.1 s of motion"
+        self.plot.xaxis.axis_label = (
+            f"Time to compute {work}" if timed else shown.evaluations.capitalize()
+        )
+        self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "")
+        unit = " (dB)" if shown.unit(error) == "dB" else ""
+        self.plot.yaxis.axis_label = f"Error of {error}{unit}"
+        self._allowed.location = self._limit.y = allowed
+        self._limit.text = f"allowed: {with_unit(shown, error, allowed)}"
+        frontier = [p for p in shown.frontier(error, cost) if is_placed(p)]
+        rows, lines, names = [], [], []
+        for slot, method in enumerate(shown.methods):
+            color, marker = look(slot)
+            names.append((left, top, color, method, "", 0.0, 0.0))
+            line = [place(p) for p in good if p.method == method]
+            lines.append(([c for c, _ in line], [e for _, e in line], color))
+            for p in (p for p in known if p.method == method):
+                across, up = place(p)
+                across = across if math.isfinite(across) and across > 0.0 else right / 1.3
+                label = p.label if p in frontier else ""
+                placed = is_placed(p)
+                rows.append((
+                    across, up if placed else top / 2.0, color, marker if placed else "x",
+                    f"in use: {p.label}" if p.in_use else label, method, p.setting,
+                    style.with_prefix(p.seconds, "s"), p.evaluations,
+                    p.status if p.failed or placed else BEYOND, 8 if placed else 11,
+                    (p in frontier) + p.in_use, "", 0.0, 0.0,
+                ))  # fmt: skip
+        self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
+        self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
+        # Bokeh reads colours of a text that has become longer before it has them
+        names += [(left, top, 0, "", "", 0.0, 0.0)] * (len(COLORS) - len(names))
+        self._names.data = columns_of(_NAMES, names)
         self._points.data = columns_of(_POINTS, rows)
-        self._lines.data = columns_of(("costs", "errors", "slot", "alpha"), lines)
-        self._slopes.data = columns_of(("costs", "errors"), self._theory(main, cost))
-
-    def _theory(self, one: Experiment, cost: str) -> list[tuple[list[float], list[float]]]:
-        """Through the cheapest point of each method of a known order, a line of that order."""
-        lines = []
-        for method in one.methods:
-            order = METHODS[method].order if method in METHODS else 0
-            placed = [p for p in one.of(method) if self._placed(p, cost)]
-            if order and len(placed) > 2:
-                a, *_, b = (getattr(point, cost) for point in placed)
-                error = placed[0].errors[self.error]
-                lines.append(([a, b], [error, error * (b / a) ** -order]))
-        return lines
+        self._lines.data = columns_of(("costs", "errors", "slot"), lines)
 
 
 def with_unit(one: Experiment, error: str, value: float) -> str:
     """An error for a sentence: in powers of ten where it is small."""
     if one.unit(error) == "dB" and value >= 0.01:
         return decibels(value)
-    text = style.number(value, 2) if 0.01 <= value < 1000.0 else scientific(value)
+    if 0.01 <= value < 10.0:
+        return percent(value, 2)
+    text = style.number(value, 2) if 0.01 <= value < 1000.0 else scientific(value, 2)
     return f"{text} dB" if one.unit(error) == "dB" else text
 
 
+def verdict(one: Experiment, error: str, cost: str) -> str:
+    """Compare the cheapest method within the allowed error with the next of another program."""
+    allowed = ALLOWED[one.unit(error)]
+    limit = with_unit(one, error, allowed)
+    within = sorted(
+        (p for p in one.points if not p.failed and p.errors.get(error, math.inf) <= allowed),
+        key=lambda p: getattr(p, cost),
+    )
+    if not within:
+        return f"No method is within {limit}"
+    best = within[0].method
+    others = [p for p in within if p.method.split()[0] != best.split()[0]]
+    if not others:
+        return f"Only {best} is within {limit}"
+    ratio = f"{float(f'{getattr(others[0], cost) / getattr(within[0], cost):.2g}'):g}"
+    how = "with fixed steps " if best in METHODS and METHODS[best].fixed_step else ""
+    less = f"{ratio} times cheaper" if cost == "seconds" else f"done with {ratio} times fewer"
+    what = "" if cost == "seconds" else f" {one.evaluations.removesuffix(' per equilibrium')}"
+    return f"Within {limit}, {best} {how}is {less}{what} than {others[0].method}"
+
+
+def said(one: Experiment, error: str, point: Point) -> str:
+    """A point for a sentence: method, setting, time and error."""
+    words = with_unit(one, error, point.errors[error])
+    setting = f", {point.setting}" if point.setting else ""
+    return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
+
+
 def sentence(one: Experiment, error: str) -> str:
-    """Comparison of the points of one chart, which all have the same reference."""
-
-    def said(point: Point) -> str:
-        words = with_unit(one, error, point.errors[error])
-        setting = f", {point.setting}" if point.setting else ""
-        return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
-
+    """Name the fastest point within the allowed error and the one in use, which may be above it."""
     allowed = ALLOWED[one.unit(error)]
     frontier = one.frontier(error)
     within = [point for point in frontier if point.errors[error] <= allowed]
     limit = with_unit(one, error, allowed)
     parts = []
     if within:
-        parts.append(f"Fastest within {limit}: {said(within[0])}")
+        also = ", and in use" if within[0].in_use else ""
+        parts.append(f"Fastest within {limit}{also}: {said(one, error, within[0])}")
     elif frontier:
-        parts.append(f"None is within {limit}; the nearest is {said(frontier[-1])}")
-    used = [p for p in one.points if p.in_use and error in p.errors]
-    parts += [f"In use: {said(point)}" for point in used]
+        parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
+    for point in (p for p in one.points if p.in_use and error in p.errors and p not in within[:1]):
+        parts.append(f"In use: {said(one, error, point)}")
+        if point.errors[error] > allowed and one.name == "motion":
+            parts += [ABOVE]
+    return ". ".join(parts) + "."
+
+
+def details(one: Experiment, error: str) -> str:
+    """Orders of convergence, failures and the reference of one chart, as HTML."""
+    parts = []
     slopes = {m: one.order(m, error) for m in one.methods if m in METHODS and METHODS[m].order}
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
@@ -319,31 +319,19 @@ def sentence(one: Experiment, error: str) -> str:
     parts += [f"{p.method}: {BEYOND}" for p in endless]
     (reference,) = one.references.values()
     apart = reference.agreement.get(error, math.nan)
-    verdict = "agree" if reference.trusted else "do not agree, so small errors mean little"
+    trust = "agree" if reference.trusted else "do not agree, so small errors mean little"
     parts.append(
-        f"Reference: {style.list_words(reference.families)} {verdict}"
+        f"Reference: {style.list_words(reference.families)} {trust}"
         + (f", {with_unit(one, error, apart)} apart" if math.isfinite(apart) else "")
     )
     parts += [part for part in (reference.note,) if part]
-    return ". ".join(part.rstrip(".") for part in parts) + "."
+    words = html.escape(". ".join(part.rstrip(".") for part in parts))
+    return f"<p>{words}.</p>"
 
 
-def methods_of(parts: list[tuple[Experiment, float]]) -> tuple[str, ...]:
-    """Names of all methods, of which each keeps its colour while points come."""
-    return tuple(dict.fromkeys(method for one, _ in parts for method in one.methods))
-
-
-def legend(methods: Sequence[str]) -> str:
-    """Colours and markers of the methods as HTML."""
-    looks = [look(slot) for slot in range(len(methods))]
-    return style.legend(
-        [(COLORS[c], MARKERS[m], name) for (c, m), name in zip(looks, methods, strict=True)]
-    )
-
-
-def prose(content: str = "", *more: str) -> pn.pane.HTML:
-    """Headings and paragraphs in the type of the page; `more` styles."""
-    styles = [asset_text("accuracy.css"), *more]
+def prose(content: str = "") -> pn.pane.HTML:
+    """Headings and paragraphs in the type of the page."""
+    styles = [asset_text("accuracy.css")]
     return pn.pane.HTML(content, stylesheets=styles, sizing_mode="stretch_width", margin=0)
 
 
@@ -357,6 +345,11 @@ def _around(values: list[float], room: float) -> tuple[float, float]:
     low, high = (min(values), max(values)) if values else (1.0, 1.0)
     room = max(room, math.sqrt(SHORTEST * low / high))
     return low / room, high * room
+
+
+def set_range(side: Range1d, start: float, end: float) -> None:
+    """Set the ends of an axis, also for when it is reset."""
+    side.update(start=start, end=end, reset_start=start, reset_end=end)
 
 
 def column_source(*columns: str) -> ColumnDataSource:

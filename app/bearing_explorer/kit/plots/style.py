@@ -282,17 +282,12 @@ return minus(String(Number((turned/10**e).toPrecision(6))))
     )
 
 
-def logarithmic_ticks(unit: str = "", plot: figure | None = None) -> CustomJSTickFormatter:
-    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten.
-
-    Below a narrow `plot` only powers of ten have a number.
-    """
+def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
+    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
     return CustomJSTickFormatter(
-        args={"unit": unit, "plot": plot, "below": NARROW},
+        args={"unit": unit},
         code=JS_PREFIX
-        + IS_NARROW
         + """
-if (narrow && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) > 0.01) return ''
 if (unit) return si(tick, unit)
 if (tick >= 0.01 && tick < 1000) return String(Number(tick.toPrecision(3)))
 const e = Math.floor(Math.log10(tick*1.0000001))

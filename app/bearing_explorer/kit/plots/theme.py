@@ -38,6 +38,9 @@ DARK_COLORS = {
     "#1F6F9F": "#A9DBFB",
     "#B9BEC4": "#525D69",  # no answer
     "#661100": "#B5524A",  # the third compared scene
+    "#665511": "#FFDD88",  # methods in the charts of accuracy
+    "#5544FF": "#AA55EE",
+    "#FF4466": "#EE4488",
 }
 """By the light colour, as upper-case hex."""
 

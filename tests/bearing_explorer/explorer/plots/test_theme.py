@@ -12,6 +12,8 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
+from bearingcore.experiments import METHODS
+
 FIGURES = [Path(style.__file__).parent, Path(work_precision.__file__).parent]
 #: what lies on top of pictures
 FIXED = {style.LIGHT.upper(), style.SHADE.upper(), "#00000000"}
@@ -60,7 +62,7 @@ def test_lines_and_text_of_figures_are_seen(turned: object) -> None:
     paper = turned(style.PAPER)
     for text in (style.INK, style.FAINT_INK):
         assert contrast(turned(text), paper) >= 4.5
-    lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.HEALTHY}
+    lines = {*style.DIRECTION_COLORS[:2], *style.BALL_COLORS, style.HEALTHY, *work_precision.COLORS}
     for line in lines:
         assert contrast(turned(line), paper) >= 3.0, line
 
@@ -102,6 +104,10 @@ def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: obj
         for pair in itertools.combinations(dict.fromkeys(colors), 2):
             a, b = (seen_by(kind, turned(color)) for color in pair)
             assert np.linalg.norm(a - b) > 0.06, pair  # 0.02 is just seen
+
+
+def test_each_method_has_a_colour_of_its_own() -> None:
+    assert len(set(work_precision.COLORS)) >= len(METHODS)
 
 
 def test_every_color_of_a_figure_has_its_dark_one() -> None:

@@ -3,17 +3,25 @@
 import html
 import math
 import time
+from dataclasses import replace
 
 import pytest
 from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy, orbits_sentence
+from bearing_explorer.explorer.views.accuracy import CHARTS, Accuracy
+from bearing_explorer.explorer.views.stability_charts import (
+    orbit_marks,
+    orbits_sentence,
+    step_marks,
+)
 from bearing_explorer.explorer.views.work_precision import (
+    ABOVE,
     BEYOND,
     NOT_YET,
-    legend,
+    details,
     sentence,
+    verdict,
 )
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -55,24 +63,47 @@ EXPERIMENT = Experiment(
 
 
 def test_words_name_the_reference_and_what_failed() -> None:
-    words = sentence(EXPERIMENT, "spectrum")
+    words = details(EXPERIMENT, "spectrum")
     assert "LSODA and DOP853 agree, 2·10⁻⁷ dB apart" in words
-    assert "Fastest within 0.1 dB: RK4, 32768 (1 ms, 0.01 dB)" in words
-    assert "scipy RK45, 8192, failed: diverged" in words
+    assert "scipy RK45, 8192, failed: diverged &lt;at once&gt;" in words
     assert f"scipy LSODA: {BEYOND}" in words
-    assert "<b>" not in legend(["<b>"])
+    said = sentence(EXPERIMENT, "spectrum")
+    assert "Fastest within 0.1 dB, and in use: RK4, 32768 (1 ms, 0.01 dB)" in said
+    assert ABOVE not in said
+    points = (replace(EXPERIMENT.points[0], errors={"spectrum": 0.11}), *EXPERIMENT.points[1:])
+    assert f"(1 ms, 0.11 dB). {ABOVE}" in sentence(replace(EXPERIMENT, points=points), "spectrum")
+
+
+def test_the_verdict_compares_the_cheapest_of_two_programs_that_are_near_enough() -> None:
+    def of(*points: Point, cost: str = "seconds") -> str:
+        return verdict(replace(EXPERIMENT, points=points), "spectrum", cost)
+
+    ours, finer, theirs = point("RK4", 1.0, 0.2, 1e-4), point("RK4", 2.0, 0.1, 2e-3), point(
+        "scipy RK45", 3.0, 1e-5, 0.268
+    )  # fmt: skip
+    assert of(ours, finer, theirs) == (
+        "Within 0.1 dB, RK4 with fixed steps is 130 times cheaper than scipy RK45"
+    )
+    few = replace(theirs, evaluations=100)
+    assert of(ours, finer, few, cost="evaluations") == (
+        "Within 0.1 dB, scipy RK45 is done with 20 times fewer right-hand sides than RK4"
+    )
+    assert of(ours, finer) == "Only RK4 is within 0.1 dB"
+    assert of(ours) == "No method is within 0.1 dB"
 
 
 @pytest.mark.parametrize("preset", ["fan-rig", "liew-lim"])
 def test_the_tab_opens_with_every_chart_drawn(preset: str) -> None:
     view = Accuracy(PackedSource())
     results = Results(presets[preset])
-    view.say(results, view.sentence(results))
     base = shipped(preset)
-    for one, chart in (pair for pairs in view._charts.values() for pair in pairs):
-        words = html.unescape(chart._words.object)
-        assert chart.plot.visible or base.refused.get(one.experiment, NOT_YET) in words
-    known = {(one.experiment, one.reference) for charts in CHARTS.values() for one in charts}
+    for subject in CHARTS:
+        view._chosen.put({"charts": subject})
+        view.say(results, view.sentence(results))
+        for chart in view._charts[subject].values():
+            words = html.unescape(chart._words.object)
+            assert chart.plot.visible or base.refused.get(subject, NOT_YET) in words
+    known = {(name, case) for name, cases in CHARTS.items() for case in cases}
     for name, experiment in base.experiments.items():
         assert {(name, case) for case in experiment.references} <= known
     assert len(view.table(results)["method"]) == base.count - len(base.orbits) - len(
@@ -90,6 +121,24 @@ def test_losses_of_stability_are_named() -> None:
     assert "Stable at 1.59 Hz, period doubling from 3.18 Hz" in words
     assert "No orbit was found at 1 of 3 speeds" in words
     assert "not measured" in orbits_sentence(())
+
+
+def test_pictures_of_stability_show_each_measured_number_and_a_cross_for_each_failure() -> None:
+    found = shipped("fan-rig")
+    marks, stable, now, _ = orbit_marks(found.orbits, RIG.shaft_speed)
+    assert [mark.y for mark in marks] == [orbit.size for orbit in found.orbits]
+    assert [mark.slot == 1 for mark in marks] == [orbit.size > 1.0 for orbit in found.orbits]
+    assert stable == {"top": 1.0}
+    assert now[0] == pytest.approx(7.0)
+    (lost,) = orbit_marks((OrbitAtSpeed(30.0, "not converged"),), 1.0)[0]
+    assert math.isinf(lost.y)
+    assert "not converged" in lost.why
+    assert found.stability is not None
+    marks, stable, _, _ = step_marks(found.stability, 32768.0)
+    broken = [mark for mark in marks if math.isinf(mark.y)]
+    assert len(marks) == len(found.stability.trials)
+    assert broken
+    assert all(mark.x < stable["left"] and "diverged" in mark.why for mark in broken)
 
 
 def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
@@ -111,7 +160,7 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
         assert other.in_use == one.in_use
     view = Accuracy(PackedSource())
     view.found = Found(RIG, found)
-    assert "Pale: shipped" in view.sentence(Results(RIG))
+    assert f"Measured on this machine: {found.count} points" in view.sentence(Results(RIG))
     assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 
 
@@ -121,6 +170,6 @@ def test_what_cannot_be_measured_is_refused_and_a_cancelled_job_says_so() -> Non
     with pytest.raises(ValueError, match="nothing turns"):
         compute(job, RIG.replace(shaft_speed=0.0), "motion")
     with pytest.raises(ValueError, match="no such"):
-        Accuracy(PackedSource()).prepare({"experiment": "../etc"}, SceneEditor("fan-rig"))
+        Accuracy(PackedSource()).prepare({"experiment": "../etc"}, SceneEditor("fan-rig"))(job)
     job.stop()
     assert compute(job, RIG, "statics") == "Nothing was measured yet."

@@ -1,0 +1,203 @@
+"""Where methods fail: growth of a disturbance over the shaft speed, amplitude over the steps."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import NamedTuple
+
+from bokeh.core.properties import value
+from bokeh.models import BoxAnnotation, FixedTicker, HoverTool, Label, Range1d, Span
+
+from bearing_explorer.explorer.views.work_precision import (
+    COLORS,
+    column_source,
+    columns_of,
+    look,
+    paragraph,
+    prose,
+    set_range,
+)
+from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots.layers import by_number
+from bearing_explorer.kit.widgets.form import stack
+from bearingcore.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
+
+HEIGHT = 340
+UNSTABLE = "#D55E00"
+LEAST = 1e-6
+"""What is less is drawn there, as the axis has no zero."""
+STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
+
+
+class Mark(NamedTuple):
+    """A point: place, colour as a place in COLORS, marker, words beside it and of its tooltip."""
+
+    x: float
+    y: float
+    slot: int
+    marker: str
+    words: str
+    why: str
+    line: int = 0
+    align: str = "right"
+    right: float = -9.0
+    down: float = 4.0
+
+
+Picture = tuple[list[Mark], dict[str, float], tuple[float, str], str]
+"""Marks; where the stable part begins or ends ({"top": a height} or {"left": a rate [Hz]}); place
+[Hz] and name of the vertical line; the sentence."""
+
+
+class StabilityPicture:
+    """A chart on logarithmic axes, its stable and unstable part shaded, failures as crosses.
+
+    Parameters
+    ----------
+    title, x, y
+        heading, and names of the axes.
+    """
+
+    def __init__(self, title: str, x: str, y: str) -> None:
+        ranges = [Range1d(1.0, 10.0, syncable=False) for _ in range(2)]
+        sides = [style.AxisQuantity(name, "", "") for name in (x, y)]
+        self.plot = plot = style.make_figure(
+            *sides, *ranges, height=HEIGHT, x_axis_type="log", y_axis_type="log",
+            sizing_mode="stretch_width",
+        )  # fmt: skip
+        for axis, unit, steps in ((plot.xaxis, "Hz", (1, 2, 5)), (plot.yaxis, "", (1, 3))):
+            axis.formatter = style.logarithmic_ticks(unit)
+            ticks = [m * 10.0**e for e in range(-9, 9) for m in steps]
+            axis.ticker = FixedTicker(ticks=ticks, minor_ticks=[])
+        text = {"text_font": style.FONT, "text_font_size": style.SMALL_TEXT_SIZE}
+        self._areas = [
+            BoxAnnotation(fill_color=color, fill_alpha=alpha, line_color=None, level="image")
+            for color, alpha in ((STABLE_PAPER, 1.0), (UNSTABLE, 0.12))
+        ]
+        self._words = [
+            Label(x=0, y=0, x_offset=6, y_offset=4, text=words, text_color=color, **text)
+            for words, color in (("stable", STABLE_INK), ("unstable", UNSTABLE))
+        ]
+        self._now = Span(dimension="height", line_color=style.INK, line_dash=[2, 4])
+        self._now_words = Label(x=0, y=0, x_offset=4, y_offset=4, text_color=style.INK, **text)
+        for part in (*self._areas, *self._words, self._now, self._now_words):
+            plot.add_layout(part)
+        self._marks = column_source(*Mark._fields)
+        self._lines = column_source("xs", "ys", "slot")
+        color = by_number("slot", COLORS)
+        plot.multi_line("xs", "ys", source=self._lines, line_color=color, line_width=1.4)
+        marks = plot.scatter("x", "y", source=self._marks, marker="marker", size=9,
+                             fill_color=color, line_color=color, line_width=1.6)  # fmt: skip
+        plot.text("x", "y", text="words", source=self._marks, text_color=style.INK,
+                  text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
+                  text_align="align", x_offset="right", y_offset="down")  # fmt: skip
+        plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))
+        self._sentence = prose()
+        self.panel = stack(prose(f"<h4>{title}</h4>"), plot, self._sentence)
+
+    def show(
+        self, marks: list[Mark], stable: dict[str, float], now: tuple[float, str], words: str
+    ) -> None:
+        """Draw a `Picture`; an infinite mark is a cross on the upper edge."""
+        self.plot.visible = bool(marks)
+        self._sentence.object = paragraph(words)
+        if not marks:
+            return
+        marks = [mark._replace(y=max(mark.y, LEAST)) for mark in marks]
+        xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
+        left, right = min(xs) / 1.2, max(xs) * 1.5
+        bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
+        set_range(self.plot.x_range, left, right)
+        set_range(self.plot.y_range, bottom, top)
+        other = {"top": "bottom", "left": "right"}
+        self._areas[0].update(**stable)
+        self._areas[1].update(**{other[side]: place for side, place in stable.items()})
+        self._words[0].update(x=stable.get("left", left), y=bottom)
+        self._words[1].update(x=left, y=stable.get("top", bottom))
+        self._now.location = now[0]
+        self._now_words.update(x=now[0], y=bottom, text=now[1])
+        placed = [m if math.isfinite(m.y) else m._replace(y=top / 1.5, marker="x") for m in marks]
+        self._marks.data = columns_of(Mark._fields, placed)
+        lines = []
+        for line in dict.fromkeys(mark.line for mark in marks):
+            known = [(m.x, m.y) for m in marks if m.line == line and math.isfinite(m.y)]
+            lines.append(([x for x, _ in known], [y for _, y in known], line))
+        self._lines.data = columns_of(("xs", "ys", "slot"), lines)
+
+
+def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture:
+    """Growth of a disturbance over the shaft speed; `shaft_speed` [rad/s] is that of the scene."""
+    marks: list[Mark] = []
+    before = ""
+    for orbit in orbits:
+        state = orbit.loss or ("stable" if orbit.multipliers else orbit.status)
+        size = orbit.size if orbit.multipliers else math.inf
+        speed = orbit.shaft_speed / (2.0 * math.pi)
+        words = "" if state in (before, "stable") else state
+        why = f"{style.number(speed, 3)} Hz: {state}"
+        if orbit.multipliers:
+            why += f", factor {style.number(size, 3)}"
+        higher = sum(1 for mark in marks if mark.words) % 2  # or names of neighbours would overlap
+        mark = Mark(speed, size, int(state != "stable"), "circle", words, why)
+        marks.append(mark._replace(down=4.0 - 14.0 * higher))
+        before = state
+    now = shaft_speed / (2.0 * math.pi), "this scene"
+    return marks, {"top": 1.0}, now, orbits_sentence(orbits)
+
+
+def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
+    """Amplitude over the steps a second; `in_use` [Hz] is the step rate of the page."""
+    if chart is None:
+        return [], {}, (in_use, ""), steps_sentence(chart)
+    marks = []
+    for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
+        color, marker = look(slot)
+        trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
+        states = [trial.verdict == DIVERGED for trial in trials]
+        for i, trial in enumerate(trials):
+            broken, first = states[i], not any(s == states[i] for s in states[:i])
+            state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
+            why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
+            words = "" if not first else f"{method} {DIVERGED}" if broken else method
+            size = math.inf if broken else trial.amplitude
+            place = ("left", -5.0, 18.0 if slot else -7.0)
+            marks.append(Mark(trial.step_rate, size, color, marker, words, why, color, *place))
+    rates = [trial.step_rate for trial in chart.trials]
+    limit = min(max(next(iter(chart.linear_limit.values())), min(rates) / 2.0), 2.0 * max(rates))
+    return marks, {"left": limit}, (in_use, "in use"), steps_sentence(chart)
+
+
+def steps_sentence(chart: StabilityChart | None) -> str:
+    """Step rates at which each method diverges, found and expected."""
+    if chart is None:
+        return "Stability of the steps is not measured yet."
+    words = []
+    for name in dict.fromkeys(t.method for t in chart.trials):
+        limits = (chart.stability_limit(name), chart.linear_limit[name])
+        here, theory = (style.number(rate / chart.highest_frequency, 2) for rate in limits)
+        words.append(f"{name} {here} (linear theory: {theory})")
+    frequency = style.with_prefix(chart.highest_frequency, "Hz")
+    return (
+        f"Steps in a period of the highest frequency, {frequency}, below which the motion "
+        f"diverges: {', '.join(words)}."
+    )
+
+
+def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
+    """Where the periodic motion loses its stability, and how."""
+    found = [one for one in orbits if one.multipliers]
+    if not found:
+        why = orbits[0].status if orbits else "not measured yet"
+        return f"No periodic motion over the shaft speed: {why}."
+
+    def at(one: OrbitAtSpeed) -> str:
+        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
+
+    changed = [b for a, b in pairwise(found) if a.loss != b.loss]
+    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
+    first = f"{'Unstable' if found[0].loss else 'Stable'} at {at(found[0])}"
+    words = ", ".join([first, *(changes or [f"and so to {at(found[-1])}"])])
+    missing = len(orbits) - len(found)
+    rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
+    return f"{words}.{rest}"

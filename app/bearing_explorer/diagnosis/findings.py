@@ -30,10 +30,9 @@ from bearing_explorer.diagnosis.measurement_state import (
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.executors import FILES, in_thread
 from bearing_explorer.kit.compute.jobs import Change
-from bearingcore import Diagnosis, MeasuredExtent, Scene, Table
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Table, catalogue
 from bearingcore.diagnosis import ListedBearing
 
 log = logging.getLogger(__name__)
@@ -46,8 +45,6 @@ class Findings:
     ----------
     scene
         gives the scene that may be measured, as it is now.
-    bearings
-        to choose from.
     assign
         runs a change of the page's models and sends it, as `live.one_message` does.
     draw
@@ -57,7 +54,6 @@ class Findings:
     def __init__(
         self,
         scene: Callable[[], Scene],
-        bearings: BearingTable,
         assign: Callable[[Change], Awaitable[None]],
         draw: Callable[[], None],
     ) -> None:
@@ -66,7 +62,7 @@ class Findings:
         #: called with the new state, for the form of the signal and for that of its machine
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.show_machine: Callable[[MeasurementState], None] = lambda _: None
-        self._scene_now, self._bearings = scene, bearings
+        self._scene_now = scene
         self._assign = assign
         self._draw = draw
         #: which part is damaged, looked for in the background
@@ -158,7 +154,7 @@ class Findings:
 
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
-        named = {one.name: one.bearing for one, _ in self._bearings.all()}
+        named = {name: entry.bearing for name, entry in catalogue().items()}
         try:
             loop = asyncio.get_running_loop()
             progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))

@@ -5,7 +5,7 @@ For any thread: nothing here knows a session.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -21,12 +21,11 @@ from bearing_explorer.diagnosis.machine import (
     NOT_KNOWN,
     FormError,
     Machine,
-    find_published,
     kept_answers,
 )
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
-from bearingcore import CatalogueBearing, Table, read_table
+from bearingcore import Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
 
@@ -93,7 +92,7 @@ class Read:
 
     `first` is the form as the file alone says; `kept` are answers for the file before that it has
     besides. `asks` are the questions before there is a recording, `sizes` those before it has a
-    size. `parts` are the files that were joined.
+    size.
     """
 
     table: Table
@@ -105,14 +104,12 @@ class Read:
     asks: dict[str, str]
     sizes: dict[str, str]
     kept: dict[str, str] = field(default_factory=dict)
-    parts: tuple[str, ...] = ()
 
 
 def read_file(
     name: str,
     content: bytes,
     scene: Machine,
-    find: Callable[[str], CatalogueBearing] = find_published,
     kept: Mapping[str, str] = MappingProxyType({}),
 ) -> Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence.
@@ -129,29 +126,26 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return read_of(table, scene, find, kept)
+    return read_of(table, scene, kept)
 
 
 def read_of(
     table: Table,
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
     kept: Mapping[str, str],
-    changed: Mapping[str, str] = MappingProxyType({}),
 ) -> Read:
-    """The same of a table that was read; what a person `changed` stays so."""
+    """The same of a table that was read."""
     name = table.name
     table, cut = _shortened(table)
     (_, first), asks = fill(table, {}), questions(table)
     kept = kept_answers(first, kept)
-    form = {**first, **kept, **changed}
-    asks = {field: words for field, words in asks.items() if field not in changed}
+    form = {**first, **kept}
     sizes = size_questions(table, form)
-    found, refused = _tried(table, form, scene, find), {}
+    found, refused = _tried(table, form, scene), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
         refused = found.sentences
-        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
     if isinstance(found, FormError):
         if not usable(table):
             raise ValueError(f"{name} cannot be used. {found}")
@@ -177,23 +171,21 @@ def read_answers(
     table: Table,
     changed: Mapping[str, str],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
 ) -> AnsweredTable | FormError:
     try:
         told, form = fill(table, changed)
     except FormError as refused:
         return refused
-    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene, find))
+    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene))
 
 
 def _tried(
     table: Table,
     form: Mapping[str, str],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
 ) -> Measured | FormError:
     try:
-        return read_form(table, form, scene, find)
+        return read_form(table, form, scene)
     except FormError as refused:
         return refused
 

@@ -13,21 +13,17 @@ import logging
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from bearing_explorer.diagnosis.form import fill
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
 from bearing_explorer.diagnosis.measurement_state import NO_FILE_TO_COMPARE, MeasurementState
-from bearing_explorer.diagnosis.reading import Arrival, Read, read_file, read_of
+from bearing_explorer.diagnosis.reading import Arrival, Read, read_file
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute.jobs import Change
-from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.simulated_signals import NOISES
-from bearingcore import Scene, join_tables
-from bearingcore.errors import FieldError
+from bearingcore import Scene
 from bearingcore.files import files_inside
 
 log = logging.getLogger(__name__)
@@ -117,13 +113,13 @@ class Measurement(SignalForm):
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, find, kept = self._scene, self._bearings.find, self._given_machine
+        scene, kept = self._scene, self._given_machine
         content, request = bytes(upload.content), self._latest
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read_or_why(name: str) -> Read | str:
             try:
-                return read_file(name, content, scene, find, kept)
+                return read_file(name, content, scene, kept)
             except ValueError as error:
                 return str(error)
             except Exception:
@@ -174,32 +170,7 @@ class Measurement(SignalForm):
         given = self.state.values
         kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
         changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(
-            self.series, shown, changed, kept, direction, self._scene, self._bearings.find
-        )
-
-    def join_parts(self) -> None:
-        """Make one signal of the files of the series, in their order."""
-        tables = self.series.tables
-        if self._ended or self._arrival is not None or self.state.parts < 2:
-            return
-        self._latest += 1
-        self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
-        scene, find, changed = self._scene, self._bearings.find, self._changed
-
-        def join() -> Read:
-            try:
-                joined = join_tables([fill(table, changed)[0] for table in tables])
-            except FieldError as error:
-                raise ValueError(f"These files are not joined: {sentence_of(error)}") from None
-            found = read_of(joined, scene, find, {}, changed)
-            return replace(found, parts=tuple(table.name for table in tables))
-
-        def take(found: Read) -> None:
-            self.series = Series((found.table,))
-            self._take_read(found)
-
-        self._in_background(join, take, "The files")
+        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
 
     # Simulated ones
 
@@ -236,6 +207,6 @@ def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
     async def assign(change: Change) -> None:
         change()
 
-    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
+    made = Measurement(lambda: scene, assign, lambda: None)
     made.measured = measured
     return made

@@ -85,7 +85,7 @@ def session(
         return explorer
 
     async def idle(explorer: SceneSession) -> None:
-        while explorer._tasks or not explorer._loop.drawn:
+        while explorer.jobs.busy() or not explorer._loop.drawn:
             await asyncio.sleep(0.002)
 
     return run(live())

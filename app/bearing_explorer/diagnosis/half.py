@@ -33,7 +33,7 @@ class DiagnosisOfSignal(Half):
 
     def join(self, page: Session) -> None:
         super().join(page)
-        self.measurement = Measurement(self._scene, page.assign, page.draw)
+        self.measurement = Measurement(self._scene, page.jobs, page.draw)
 
     @property
     def scene(self) -> Scene:

@@ -5,7 +5,8 @@ For any thread: nothing here knows a session.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import logging
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -23,11 +24,14 @@ from bearing_explorer.diagnosis.machine import (
     Machine,
     kept_answers,
 )
-from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.series import MOST_FILES, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
+from bearingcore.files import files_inside
+
+log = logging.getLogger(__name__)
 
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
@@ -106,18 +110,49 @@ class Read:
     kept: dict[str, str] = field(default_factory=dict)
 
 
+def read_files(
+    name: str,
+    content: bytes,
+    scene: Machine,
+    kept: Mapping[str, str],
+    give_up: Callable[[], bool],
+) -> Iterator[tuple[str, Read | str]]:
+    """All files in a zip, or the one that it is: each as `read_file` has it, or why not.
+
+    Once `give_up` says so the rest is not read, and the process that reads ends.
+    """
+    try:
+        names = files_inside(name, content, give_up)[:MOST_FILES]
+    except ValueError:
+        names = [name]  # which says why
+    for one in names:
+        if give_up():
+            yield one, f"{one} was not read: there is a minute for all files of an upload."
+            continue
+        found: Read | str
+        try:
+            found = read_file(one, content, scene, kept, give_up)
+        except ValueError as error:
+            found = str(error)
+        except Exception:
+            log.exception("a file could not be read")
+            found = f"{one} could not be read."
+        yield one, found
+
+
 def read_file(
     name: str,
     content: bytes,
     scene: Machine,
     kept: Mapping[str, str] = MappingProxyType({}),
+    give_up: Callable[[], bool] | None = None,
 ) -> Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence.
 
     `kept`: answers on the machine for the file before, used where this one says nothing.
     """
     try:
-        table = read_table(name, content)
+        table = read_table(name, content, give_up)
     except FieldError as error:
         about = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if about else str(error)

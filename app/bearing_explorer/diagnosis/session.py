@@ -9,24 +9,20 @@ opens a form with questions; its faults are sentences, and the signal before it 
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
 from bearing_explorer.diagnosis.measurement_state import NO_FILE_TO_COMPARE, MeasurementState
-from bearing_explorer.diagnosis.reading import Arrival, Read, read_file
+from bearing_explorer.diagnosis.reading import Arrival, Read, read_files
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
-from bearing_explorer.kit.compute.jobs import Change
+from bearing_explorer.kit.compute.jobs import READING, Change, Jobs, Work
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import Scene
-from bearingcore.files import files_inside
-
-log = logging.getLogger(__name__)
 
 
 class Measurement(SignalForm):
@@ -69,7 +65,7 @@ class Measurement(SignalForm):
             self._refuse(NO_FILE_TO_COMPARE)
             return
         if number == 1:
-            self._latest += 1
+            self._jobs.drop(READING)
             # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
@@ -91,7 +87,7 @@ class Measurement(SignalForm):
 
     def cancel(self) -> None:
         """Give up the files that are being uploaded or read; the signal before them stays."""
-        self._latest += 1
+        self._jobs.drop(READING)
         self._uploads += 1
         self._upload = self._arrival = None
         self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
@@ -114,27 +110,18 @@ class Measurement(SignalForm):
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
         scene, kept = self._scene, self._given_machine
-        content, request = bytes(upload.content), self._latest
+        content = bytes(upload.content)
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
-        def read_or_why(name: str) -> Read | str:
-            try:
-                return read_file(name, content, scene, kept)
-            except ValueError as error:
-                return str(error)
-            except Exception:
-                log.exception("a file could not be read")
-                return f"{name} could not be read."
+        def read(work: Work) -> Generator[None, None, str]:
+            found = []
+            for one in read_files(upload.name, content, scene, kept, work.cancelled):
+                found.append(one)
+                yield
+            work.show(found)
+            return ""
 
-        def read_all() -> list[tuple[str, Read | str]]:
-            try:
-                names = files_inside(upload.name, content)[:MOST_FILES]
-            except ValueError:
-                names = [upload.name]  # which says why
-            return [(name, read_or_why(name)) for name in names if request == self._latest]
-
-        take = lambda found: self._take_next(arrival, found)  # noqa: E731
-        self._in_background(read_all, take, upload.name)
+        self._read(read, lambda found: self._take_next(arrival, found))
 
     def _take_next(self, arrival: Arrival, files: Sequence[tuple[str, Read | str]]) -> None:
         """Take what came: each file, or a sentence on why it cannot be read."""
@@ -179,15 +166,15 @@ class Measurement(SignalForm):
         if self._ended or noise not in NOISES:
             return
         self._upload = self._arrival = None
-        self._latest += 1
         self._simulations += 1
         seed, scene = self._simulations, self._scene_now()
         self._tell(words="Simulating a measurement.", bad=False, busy=True)
 
-        def make() -> Measured:
-            return simulated(scene, NOISES[noise], seed)
+        def make(work: Work) -> str:
+            work.show(simulated(scene, NOISES[noise], seed))
+            return ""
 
-        self._in_background(make, self._take_simulated, "The scene")
+        self._read(make, self._take_simulated)
 
     def _take_simulated(self, found: Measured) -> None:
         self._table, self._cut, self.measured = None, "", found
@@ -207,6 +194,6 @@ def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
     async def assign(change: Change) -> None:
         change()
 
-    made = Measurement(lambda: scene, assign, lambda: None)
+    made = Measurement(lambda: scene, Jobs(assign), lambda: None)
     made.measured = measured
     return made

@@ -44,6 +44,7 @@ from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
 from bearing_explorer.kit.bearing_list import find_bearing
+from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
@@ -204,15 +205,15 @@ class SignalForm(Findings):
         if sure:
             agreed = {name: texts[name] for name in self.state.open if name not in SIZES}
             self._agreed = {**self._agreed, **agreed}
-        self._latest += 1
         self._tell(values=texts, settling=True)
         scene, as_read = self._scene, self._as_read
         assert as_read is not None
-        self._in_background(
-            lambda: read_answers(as_read, changed, scene),
-            lambda found: self._take_answers(texts, found),
-            table.name,
-        )
+
+        def read(work: Work) -> str:
+            work.show(read_answers(as_read, changed, scene))
+            return ""
+
+        self._read(read, lambda found: self._take_answers(texts, found))
 
     def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
         before, table = self.measured, self._table

@@ -26,6 +26,7 @@ from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import search_bearings
 from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.jobs import OPENING, REPORT, SEARCH
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.session import Half
 from bearing_explorer.kit.views.base import View
@@ -64,7 +65,6 @@ class Requests(Half):
             [About], Callable[[], dict[str, Any] | None] | str | None
         ] = lambda _: None
         self.simulate: Callable[[str], None] = lambda noise: None
-        self._reporting = False
         self._open_lesson_of_link()
         self.controls = Controls(self.change_scene, state=editor.state())
         self.panels: list[Rows] = [self.controls]
@@ -97,8 +97,10 @@ class Requests(Half):
     def change_scene(self, message: Any) -> None:
         """Take a message of the controls: numbers, choices, a reset."""
         if (text := message.get("search")) is not None:
-            self.page.in_background(
-                lambda: search_bearings(text), lambda found: self.controls.send({"found": found})
+            self.jobs.answer(
+                SEARCH,
+                lambda: search_bearings(text),
+                lambda found: self.controls.send({"found": found}),
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -161,7 +163,7 @@ class Requests(Half):
             self.share.answer(kept=self.bookmarks.kept(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
-        if "report" in message and not self._reporting:
+        if "report" in message:
             self._report(message["report"][:_LONGEST_LINK], message)
         if "mark" not in message:
             return
@@ -172,7 +174,8 @@ class Requests(Half):
             self.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
-            self.page.in_background(
+            self.jobs.answer(
+                OPENING,
                 lambda: read_request(wanted),
                 lambda found: self._taken(
                     lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
@@ -213,12 +216,7 @@ class Requests(Half):
                 log.exception("a report failed")
                 return None
 
-        def take(made: dict[str, Any] | None) -> None:
-            self._reporting = False
-            self.share.answer(report=made)
-
-        self._reporting = True
-        self.page.in_background(make, take)
+        self.jobs.answer(REPORT, make, lambda made: self.share.answer(report=made))
 
     # Lessons
 

@@ -29,6 +29,7 @@ from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
+from bearing_explorer.kit.compute.jobs import READING
 from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, presets
@@ -49,7 +50,7 @@ def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> by
 
 
 async def settled(measurement: Measurement) -> None:
-    while measurement._tasks:
+    while measurement._jobs.busy(READING):
         await asyncio.sleep(0.005)
 
 
@@ -569,7 +570,7 @@ def test_what_is_not_offered_changes_nothing():
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words
     assert made.measured is signal()
-    assert not made._tasks
+    assert not made._jobs.busy()
 
 
 def test_names_of_files_are_shown_in_short_and_without_tricks():

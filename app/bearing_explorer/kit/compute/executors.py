@@ -1,7 +1,7 @@
 """The threads that compute, shared by all sessions of a process.
 
-Kernels release the interpreter lock, so threads do run at the same time. Three pools, so that what
-takes long never delays what follows a slider.
+Kernels release the interpreter lock, so threads do run at the same time. Several pools, so that
+what takes long never delays what follows a slider: see `jobs` for what runs in which.
 """
 
 from __future__ import annotations
@@ -19,8 +19,12 @@ _CORES = os.cpu_count() or 2
 
 POOL_SIZE = 2 * _CORES
 PICTURES = Pool(POOL_SIZE, "compute")
-"""Pictures, and what a message of the browser needs. More threads than processors, so that a quick
-picture need not wait for a motion."""
+"""Pictures that follow a slider. More threads than processors, so that a quick one need not wait
+for a motion."""
+FINE = Pool(1, "fine")
+"""Fine pictures of all sessions, one by one: their threads hold up moving sliders."""
+ANSWERS = Pool(2, "answer")
+"""Short work that a message asks for: a search, a link, a report."""
 JOBS = Pool(max(2, _CORES // 2), "job")
 """Long computations that a person has started: maps, sweeps and diagnoses."""
 FILES = Pool(2, "file")
@@ -35,18 +39,8 @@ async def in_thread(
     return await asyncio.get_running_loop().run_in_executor(pool, function, *args)
 
 
-class LoopLocks:
-    """A lock for each event loop: an asyncio lock belongs to one."""
-
-    def __init__(self) -> None:
-        self._locks = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
-
-    def here(self) -> asyncio.Lock:
-        """The lock of the running loop."""
-        return self._locks.setdefault(asyncio.get_running_loop(), asyncio.Lock())
-
-
-_TURNS = LoopLocks()
+_TURNS = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+"""A lock for each event loop: an asyncio lock belongs to one."""
 
 
 async def in_turn(function: Callable[..., Result], *args: object) -> Result:
@@ -55,6 +49,6 @@ async def in_turn(function: Callable[..., Result], *args: object) -> Result:
     Between two of them what browsers have sent is taken: of the positions of a slider only the
     newest is drawn. For 30 people that is half as many more of their changes a second.
     """
-    async with _TURNS.here():
+    async with _TURNS.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
         await asyncio.sleep(0.0)
         return function(*args)

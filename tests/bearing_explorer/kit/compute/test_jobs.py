@@ -34,7 +34,7 @@ async def assign(change: Callable[[], None]) -> None:
 
 async def idle(jobs: Jobs) -> None:
     end = time.monotonic() + 60.0
-    while jobs.busy:
+    while jobs.busy():
         assert time.monotonic() < end
         await asyncio.sleep(0.005)
 
@@ -68,7 +68,7 @@ def test_a_job_tells_how_it_goes_and_shows_what_it_finds() -> None:
     async def session() -> str:
         jobs = Jobs(assign)
         jobs.start(work, page.take, page.report)
-        assert jobs.busy
+        assert jobs.busy()
         while not any(state.part > 0.4 for state in page.states):
             await asyncio.sleep(0.005)
         looked_at.set()
@@ -134,7 +134,7 @@ def test_the_end_of_a_session_cancels_and_says_nothing_more() -> None:
         reported = len(page.states)
         await idle(jobs)
         jobs.start(steps(1), page.take, page.report)
-        assert not jobs.busy
+        assert not jobs.busy()
         return reported
 
     reported = run(session())

@@ -11,6 +11,7 @@ from typing import Any
 import psutil
 import pytest
 from bearing_explorer.diagnosis.upload import PIECE
+from bearing_explorer.kit.serve.serving import SESSION_GRACE_SECONDS
 
 from tests.browser.helpers import serving
 from tests.fuzz.attacker import PATIENCE
@@ -142,12 +143,13 @@ def test_what_is_in_a_zip_is_read_no_further_once_its_page_is_closed() -> None:
         assert await third.upload("small.zip", small), "files are read in turn by session"
         for client in (*clients, third):
             await client.close()
-        end = time.perf_counter() + 10.0
-        while any(children(server)):
+        # a page that lost its connection may come back for a while
+        end = time.perf_counter() + SESSION_GRACE_SECONDS + 20.0
+        quiet_since = time.perf_counter()
+        while time.perf_counter() - quiet_since < 3.0:  # nor is the next one begun
             assert time.perf_counter() < end, "nobody waits for it any longer"
             await asyncio.sleep(0.05)
-        await asyncio.sleep(1.0)
-        assert not any(children(server)), "nor is the next one begun"
+            quiet_since = time.perf_counter() if any(children(server)) else quiet_since
 
     with serving(WatchedServer()) as server:
         run(leave(server.url, server))

@@ -80,6 +80,8 @@ class Arrival:
 
     def take(self, name: str, found: Read | str, inside: int = 1) -> None:
         """Take what was read, or why nothing was; one of so many `inside` one file."""
+        if inside > 1 and self.count == 1 and not (self.baseline or self.series.together):
+            self.series = Series(together=True)  # of the files in a zip
         if isinstance(found, str):
             sentence = found if name in found else f"{name}: {found}"
             self.series, self.why = self.series.without(sentence), self.why or sentence
@@ -116,8 +118,10 @@ def read_files(
     scene: Machine,
     kept: Mapping[str, str],
     give_up: Callable[[], bool],
-) -> Iterator[tuple[str, Read | str]]:
+) -> Iterator[tuple[str, Read | str, int]]:
     """All files in a zip, or the one that it is: each as `read_file` has it, or why not.
+
+    With each comes how many they are.
 
     Once `give_up` says so the rest is not read, and the process that reads ends.
     """
@@ -127,7 +131,8 @@ def read_files(
         names = [name]  # which says why
     for one in names:
         if give_up():
-            yield one, f"{one} was not read: there is a minute for all files of an upload."
+            why = f"{one} was not read: there is a minute for all files of an upload."
+            yield one, why, len(names)
             continue
         found: Read | str
         try:
@@ -137,7 +142,7 @@ def read_files(
         except Exception:
             log.exception("a file could not be read")
             found = f"{one} could not be read."
-        yield one, found
+        yield one, found, len(names)
 
 
 def read_file(
@@ -152,7 +157,7 @@ def read_file(
     `kept`: answers on the machine for the file before, used where this one says nothing.
     """
     try:
-        table = read_table(name, content, give_up)
+        table, cut = _shortened(read_table(name, content, give_up))
     except FieldError as error:
         about = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if about else str(error)
@@ -161,17 +166,11 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return read_of(table, scene, kept)
+    return _proposed(table, cut, scene, kept)
 
 
-def read_of(
-    table: Table,
-    scene: Machine,
-    kept: Mapping[str, str],
-) -> Read:
-    """The same of a table that was read."""
-    name = table.name
-    table, cut = _shortened(table)
+def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
+    """A table with guesses at what it holds; `cut` says which of its rows were left out."""
     (_, first), asks = fill(table, {}), questions(table)
     kept = kept_answers(first, kept)
     form = {**first, **kept}
@@ -183,7 +182,7 @@ def read_of(
         found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
     if isinstance(found, FormError):
         if not usable(table):
-            raise ValueError(f"{name} cannot be used. {found}")
+            raise ValueError(f"{table.name} cannot be used. {found}")
         refused |= found.sentences
         return Read(table, first, form, cut, None, refused, asks, sizes, kept)
     return Read(table, first, form, cut, None if asks else found, refused, asks, sizes, kept)

@@ -9,12 +9,12 @@ opens a form with questions; its faults are sentences, and the signal before it 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator
 from dataclasses import replace
 
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
 from bearing_explorer.diagnosis.measurement_state import NO_FILE_TO_COMPARE, MeasurementState
-from bearing_explorer.diagnosis.reading import Arrival, Read, read_files
+from bearing_explorer.diagnosis.reading import Arrival, read_files
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
@@ -79,7 +79,8 @@ class Measurement(SignalForm):
             self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, [(name, str(error))])
+            arrival.take(name, str(error))
+            self._take_next(arrival)
         else:
             words = f"Uploading {arrival.words}{self._upload.name} …"
             self._tell(words=words, bad=False, busy=True)
@@ -101,7 +102,8 @@ class Measurement(SignalForm):
             upload.take(content)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, [(upload.name, str(error))])
+            arrival.take(upload.name, str(error))
+            self._take_next(arrival)
             return
         if not upload.whole:
             self.want(len(upload.content), self._uploads)
@@ -114,21 +116,16 @@ class Measurement(SignalForm):
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read(work: Work) -> Generator[None, None, str]:
-            found = []
-            for one in read_files(upload.name, content, scene, kept, work.cancelled):
-                found.append(one)
+            for name, found, count in read_files(upload.name, content, scene, kept, work.cancelled):
+                arrival.take(name, found, count)
                 yield
-            work.show(found)
+            work.show(arrival)
             return ""
 
-        self._read(read, lambda found: self._take_next(arrival, found))
+        self._read(read, self._take_next)
 
-    def _take_next(self, arrival: Arrival, files: Sequence[tuple[str, Read | str]]) -> None:
-        """Take what came: each file, or a sentence on why it cannot be read."""
-        if len(files) > 1 and arrival.count == 1 and not arrival.baseline:  # in a zip
-            arrival.series = Series(together=True)
-        for name, found in files:
-            arrival.take(name, found, len(files))
+    def _take_next(self, arrival: Arrival) -> None:
+        """Ask for the next file, or take what came of all of them."""
         if arrival.number < arrival.count:
             self.more()
             return

@@ -239,7 +239,7 @@ class Answers(Generic[Found]):
         before, self.wanted = self.wanted, question
         if question in self._known or (question == before and self._jobs.busy(self._kind)):
             return
-        if before is not None:
+        if before is not None and before != question:
             before.give_up()
         try:
             asyncio.get_running_loop()

@@ -45,7 +45,7 @@ class Kind:
 
 
 SEARCH = Kind("search", ANSWERS)
-"""A list is searched while somebody types."""
+"""A list is searched while a person types."""
 OPENING = Kind("opening", ANSWERS)
 """A link or a kept scene is read."""
 REPORT = Kind("report", ANSWERS)
@@ -53,7 +53,7 @@ REPORT = Kind("report", ANSWERS)
 READING = Kind("reading", FILES, longest=60.0)
 """A file is read with all that is in it, an answer about it is taken, or a signal is simulated."""
 COMPUTATION = Kind("computation", JOBS)
-"""A map, a sweep or a trend that somebody has started."""
+"""A map, a sweep or a trend that a person has started."""
 PART, EXTENT, LISTED = (Kind(name, JOBS) for name in ("part", "extent", "listed"))
 """Analyses of a signal: the damaged part, the extent of its spall, other bearings."""
 
@@ -295,7 +295,7 @@ class Jobs:
         await self._report(lane, job, state)
 
     async def _report(self, lane: _Lane, job: _Job, state: JobState) -> None:
-        """Report the end of a job, unless nobody asks or its view waits for a newer one."""
+        """Report the end of a job, unless it is dropped or its view waits for a newer one."""
         newer = lane.waiting
         if not (job.dropped or (newer is not None and newer.report == job.report)):
             await self._take_up(job, state)

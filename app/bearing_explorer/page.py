@@ -13,7 +13,6 @@ from urllib.parse import urlencode
 import panel as pn
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.fast import PLAIN
@@ -68,15 +67,10 @@ class Halves:
     """
 
     def __init__(self, address: str = "", lessons: Any = ()) -> None:
-        bearings = BearingTable()
         self.explorer = (
-            scene.Explorer(scene.SECTIONS, address=address, lessons=lessons, bearings=bearings)
-            if scene
-            else None
+            scene.Explorer(scene.SECTIONS, address=address, lessons=lessons) if scene else None
         )
-        self.diagnosis = signal and signal.DiagnosisOfSignal(
-            signal.SECTIONS, self._scene_of_signal, bearings
-        )
+        self.diagnosis = signal and signal.DiagnosisOfSignal(signal.SECTIONS, self._scene_of_signal)
         halves: dict[Section, Half] = {}
         for section in SECTIONS:
             of_signal = signal and section in signal.SECTIONS

@@ -1,7 +1,6 @@
 // The bearing: every dimension, and a picture that shows what each one is. rows.js is put in front
 // of this file; the picture is SVG made by the server, with a group for each dimension.
 
-const LARGEST_TABLE = 1e6  // bytes
 const DRAWN_WITH = { youngs_modulus_gpa: "load_deflection_factor", poisson: "load_deflection_factor",
   ball_youngs_modulus_gpa: "load_deflection_factor", ball_poisson: "load_deflection_factor" }
 
@@ -40,15 +39,6 @@ export function render({ model }) {
   const fields = panel.form({ class: "fields", "aria-label": "Dimensions of the bearing" },
     element("div", { class: "called" }, element("label", { for: "bearing-name" }, "Name"), called),
     panel.choice("kind"), panel.choice("numbers"), panel.choice("ball_material"), ...boxes)
-  // A table of bearings, which the search in the side panel then finds too.
-  const { file: name_of_file, template, needed } = model.spec.table
-  const upload = element("div", { class: "upload own-table" })
-  const write_table = file_box(upload, "bearing-file",
-    `Bearings of your own for the search, as a table (CSV with ${needed})`,
-    ".csv,.txt,.tsv,text/csv,text/plain", LARGEST_TABLE, (catalogue) => panel.send({ catalogue }))
-  upload.lastChild.before(
-    element("a", { download: name_of_file, href: `data:text/csv;charset=utf-8,${encodeURIComponent(template)}` },
-      "Download CSV template"))
   const facts = element("dl", { class: "facts", "aria-label": "What follows from the dimensions" })
   const note = element("p", { class: "origin" })
 
@@ -68,7 +58,6 @@ export function render({ model }) {
       called.placeholder = name
       if (called.getRootNode().activeElement !== called) called.value = own
     }
-    if (state.table) write_table(state.table.words, state.table.bad)
     for (const box of boxes)
       box.hidden = [...box.querySelectorAll(".control")].every((row) => row.hidden)
   }
@@ -83,5 +72,5 @@ export function render({ model }) {
       element("dt", { title: sentence }, label, " ", element("i", { class: "symbol", html: symbol })),
       element("dd", {}, value)))))
   touched("ball_diameter_mm")
-  return element("div", { class: "editor" }, fields, element("div", { class: "side" }, picture, about, facts, note, upload))
+  return element("div", { class: "editor" }, fields, element("div", { class: "side" }, picture, about, facts, note))
 }

@@ -9,7 +9,6 @@ const IDLE_STEP = 80      // ms between two angles then, half a degree ...
 const IDLE_PAUSE = 10     // ... and times what a picture takes the server, which many pages may share
 const TOUCHES = ["pointerdown", "pointerup", "pointercancel", "keydown", "wheel"]
 const LENGTHENING = 1200  // ms in which the defect grows by a ball spacing
-const LARGEST_FILE = 1e6  // bytes of a measured floor
 const PLAY = "M2.5 1v10l8-5z", PAUSE = "M2 1h3v10H2zM7 1h3v10H7z"
 
 export function render({ model }) {
@@ -154,12 +153,6 @@ export function render({ model }) {
     if (kept) (again ?? defects.querySelector('[aria-pressed="true"]')).focus()
   }
 
-  // A measured floor: the file is read here, sent as text, and checked by the server.
-  const floor = element("div", { class: "upload" })
-  const write_floor = file_box(floor, "floor-file",
-    "Two columns: angle in °, depth in µm, or in the units of its headings",
-    ".csv,.txt,.dat,.tsv,text/plain", LARGEST_FILE, (file) => send({ floor: file }))
-
   const search = bearing_search(model, panel)
   panel.selects.preset = search
   // A few sliders, and all others folded, with a count of those that are not as the bearing has them.
@@ -171,7 +164,6 @@ export function render({ model }) {
     panel.group_box({ title, controls: controls.filter((one) => !is_main(one)) }, spec.last))
   const box_of_defects = boxes.find((box) => box.dataset.group === spec.defects)
   box_of_defects.firstChild.after(defects)
-  box_of_defects.append(floor)
   const rest = element("div", { class: "rest", id: "more-controls" }, ...boxes)
   const more = button("", () => { unfolded = !unfolded; show_named() },
     { class: "more", "aria-controls": "more-controls" })
@@ -222,10 +214,6 @@ export function render({ model }) {
       many = state.defects.names.length
       selected = state.defects.selected
       list_defects(state.defects)
-    }
-    if (state.floor) {
-      floor.hidden = !state.floor.shown
-      write_floor(state.floor.words, state.floor.bad)
     }
     count_changed()
   }

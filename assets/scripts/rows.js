@@ -52,16 +52,6 @@ function fit(input) {
   input.style.width = count > 5 ? `calc(${count}ch + 16px)` : ""
 }
 
-// A box to choose a text file in, with a line about it; returns how to write that line.
-function file_box(root, id, label, accept, largest, send) {
-  const file = element("input", { type: "file", accept, id, "aria-describedby": `${id}-words` })
-  const words = element("p", { class: "note", id: `${id}-words`, role: "status" })
-  const write = (...said) => write_note(words, ...said)
-  sends_text(file, largest, write, send)
-  root.append(element("label", { for: id }, label), file, words)
-  return write
-}
-
 // Rows of one panel. `changed` hears of every change of a value, `touched` of the control in use.
 function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}

@@ -12,9 +12,11 @@ import os
 import signal
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from threading import Thread, Timer
+from threading import Event, Thread
 from typing import IO, Any
 
 import numpy as np
@@ -42,6 +44,9 @@ MOST_COLUMNS = 1024
 TOO_SLOW = f"one that can be read within {PROCESSOR_SECONDS} s"
 DAMAGED = "one without a damaged or unknown part"
 
+_TICK = 0.1
+"""[s] between two looks at the process."""
+
 _PROGRAM = Path(__file__).with_name("child_program.py")
 _ENVIRONMENT = {
     "HDF5_PLUGIN_PATH": "::",  # none is loaded
@@ -57,6 +62,7 @@ def read_file(
     text_only: bool = False,
     most_numbers: int = MOST_NUMBERS,
     most_columns: int = MOST_COLUMNS,
+    give_up: Callable[[], bool] | None = None,
 ) -> tuple[dict[str, Any], Array]:
     """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
 
@@ -70,6 +76,8 @@ def read_file(
         take the content for text, whatever it begins with.
     most_numbers, most_columns
         that are taken.
+    give_up
+        asked every tenth of a second: True ends the process.
 
     Returns
     -------
@@ -98,25 +106,37 @@ def read_file(
     assert child.stdout is not None
     head = json.dumps([name, *limits]).encode() + b"\n"
     sender = Thread(target=_send, args=(child.stdin, head, content), daemon=True)
-    timer = Timer(WALL_SECONDS, child.kill)
+    ended = Event()
+    watch = Thread(target=_watch, args=(child, ended, give_up), daemon=True)
     sender.start()
-    timer.start()
+    watch.start()
     try:
         answer = _received(child.stdout, most_numbers)
-        late = not timer.is_alive()
+        late = not watch.is_alive()
     finally:
-        timer.cancel()
+        ended.set()
         child.kill()
-        ended = child.wait()
+        code = child.wait()
         child.stdout.close()
         sender.join()
     if answer is None:
-        slow = late or ended == -getattr(signal, "SIGXCPU", 0)
+        slow = late or code == -getattr(signal, "SIGXCPU", 0)
         raise checks.refuse("file", name, TOO_SLOW if slow else DAMAGED)
     about, columns = answer
     if "refused" in about:
         raise checks.refuse(*about["refused"])
     return about, columns
+
+
+def _watch(
+    child: subprocess.Popen[bytes], ended: Event, give_up: Callable[[], bool] | None
+) -> None:
+    """End the process once it is late or its answer is no longer wanted."""
+    latest = time.monotonic() + WALL_SECONDS
+    while not ended.wait(_TICK):
+        if time.monotonic() > latest or (give_up is not None and give_up()):
+            child.kill()
+            return
 
 
 def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:

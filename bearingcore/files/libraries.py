@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 MOST_UNPACKED = 2**28
 """[bytes] of a file in a zip."""
 
+MOST_TOGETHER = 2**30
+"""[bytes] of all files in a zip that are to be read."""
+
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
 
@@ -63,6 +66,10 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:
+                if sum(one.file_size for one in files) > MOST_TOGETHER:
+                    raise checks.refuse(
+                        "file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked"
+                    )
                 return [one.filename for one in files[:MOST_INSIDE]], b""
             one = (named or files)[0]
             if one.file_size > MOST_UNPACKED:

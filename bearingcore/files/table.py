@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -329,8 +329,10 @@ class Table(FileColumns):
         raise checks.refuse("column", column, "one of " + ", ".join(self.names) + numbers)
 
 
-def files_inside(name: str, content: bytes) -> list[str]:
+def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> list[str]:
     """Names for `read_table` of all files in a zip of several, in their order; else `name` alone.
+
+    `give_up`: see `read_table`.
 
     Raises
     ------
@@ -339,7 +341,7 @@ def files_inside(name: str, content: bytes) -> list[str]:
     """
     if content[:4] != b"PK\x03\x04" or ".zip/" in name:
         return [name]
-    about, _ = read_file(name, content)
+    about, _ = read_file(name, content, give_up=give_up)
     inside = sorted(about.get("inside", ()), key=_in_order)
     packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
     return [f"{packed}/{one}" for one in inside] or [name]
@@ -356,7 +358,7 @@ def path_in(name: str) -> str:
     return before + mark.rstrip("/")
 
 
-def read_table(name: str, content: bytes) -> Table:
+def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
     """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
@@ -371,6 +373,8 @@ def read_table(name: str, content: bytes) -> Table:
         in a zip.
     content
         the whole file.
+    give_up
+        asked again and again while it is read: True ends the process that reads.
 
     Raises
     ------
@@ -385,7 +389,7 @@ def read_table(name: str, content: bytes) -> Table:
             f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
             "their tables, or export a shorter part",
         )
-    about, columns = read_file(name, content)
+    about, columns = read_file(name, content, give_up=give_up)
     if inside := about.get("inside"):
         raise checks.refuse(
             "file",

@@ -30,7 +30,7 @@ async def main():
     while wanted:
         begin, of = wanted.pop()
         brought.take_piece(content[begin : begin + PIECE], of)
-    while brought._tasks:
+    while session.jobs.busy():
         await asyncio.sleep(0.01)
     said = {"unit": "m/s²", "bearing": "scene", "speed": "scene"}
     brought.take_form({**brought.state.values, **said})

@@ -85,7 +85,7 @@ def session(
         return explorer
 
     async def idle(explorer: SceneSession) -> None:
-        while explorer._tasks or not explorer._loop.drawn:
+        while explorer.jobs.busy() or not explorer._loop.drawn:
             await asyncio.sleep(0.002)
 
     return run(live())
@@ -183,7 +183,6 @@ SENSELESS: tuple[dict, ...] = (
     {"mark": -1, "set": {"nothing": 1}},
     {"set": {f"extent_{i}": i for i in range(1000)}},
     {"choose": {"preset": "../../etc/passwd"}},
-    {"floor": {"name": "x", "text": ""}},
     {"choose": {"numbers": "none", "race": "both", "defect": "9", "dofs": "q"}},
     {"set": {"n_balls": -5, "ball_diameter_mm": {}, "stiffness_x": "", "seed": "1e99"}},
 )

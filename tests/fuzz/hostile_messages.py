@@ -35,8 +35,7 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ("Controls", {"mark": 1, "choose": {"defect": "add"}}),
     ("Controls", {"mark": 1, "choose": {"dofs": "x y z"}}),
     ("Controls", {"mark": 1, "reset": True, "released": True}),
-    ("Controls", {"mark": 1, "floor": _FILE}),
-    ("Controls", {"mark": 1, "catalogue": _FILE}),
+    ("Controls", {"search": "62"}),
     ("ShareBar", {"mark": 1, "open": _FILE}),
     ("ShareBar", {"mark": 1, "compare": _FILE}),
     ("ShareBar", {"mark": 1, "undo": True}),
@@ -156,8 +155,8 @@ def large(random_: random.Random, ids: Ids) -> Frames:
     )
     if way < len(bodies):
         return [header(), "{}", f'{{"events": [{bodies[way]}]}}']
-    floor = {"mark": 1, "floor": {"name": "a", "text": text}}
-    return patch(component_event(ids.get("Controls", "p1"), floor))
+    opened = {"mark": 1, "open": {"name": "a", "text": text}}
+    return patch(component_event(ids.get("ShareBar", "p1"), opened))
 
 
 def framing(random_: random.Random, ids: Ids) -> Frames:

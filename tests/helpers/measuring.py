@@ -7,7 +7,7 @@ from bearing_explorer.diagnosis.machine import GIVEN, Machine, of_scene
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
-from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.compute.jobs import Jobs
 
 from bearingcore import Scene, presets
 
@@ -32,6 +32,6 @@ def measuring(
     async def assign(change: Callable[[], None]) -> None:
         change()
 
-    made = Measurement(scene, BearingTable(), assign, lambda: None)
+    made = Measurement(scene, Jobs(assign), lambda: None)
     made.measured = measured
     return made

@@ -18,6 +18,7 @@ def read_here(
     text_only: bool = False,
     most_numbers: int = MOST_NUMBERS,
     most_columns: int = MOST_COLUMNS,
+    give_up: object = None,
 ) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """`child.read_file` without the process, which takes a third of a second each time."""
     with warnings.catch_warnings():

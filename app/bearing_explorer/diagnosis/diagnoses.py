@@ -11,13 +11,12 @@ import asyncio
 import dataclasses
 import logging
 import math
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, Self, TypeVar
 
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.compute.executors import JOBS
-from bearing_explorer.kit.compute.jobs import Change
+from bearing_explorer.kit.compute.jobs import Jobs, Kind
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
 from bearingcore.diagnosis import ListedBearing, explaining_bearings
@@ -81,6 +80,9 @@ class Question:
             raise ValueError(WHICH_BEARING)
         return self.measured.bearing
 
+    def give_up(self) -> None:
+        """Its answer is no longer wanted."""
+
     def is_like(self, other: Question) -> bool:
         """Whether recording, bearing and knowledge of the speed are the same."""
         mine, theirs = ((q._recording, q.speed, q.geometry) for q in (self, other))
@@ -135,6 +137,9 @@ class ListQuestion(Question):
     bearings: Mapping[str, Bearing] = field(default_factory=dict, compare=False)
     progress: Progress = field(default_factory=lambda: Progress(), compare=False)
 
+    def give_up(self) -> None:
+        self.progress.cancelled = True
+
 
 class Progress:
     """Progress of a search, and whether it is to end. `goes_on` is called by its thread.
@@ -185,8 +190,8 @@ class Answers(Generic[Found]):
 
     Parameters
     ----------
-    assign
-        runs a change of the page's models and sends it, as `live.one_message` does.
+    jobs, kind
+        the background of the session, and what these answers are in it.
     draw
         requests a drawing.
     compute
@@ -195,16 +200,16 @@ class Answers(Generic[Found]):
 
     def __init__(
         self,
-        assign: Callable[[Change], Awaitable[None]],
+        jobs: Jobs,
+        kind: Kind,
         draw: Callable[[], None],
         compute: Callable[[Any], Found | str],
     ) -> None:
-        self._assign = assign
+        self._jobs, self._kind = jobs, kind
         self._draw = draw
         self._compute = compute
         self._known: dict[Question, Found | str] = {}
         self.wanted: Question | None = None
-        self._task: asyncio.Task[None] | None = None
 
     def of(self, question: Question) -> Found | str | None:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
@@ -231,31 +236,32 @@ class Answers(Generic[Found]):
 
     def want(self, question: Question) -> None:
         """Have it answered, in place of what was wanted before; without a loop nothing is."""
-        self.wanted = question
-        if question in self._known or not (self._task is None or self._task.done()):
+        before, self.wanted = self.wanted, question
+        if question in self._known or (question == before and self._jobs.busy(self._kind)):
             return
+        if before is not None and before != question:
+            before.give_up()
         try:
-            loop = asyncio.get_running_loop()
+            asyncio.get_running_loop()
         except RuntimeError:  # a view is drawn outside of a session
             return
-        self._task = loop.create_task(self._work())
+        self._jobs.answer(
+            self._kind, lambda: self._compute(question), lambda answer: self._take(question, answer)
+        )
         self._draw()  # the status says that something is under way
+
+    def _take(self, question: Question, answer: Found | str) -> None:
+        if (
+            self.wanted is not None
+            and self.wanted.measured.recording is question.measured.recording
+        ):
+            self.keep(question, answer)
+        self._draw()
 
     def stop(self) -> None:
         """The session is over."""
+        if self.wanted is not None:
+            self.wanted.give_up()
         self.wanted = None
         self._known = {}
-        if self._task is not None:
-            self._task.cancel()
-            self._task = None  # its last error knows where it was, which is in here
-
-    async def _work(self) -> None:
-        loop = asyncio.get_running_loop()
-        while (question := self.wanted) is not None and question not in self._known:
-            answer = await loop.run_in_executor(JOBS, self._compute, question)
-            if self.wanted is None:
-                return
-            if self.wanted.measured.recording is question.measured.recording:
-                self.keep(question, answer)
-            if self.wanted == question:
-                await self._assign(self._draw)
+        self._jobs.drop(self._kind)

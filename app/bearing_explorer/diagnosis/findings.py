@@ -8,7 +8,7 @@ from __future__ import annotations
 import asyncio
 import copy
 import logging
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Self
 
@@ -30,10 +30,8 @@ from bearing_explorer.diagnosis.measurement_state import (
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.compute.executors import FILES, in_thread
-from bearing_explorer.kit.compute.jobs import Change
-from bearingcore import Diagnosis, MeasuredExtent, Scene, Table
+from bearing_explorer.kit.compute.jobs import EXTENT, LISTED, PART, READING, Compute, Jobs, JobState
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Table, catalogue
 from bearingcore.diagnosis import ListedBearing
 
 log = logging.getLogger(__name__)
@@ -46,10 +44,8 @@ class Findings:
     ----------
     scene
         gives the scene that may be measured, as it is now.
-    bearings
-        to choose from.
-    assign
-        runs a change of the page's models and sends it, as `live.one_message` does.
+    jobs
+        the background of the session.
     draw
         requests a drawing.
     """
@@ -57,8 +53,7 @@ class Findings:
     def __init__(
         self,
         scene: Callable[[], Scene],
-        bearings: BearingTable,
-        assign: Callable[[Change], Awaitable[None]],
+        jobs: Jobs,
         draw: Callable[[], None],
     ) -> None:
         self.measured: Measured | None = None
@@ -66,19 +61,17 @@ class Findings:
         #: called with the new state, for the form of the signal and for that of its machine
         self.show: Callable[[MeasurementState], None] = lambda _: None
         self.show_machine: Callable[[MeasurementState], None] = lambda _: None
-        self._scene_now, self._bearings = scene, bearings
-        self._assign = assign
+        self._scene_now = scene
+        self._jobs = jobs
         self._draw = draw
         #: which part is damaged, looked for in the background
-        self.diagnoses: Answers[Diagnosis] = Answers(assign, draw, answered)
+        self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, answered)
         #: how long the spall is, when that is known
-        self.extents: Answers[MeasuredExtent] = Answers(assign, draw, extent_of)
+        self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
         #: listed bearings, where the one that is given does not explain the signal
-        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(assign, draw, listed_of)
+        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(jobs, LISTED, draw, listed_of)
         self._scene = of_scene(scene())
         self._table: Table | None = None  # with the roles of its columns as they are given
-        self._latest = 0  # number of what was asked for last: what it overtook is dropped
-        self._tasks: set[asyncio.Task[None]] = set()
         self._ended = False
 
     def stop(self) -> None:
@@ -88,8 +81,7 @@ class Findings:
         self.diagnoses.stop()
         self.extents.stop()
         self.listed.stop()
-        for task in self._tasks:
-            task.cancel()
+        self._jobs.drop(READING)
 
     # What was found
 
@@ -158,7 +150,7 @@ class Findings:
 
     def listed_question(self, about: Question) -> ListQuestion:
         """The question which of the listed bearings explain a recording."""
-        named = {one.name: one.bearing for one, _ in self._bearings.all()}
+        named = {name: entry.bearing for name, entry in catalogue().items()}
         try:
             loop = asyncio.get_running_loop()
             progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
@@ -168,8 +160,8 @@ class Findings:
 
     def cancel_search(self) -> None:
         """End the search for listed bearings."""
-        if isinstance(self.listed.wanted, ListQuestion):
-            self.listed.wanted.progress.cancelled = True
+        if self.listed.wanted is not None:
+            self.listed.wanted.give_up()
 
     def snapshot(self) -> Self:
         """A copy for another thread: what is measured and found by now."""
@@ -200,29 +192,11 @@ class Findings:
         if self.at_work != before:
             self._draw()
 
-    def _in_background(
-        self, compute: Callable[[], Any], take: Callable[[Any], None], name: str
-    ) -> None:
-        """Compute in a thread and take the result, unless a newer request has come."""
-        number = self._latest
+    def _read(self, compute: Compute, take: Callable[[Any], None]) -> None:
+        """Read something in place of what is being read; its refusal is a sentence."""
 
-        async def run() -> None:
-            try:
-                found = await in_thread(compute, pool=FILES)
-            except ValueError as error:
-                sentence = str(error)
-                change = lambda: self._refuse(sentence)  # noqa: E731
-            except Exception:
-                log.exception("a measurement could not be read")
-                change = lambda: self._refuse(f"{name} could not be read.")  # noqa: E731
-            else:
-                change = lambda: take(found)  # noqa: E731
-            if number == self._latest and not self._ended:
-                await self._assign(change)
+        def report(state: JobState) -> None:
+            if state.mood == "failed":
+                self._refuse(state.words)
 
-        self._keep(run())
-
-    def _keep(self, coroutine: Coroutine[Any, Any, None]) -> None:
-        task = asyncio.get_running_loop().create_task(coroutine)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        self._jobs.start(compute, take, report, READING)

@@ -14,17 +14,17 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from bearing_explorer.diagnosis import machine
-from bearing_explorer.diagnosis.machine import FormError, Machine, find_published
+from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.kit.sentences import number_of, sentence_of
-from bearingcore import CatalogueBearing, Recording, Table, catalogue
+from bearingcore import Recording, Table, catalogue
 from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.files import (
@@ -237,17 +237,14 @@ def _unit(table: Table) -> str:
     return contents.unit.value if contents.unit.taken else NOT_KNOWN
 
 
-def bearings_of(
-    table: Table | None, found: Sequence[str] = (), own: Sequence[str] = ()
-) -> list[list[str]]:
+def bearings_of(table: Table | None, found: Sequence[str] = ()) -> list[list[str]]:
     """[value, words, heading] of the bearings to choose from.
 
-    The one of the file's collection and those that were `found` to explain the signal come first;
-    `own` are those of a person's table.
+    The one of the file's collection and those that were `found` to explain the signal come first.
     """
     listed = None if table is None else table.contents.bearing
     likely = dict.fromkeys([*([] if listed is None else [listed.value]), *found])
-    others = dict.fromkeys(name for name in (*own, *catalogue()) if name not in likely)
+    others = dict.fromkeys(name for name in catalogue() if name not in likely)
     return [
         [NOT_KNOWN, "choose", WAYS],
         [machine.BY_DESIGNATION, "by its designation", WAYS],
@@ -437,7 +434,6 @@ def read_form(
     table: Table,
     form: Mapping[str, Any],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing] = find_published,
 ) -> Measured:
     """The signal that a form describes; `FormError` with sentences where it describes none.
 
@@ -445,7 +441,7 @@ def read_form(
     speed: that is the machine's, where it is known.
 
     `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
-    so; `find` gives the bearing of a name.
+    so.
     """
     texts = as_texts(form, FIELDS)
     table = with_roles(table, texts["columns"])
@@ -469,7 +465,7 @@ def read_form(
     if texts["unit"] not in (*UNITS, AS_HEADED) and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     try:
-        found_machine = machine_of(table, texts, scene, find)
+        found_machine = machine_of(table, texts, scene)
     except FormError as error:
         refused |= error.sentences
     if refused:
@@ -514,12 +510,11 @@ def machine_of(
     table: Table,
     form: Mapping[str, str],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing] = find_published,
 ) -> Machine:
     """The machine that a form describes, see `machine.read_machine`."""
     texts = {name: form[name] for name in machine.FIELDS}
     contents = table.contents
-    return machine.read_machine(texts, machine.guess(contents), contents, scene, find)
+    return machine.read_machine(texts, machine.guess(contents), contents, scene)
 
 
 def _without_size(recording: Recording) -> Recording:

@@ -9,7 +9,6 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.session import Half, Section, Session
 from bearingcore import Scene
@@ -24,21 +23,17 @@ class DiagnosisOfSignal(Half):
         its tabs.
     scene
         gives the scene with which a signal is compared, as it is now.
-    bearings
-        to choose from.
     """
 
-    def __init__(
-        self, sections: Sequence[Section], scene: Callable[[], Scene], bearings: BearingTable
-    ) -> None:
+    def __init__(self, sections: Sequence[Section], scene: Callable[[], Scene]) -> None:
         self.sections = tuple(sections)
-        self._scene, self._bearings = scene, bearings
+        self._scene = scene
 
     kind_of_content = Model
 
     def join(self, page: Session) -> None:
         super().join(page)
-        self.measurement = Measurement(self._scene, self._bearings, page.assign, page.draw)
+        self.measurement = Measurement(self._scene, page.jobs, page.draw)
 
     @property
     def scene(self) -> Scene:

@@ -9,13 +9,13 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.bearing_list import find_bearing
 from bearing_explorer.kit.sentences import number_of, sentence_of
-from bearingcore import Bearing, CatalogueBearing, Scene
+from bearingcore import Bearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span
 from bearingcore.files import FileContents, Finding
@@ -60,9 +60,6 @@ OWN_FREQUENCIES = (
     "them from the maker's sheet."
 )
 """Follows the refusal of a bearing that is not in the table: a way on."""
-
-find_published = BearingTable().find
-"""The published bearing of a name, or the one of a designation."""
 
 
 class Turning(NamedTuple):
@@ -208,7 +205,7 @@ def _bearing(contents: FileContents) -> dict[str, str]:
     named = contents.designation
     if listed is None and named is not None:
         try:
-            find_published(named.value)
+            find_bearing(named.value)
         except ValueError:  # a number of another thing, or a bearing that is not in the table
             return {"bearing": NOT_KNOWN, **texts}
         return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
@@ -217,7 +214,7 @@ def _bearing(contents: FileContents) -> dict[str, str]:
 
 def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
     """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
-    bearing = find_published(name).bearing
+    bearing = find_bearing(name).bearing
     own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
     return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
 
@@ -234,7 +231,6 @@ def read_machine(
     first: Mapping[str, str],
     contents: FileContents,
     scene: Machine,
-    find: Callable[[str], CatalogueBearing] = find_published,
 ) -> Machine:
     """The machine that a form describes; `FormError` with sentences where it describes none.
 
@@ -248,8 +244,6 @@ def read_machine(
         of the file.
     scene
         bearing and speed of the scene, see `of_scene`: used only where the form says so.
-    find
-        gives the bearing of a name or a designation.
     """
     guessed, refused = set(), {}
     speed, source = None, texts["speed"]
@@ -279,9 +273,9 @@ def read_machine(
         elif name == BY_DESIGNATION:
             name = texts["designation"]
             if name:  # else it is not typed yet
-                bearing, unread = (entry := find(name)).bearing, entry.unread
+                bearing, unread = (entry := find_bearing(name)).bearing, entry.unread
         elif name != NOT_KNOWN:
-            bearing = find(name).bearing
+            bearing = find_bearing(name).bearing
     except ValueError as error:
         if not {"speed", "shaft_speed"} & set(refused):  # which says it already
             field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"

@@ -54,8 +54,6 @@ class MeasurementState:
     settling: bool = False
     #: the file before, where bearing or speed are those that a person gave for that
     kept_from: str = ""
-    #: files that can be joined to one signal
-    parts: int = 0
     #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
     line: str = ""
     #: the whole name of its file, where the line has less of it

@@ -5,7 +5,8 @@ For any thread: nothing here knows a session.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import logging
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -21,14 +22,16 @@ from bearing_explorer.diagnosis.machine import (
     NOT_KNOWN,
     FormError,
     Machine,
-    find_published,
     kept_answers,
 )
-from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.series import MOST_FILES, Series
 from bearing_explorer.diagnosis.signal import Measured
-from bearingcore import CatalogueBearing, Table, read_table
+from bearingcore import Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
+from bearingcore.files import files_inside
+
+log = logging.getLogger(__name__)
 
 MOST_NUMBERS = 4_000_000
 """Numbers of a table that a session keeps; later rows are left out."""
@@ -77,6 +80,8 @@ class Arrival:
 
     def take(self, name: str, found: Read | str, inside: int = 1) -> None:
         """Take what was read, or why nothing was; one of so many `inside` one file."""
+        if inside > 1 and self.count == 1 and not (self.baseline or self.series.together):
+            self.series = Series(together=True)  # of the files in a zip
         if isinstance(found, str):
             sentence = found if name in found else f"{name}: {found}"
             self.series, self.why = self.series.without(sentence), self.why or sentence
@@ -93,7 +98,7 @@ class Read:
 
     `first` is the form as the file alone says; `kept` are answers for the file before that it has
     besides. `asks` are the questions before there is a recording, `sizes` those before it has a
-    size. `parts` are the files that were joined.
+    size.
     """
 
     table: Table
@@ -105,22 +110,54 @@ class Read:
     asks: dict[str, str]
     sizes: dict[str, str]
     kept: dict[str, str] = field(default_factory=dict)
-    parts: tuple[str, ...] = ()
+
+
+def read_files(
+    name: str,
+    content: bytes,
+    scene: Machine,
+    kept: Mapping[str, str],
+    give_up: Callable[[], bool],
+) -> Iterator[tuple[str, Read | str, int]]:
+    """All files in a zip, or the one that it is: each as `read_file` has it, or why not.
+
+    With each comes how many they are.
+
+    Once `give_up` says so the rest is not read, and the process that reads ends.
+    """
+    try:
+        names = files_inside(name, content, give_up)[:MOST_FILES]
+    except ValueError:
+        names = [name]  # which says why
+    for one in names:
+        if give_up():
+            why = f"{one} was not read: there is a minute for all files of an upload."
+            yield one, why, len(names)
+            continue
+        found: Read | str
+        try:
+            found = read_file(one, content, scene, kept, give_up)
+        except ValueError as error:
+            found = str(error)
+        except Exception:
+            log.exception("a file could not be read")
+            found = f"{one} could not be read."
+        yield one, found, len(names)
 
 
 def read_file(
     name: str,
     content: bytes,
     scene: Machine,
-    find: Callable[[str], CatalogueBearing] = find_published,
     kept: Mapping[str, str] = MappingProxyType({}),
+    give_up: Callable[[], bool] | None = None,
 ) -> Read:
     """A file with guesses at what it holds. For any thread; ValueError with a sentence.
 
     `kept`: answers on the machine for the file before, used where this one says nothing.
     """
     try:
-        table = read_table(name, content)
+        table, cut = _shortened(read_table(name, content, give_up))
     except FieldError as error:
         about = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if about else str(error)
@@ -129,32 +166,23 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return read_of(table, scene, find, kept)
+    return _proposed(table, cut, scene, kept)
 
 
-def read_of(
-    table: Table,
-    scene: Machine,
-    find: Callable[[str], CatalogueBearing],
-    kept: Mapping[str, str],
-    changed: Mapping[str, str] = MappingProxyType({}),
-) -> Read:
-    """The same of a table that was read; what a person `changed` stays so."""
-    name = table.name
-    table, cut = _shortened(table)
+def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
+    """A table with guesses at what it holds; `cut` says which of its rows were left out."""
     (_, first), asks = fill(table, {}), questions(table)
     kept = kept_answers(first, kept)
-    form = {**first, **kept, **changed}
-    asks = {field: words for field, words in asks.items() if field not in changed}
+    form = {**first, **kept}
     sizes = size_questions(table, form)
-    found, refused = _tried(table, form, scene, find), {}
+    found, refused = _tried(table, form, scene), {}
     if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
         refused = found.sentences
-        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene, find)
+        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
     if isinstance(found, FormError):
         if not usable(table):
-            raise ValueError(f"{name} cannot be used. {found}")
+            raise ValueError(f"{table.name} cannot be used. {found}")
         refused |= found.sentences
         return Read(table, first, form, cut, None, refused, asks, sizes, kept)
     return Read(table, first, form, cut, None if asks else found, refused, asks, sizes, kept)
@@ -177,23 +205,21 @@ def read_answers(
     table: Table,
     changed: Mapping[str, str],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
 ) -> AnsweredTable | FormError:
     try:
         told, form = fill(table, changed)
     except FormError as refused:
         return refused
-    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene, find))
+    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene))
 
 
 def _tried(
     table: Table,
     form: Mapping[str, str],
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
 ) -> Measured | FormError:
     try:
-        return read_form(table, form, scene, find)
+        return read_form(table, form, scene)
     except FormError as refused:
         return refused
 

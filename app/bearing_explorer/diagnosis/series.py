@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from bearing_explorer.diagnosis.form import fill, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
 from bearing_explorer.diagnosis.signal import Measured, Origin
-from bearingcore import CatalogueBearing, Recording, Table
+from bearingcore import Recording, Table
 
 MOST_FILES = 200
 """Of a series."""
@@ -34,19 +34,11 @@ class Series:
         sentences on files that could not be read.
     together
         whether they were chosen together, as a series.
-    shortened
-        whether rows at the end of some were left out.
     """
 
     tables: tuple[Table, ...] = ()
     left_out: tuple[str, ...] = ()
     together: bool = False
-    shortened: bool = False
-
-    @property
-    def parts(self) -> int:
-        """Files that can be joined to one signal."""
-        return len(self.tables) if self.together and not self.shortened else 0
 
     def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
         """With a further file, of `count` that come; it replaces an earlier one of its name.
@@ -61,8 +53,7 @@ class Series:
         tables = [table, *others] if first else [*others, table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
             tables.pop(int(first))
-        shortened = self.shortened or rows > most
-        return dataclasses.replace(self, tables=tuple(tables), shortened=shortened)
+        return dataclasses.replace(self, tables=tuple(tables))
 
     def without(self, sentence: str) -> Series:
         """With a sentence on a file that could not be read."""
@@ -85,7 +76,6 @@ def recordings_of(
     kept: Mapping[str, str],
     direction: str,
     scene: Machine,
-    find: Callable[[str], CatalogueBearing],
 ) -> SeriesRecordings:
     """The recordings of a series along a direction; without files the one that is shown.
 
@@ -106,7 +96,7 @@ def recordings_of(
             answers.pop("part", None)
         try:
             told, form = fill(table, answers)
-            found = read_form(told, {**form, **kept_answers(form, kept)}, scene, find)
+            found = read_form(told, {**form, **kept_answers(form, kept)}, scene)
         except FormError as error:
             words = str(error)
             left_out.append(words if words.startswith(table.name) else f"{table.name}: {words}")

@@ -9,28 +9,20 @@ opens a form with questions; its faults are sentences, and the signal before it 
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator
 from dataclasses import replace
 
-from bearing_explorer.diagnosis.form import fill
 from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
 from bearing_explorer.diagnosis.measurement_state import NO_FILE_TO_COMPARE, MeasurementState
-from bearing_explorer.diagnosis.reading import Arrival, Read, read_file, read_of
+from bearing_explorer.diagnosis.reading import Arrival, read_files
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
-from bearing_explorer.kit.bearing_list import BearingTable
-from bearing_explorer.kit.compute.jobs import Change
-from bearing_explorer.kit.sentences import sentence_of
+from bearing_explorer.kit.compute.jobs import READING, Change, Jobs, Work
 from bearing_explorer.kit.simulated_signals import NOISES
-from bearingcore import Scene, join_tables
-from bearingcore.errors import FieldError
-from bearingcore.files import files_inside
-
-log = logging.getLogger(__name__)
+from bearingcore import Scene
 
 
 class Measurement(SignalForm):
@@ -73,7 +65,7 @@ class Measurement(SignalForm):
             self._refuse(NO_FILE_TO_COMPARE)
             return
         if number == 1:
-            self._latest += 1
+            self._jobs.drop(READING)
             # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
@@ -87,7 +79,8 @@ class Measurement(SignalForm):
             self._upload = Upload(name, size)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, [(name, str(error))])
+            arrival.take(name, str(error))
+            self._take_next(arrival)
         else:
             words = f"Uploading {arrival.words}{self._upload.name} …"
             self._tell(words=words, bad=False, busy=True)
@@ -95,7 +88,7 @@ class Measurement(SignalForm):
 
     def cancel(self) -> None:
         """Give up the files that are being uploaded or read; the signal before them stays."""
-        self._latest += 1
+        self._jobs.drop(READING)
         self._uploads += 1
         self._upload = self._arrival = None
         self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
@@ -109,7 +102,8 @@ class Measurement(SignalForm):
             upload.take(content)
         except ValueError as error:
             self._upload = None
-            self._take_next(arrival, [(upload.name, str(error))])
+            arrival.take(upload.name, str(error))
+            self._take_next(arrival)
             return
         if not upload.whole:
             self.want(len(upload.content), self._uploads)
@@ -117,35 +111,21 @@ class Measurement(SignalForm):
         self._upload = None
         words = f"Reading {arrival.words}{upload.name} …"
         self._tell(words=words, bad=False, busy=True)
-        scene, find, kept = self._scene, self._bearings.find, self._given_machine
-        content, request = bytes(upload.content), self._latest
+        scene, kept = self._scene, self._given_machine
+        content = bytes(upload.content)
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
-        def read_or_why(name: str) -> Read | str:
-            try:
-                return read_file(name, content, scene, find, kept)
-            except ValueError as error:
-                return str(error)
-            except Exception:
-                log.exception("a file could not be read")
-                return f"{name} could not be read."
+        def read(work: Work) -> Generator[None, None, str]:
+            for name, found, count in read_files(upload.name, content, scene, kept, work.cancelled):
+                arrival.take(name, found, count)
+                yield
+            work.show(arrival)
+            return ""
 
-        def read_all() -> list[tuple[str, Read | str]]:
-            try:
-                names = files_inside(upload.name, content)[:MOST_FILES]
-            except ValueError:
-                names = [upload.name]  # which says why
-            return [(name, read_or_why(name)) for name in names if request == self._latest]
+        self._read(read, self._take_next)
 
-        take = lambda found: self._take_next(arrival, found)  # noqa: E731
-        self._in_background(read_all, take, upload.name)
-
-    def _take_next(self, arrival: Arrival, files: Sequence[tuple[str, Read | str]]) -> None:
-        """Take what came: each file, or a sentence on why it cannot be read."""
-        if len(files) > 1 and arrival.count == 1 and not arrival.baseline:  # in a zip
-            arrival.series = Series(together=True)
-        for name, found in files:
-            arrival.take(name, found, len(files))
+    def _take_next(self, arrival: Arrival) -> None:
+        """Ask for the next file, or take what came of all of them."""
         if arrival.number < arrival.count:
             self.more()
             return
@@ -174,32 +154,7 @@ class Measurement(SignalForm):
         given = self.state.values
         kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
         changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(
-            self.series, shown, changed, kept, direction, self._scene, self._bearings.find
-        )
-
-    def join_parts(self) -> None:
-        """Make one signal of the files of the series, in their order."""
-        tables = self.series.tables
-        if self._ended or self._arrival is not None or self.state.parts < 2:
-            return
-        self._latest += 1
-        self._tell(words=f"Joining {len(tables)} files …", bad=False, busy=True)
-        scene, find, changed = self._scene, self._bearings.find, self._changed
-
-        def join() -> Read:
-            try:
-                joined = join_tables([fill(table, changed)[0] for table in tables])
-            except FieldError as error:
-                raise ValueError(f"These files are not joined: {sentence_of(error)}") from None
-            found = read_of(joined, scene, find, {}, changed)
-            return replace(found, parts=tuple(table.name for table in tables))
-
-        def take(found: Read) -> None:
-            self.series = Series((found.table,))
-            self._take_read(found)
-
-        self._in_background(join, take, "The files")
+        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
 
     # Simulated ones
 
@@ -208,15 +163,15 @@ class Measurement(SignalForm):
         if self._ended or noise not in NOISES:
             return
         self._upload = self._arrival = None
-        self._latest += 1
         self._simulations += 1
         seed, scene = self._simulations, self._scene_now()
         self._tell(words="Simulating a measurement.", bad=False, busy=True)
 
-        def make() -> Measured:
-            return simulated(scene, NOISES[noise], seed)
+        def make(work: Work) -> str:
+            work.show(simulated(scene, NOISES[noise], seed))
+            return ""
 
-        self._in_background(make, self._take_simulated, "The scene")
+        self._read(make, self._take_simulated)
 
     def _take_simulated(self, found: Measured) -> None:
         self._table, self._cut, self.measured = None, "", found
@@ -236,6 +191,6 @@ def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
     async def assign(change: Change) -> None:
         change()
 
-    made = Measurement(lambda: scene, BearingTable(), assign, lambda: None)
+    made = Measurement(lambda: scene, Jobs(assign), lambda: None)
     made.measured = measured
     return made

@@ -32,9 +32,9 @@ class Origin:
 
     `unit` is None where the columns have units of their own, empty where it is not known.
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave, `parts` are the files that were joined to this one,
-    `place` is that of the sensors, as given or by the file. `part` is which of several recordings
-    in the file was chosen, 0 where none was; `which` is the one that was read, in words.
+    meaning of columns that a person gave, `place` is that of the sensors, as given or by the file.
+    `part` is which of several recordings in the file was chosen, 0 where none was; `which` is the
+    one that was read, in words.
     """
 
     file: str
@@ -43,7 +43,6 @@ class Origin:
     full_scale: float
     sensitivity: float | None = None
     given: Mapping[int, Column] = field(default_factory=dict)
-    parts: tuple[str, ...] = ()
     place: str = ""
     part: int = 0
     which: str = ""

@@ -43,6 +43,8 @@ from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, rea
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
+from bearing_explorer.kit.bearing_list import find_bearing
+from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
@@ -66,7 +68,6 @@ class SignalForm(Findings):
     _agreed: Mapping[str, str] = MappingProxyType({})
     _kept: Mapping[str, str] = MappingProxyType({})
     _taken: Mapping[str, str] = MappingProxyType({})
-    _parts: tuple[str, ...] = ()  # files joined to the one shown
     _cut = ""
 
     def stop(self) -> None:
@@ -89,7 +90,7 @@ class SignalForm(Findings):
         if SCENE not in (values["bearing"], values["speed"]):
             return
         try:
-            machine = machine_of(table, values, self._scene, self._bearings.find)
+            machine = machine_of(table, values, self._scene)
         except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
             self._tell(words=str(error), bad=True, refused=error.sentences)
             return
@@ -150,7 +151,7 @@ class SignalForm(Findings):
         table, before = found.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
         self._cut, self._first, self._agreed = found.cut, found.first, {}
-        self._kept, self._parts = found.kept, found.parts
+        self._kept = found.kept
         self._taken = found.form
         self.measured = None
         if found.asked is not None:
@@ -176,12 +177,11 @@ class SignalForm(Findings):
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
-            bearings=bearings_of(table, own=self._own_bearings),
+            bearings=bearings_of(table),
             recordings=recordings_of(table),
             speeds=speeds_of(table),
             settling=False,
             kept_from=(self.state.kept_from or before) if found.kept else "",
-            parts=self.series.parts,
             arrival=self.state.arrival + 1,
             **self._in_short(found.form),
         )
@@ -205,15 +205,15 @@ class SignalForm(Findings):
         if sure:
             agreed = {name: texts[name] for name in self.state.open if name not in SIZES}
             self._agreed = {**self._agreed, **agreed}
-        self._latest += 1
         self._tell(values=texts, settling=True)
         scene, as_read = self._scene, self._as_read
         assert as_read is not None
-        self._in_background(
-            lambda: read_answers(as_read, changed, scene, self._bearings.find),
-            lambda found: self._take_answers(texts, found),
-            table.name,
-        )
+
+        def read(work: Work) -> str:
+            work.show(read_answers(as_read, changed, scene))
+            return ""
+
+        self._read(read, lambda found: self._take_answers(texts, found))
 
     def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
         before, table = self.measured, self._table
@@ -270,9 +270,7 @@ class SignalForm(Findings):
         self._draw()
 
     def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
-        assert asked.origin is not None, "it comes from a file"
-        machine = replace(asked.machine, kept=self._kept_of(form))
-        return replace(asked, origin=replace(asked.origin, parts=self._parts), machine=machine)
+        return replace(asked, machine=replace(asked.machine, kept=self._kept_of(form)))
 
     def _take_simulated_form(self, measured: Measured, speed: str) -> None:
         """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
@@ -288,17 +286,12 @@ class SignalForm(Findings):
         self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
         self._draw()
 
-    @property
-    def _own_bearings(self) -> list[str]:
-        """Names of the bearings of a person's table."""
-        return list(self._bearings.own)
-
     def take_bearing(self, name: str) -> None:
         """Take a listed bearing as the one that was measured."""
         measured = self.measured
         if self._table is None:
             if measured is not None:
-                bearing = self._bearings.find(name).bearing
+                bearing = find_bearing(name).bearing
                 machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
                                   bearing_name=name)  # fmt: skip
                 self.measured = replace(measured, machine=machine)
@@ -306,7 +299,7 @@ class SignalForm(Findings):
                 self._draw()
             return
         named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
-        self._tell(bearings=bearings_of(self._table, [*named, name], self._own_bearings))
+        self._tell(bearings=bearings_of(self._table, [*named, name]))
         self.take_form({**self.state.values, "bearing": name})
 
     def take_load(self) -> None:

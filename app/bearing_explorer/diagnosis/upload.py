@@ -44,8 +44,7 @@ class Upload:
         if size > MOST_BYTES:
             raise ValueError(
                 f"{self.name} is {size / 2**20:.0f} MB long; at most {MOST_BYTES // 2**20} MB are "
-                "taken. Split it by rows and join the parts here, or export a shorter part: a few "
-                "seconds are enough."
+                "taken. Export a shorter part: a few seconds are enough."
             )
         self.size = size
         #: the bytes received so far

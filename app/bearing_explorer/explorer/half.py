@@ -17,7 +17,6 @@ from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Referenc
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
-from bearing_explorer.kit.bearing_list import BearingTable
 from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 from bearingcore import Scene
@@ -34,8 +33,6 @@ class Explorer(Requests):
         its tabs.
     address
         the query of the page's address; it is not trusted.
-    bearings
-        to choose from.
     """
 
     def __init__(
@@ -44,13 +41,12 @@ class Explorer(Requests):
         preset: str = "fan-rig",
         address: str = "",
         lessons: Sequence[Lesson | Fault] = (),
-        bearings: BearingTable | None = None,
     ) -> None:
         self.sections = tuple(sections)
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
-        editor = SceneEditor(preset, bearings or BearingTable())
+        editor = SceneEditor(preset)
         super().__init__(editor, Bookmarks(editor, address), lessons)
         self._last_state = LastState(self.editor.scene)
 

@@ -12,7 +12,7 @@ Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
 
 
 class SceneChange(msgspec.Struct, omit_defaults=True):
-    """A change of the scene: numbers, choices, a reset, a measured floor, a table of bearings.
+    """A change of the scene: numbers, choices, a reset.
 
     Attributes
     ----------
@@ -39,8 +39,6 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     reset: bool = False
     released: bool = False
     turning: bool = False
-    floor: TextFile | None = None
-    catalogue: TextFile | None = None
     search: str | None = None
 
 

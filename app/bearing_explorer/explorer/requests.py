@@ -20,22 +20,21 @@ from bearing_explorer.explorer.state.bookmarks import (
     read_request,
 )
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
-from bearing_explorer.explorer.state.scene_editor import LARGEST_FILE, SceneEditor, read_file
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
-from bearing_explorer.kit.bearing_list import read_table
+from bearing_explorer.kit.bearing_list import search_bearings
 from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.jobs import OPENING, REPORT, SEARCH
 from bearing_explorer.kit.report_page import About, now
 from bearing_explorer.kit.session import Half
 from bearing_explorer.kit.views.base import View
-from bearingcore.bearings import MOST_BYTES
 
 log = logging.getLogger(__name__)
 
 Found = TypeVar("Found")
 
-_LONGEST_NAME = 200
 _LONGEST_LINK = 2000
 _REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
 """Greatest length of the words in a report."""
@@ -66,7 +65,6 @@ class Requests(Half):
             [About], Callable[[], dict[str, Any] | None] | str | None
         ] = lambda _: None
         self.simulate: Callable[[str], None] = lambda noise: None
-        self._reporting = False
         self._open_lesson_of_link()
         self.controls = Controls(self.change_scene, state=editor.state())
         self.panels: list[Rows] = [self.controls]
@@ -97,11 +95,12 @@ class Requests(Half):
     # The scene
 
     def change_scene(self, message: Any) -> None:
-        """Take a message of the controls: numbers, choices, a reset, a file."""
+        """Take a message of the controls: numbers, choices, a reset."""
         if (text := message.get("search")) is not None:
-            listed, show = self.editor.listed, self.controls.send
-            self.page.in_background(
-                lambda: listed.search(text), lambda found: show({"found": found})
+            self.jobs.answer(
+                SEARCH,
+                lambda: search_bearings(text),
+                lambda found: self.controls.send({"found": found}),
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -127,10 +126,6 @@ class Requests(Half):
             rests = typed or "released" in message
             if rests and (narrowed := self.editor.narrow()):
                 self.show_controls(state=self.editor.state(narrowed))
-            self._open_file(message.get("floor"), LARGEST_FILE, read_file, self._take_floor)
-            self._open_file(
-                message.get("catalogue"), MOST_BYTES, read_table, self.editor.listed.take
-            )
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
@@ -154,27 +149,6 @@ class Requests(Half):
         if refused:
             self.show_controls(refused=refused)
 
-    def _take_floor(self, name: str, found: Any) -> None:
-        self.editor.take_floor(name, *found)
-        self.bookmarks.step()
-
-    def _open_file(
-        self,
-        file: Mapping[str, str] | None,
-        longest: int,
-        read: Callable[[str], Found],
-        take: Callable[[str, Found], object],
-    ) -> None:
-        """Read the text of a file off the event loop, as it may be long, and take its content.
-
-        `longest` [characters]: one more is read, so that the reader sees that there are too many.
-        """
-        if file is not None:
-            name, text = file["name"], file["text"][: longest + 1]
-            self.page.in_background(
-                lambda: read(text), lambda found: self._taken(take, name[:_LONGEST_NAME], found)
-            )
-
     def _taken(self, take: Callable[[str, Found], object], name: str, found: Found) -> None:
         take(name, found)
         self.show_controls(state=self.editor.state())
@@ -189,7 +163,7 @@ class Requests(Half):
             self.share.answer(kept=self.bookmarks.kept(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
-        if "report" in message and not self._reporting:
+        if "report" in message:
             self._report(message["report"][:_LONGEST_LINK], message)
         if "mark" not in message:
             return
@@ -200,7 +174,8 @@ class Requests(Half):
             self.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
-            self.page.in_background(
+            self.jobs.answer(
+                OPENING,
                 lambda: read_request(wanted),
                 lambda found: self._taken(
                     lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
@@ -241,12 +216,7 @@ class Requests(Half):
                 log.exception("a report failed")
                 return None
 
-        def take(made: dict[str, Any] | None) -> None:
-            self._reporting = False
-            self.share.answer(report=made)
-
-        self._reporting = True
-        self.page.in_background(make, take)
+        self.jobs.answer(REPORT, make, lambda made: self.share.answer(report=made))
 
     # Lessons
 

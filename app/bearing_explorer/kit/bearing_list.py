@@ -1,15 +1,10 @@
-"""Bearings to choose from: presets, the published ones, those of a person's table, designations.
-
-A table of one's own stays in the session. It is not trusted: it is refused as a whole,
-with sentences, where it is not such a table.
-"""
+"""Bearings to choose from: presets, the published ones, designations."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
 
@@ -21,10 +16,9 @@ from bearingcore import (
     catalogue,
     preset_notes,
     presets,
-    read_catalogue,
     read_designation,
 )
-from bearingcore.bearings import MOST_BYTES, designations, is_known, nearest_known, series_words
+from bearingcore.bearings import designations, is_known, nearest_known, series_words
 from bearingcore.common import number
 from bearingcore.scene import preset_labels
 from bearingcore.units import read_number
@@ -38,79 +32,54 @@ SAME_LENGTH = 0.003
 """Part by which a length of a bearing may differ from one that is searched for."""
 
 
-@dataclass
-class BearingTable:
-    """The bearings of a person's table beside the published ones; `words` say what became of it."""
+def find_bearing(name: str) -> CatalogueBearing:
+    """The published bearing of a name, or the one of a designation; ValueError without one."""
+    return catalogue().get(name) or read_designation(name).entry
 
-    own: dict[str, CatalogueBearing] = field(default_factory=dict)
-    words: str = ""
-    bad: bool = False
 
-    def all(self) -> list[tuple[CatalogueBearing, bool]]:
-        """Every bearing and whether it is a person's own; these first, in place of published ones
-        of the same name.
-        """
-        published = [one for name, one in catalogue().items() if name not in self.own]
-        return [(one, True) for one in self.own.values()] + [(one, False) for one in published]
+def search_bearings(text: str) -> dict[str, Any]:
+    """Bearings that a text finds, for the browser; an empty one finds all but designations.
 
-    def find(self, name: str) -> CatalogueBearing:
-        """The bearing of a name or a designation; ValueError where there is none."""
-        return self.own.get(name) or catalogue().get(name) or read_designation(name).entry
+    Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
+    dimensions, and "estimated" or nothing. `words` say why there are none.
+    """
+    text = " ".join(text[:LONGEST_SEARCH].split())
+    entries = list(islice(_found(text), MOST_FOUND))
+    words = "" if entries else _no_match(text)
+    return {"text": text, "entries": entries, "words": words}
 
-    def take(self, file: str, found: dict[str, CatalogueBearing] | str) -> None:
-        """Add what `read_table` made of a file."""
-        shown = " ".join(file.split())[:40] or "The file"
-        if isinstance(found, str):
-            self.words, self.bad = f"{shown}: {found}", True
-            return
-        self.own |= found
-        count = len(found)
-        self.words = f"{shown}: {count} {'bearing' if count == 1 else 'bearings'} added"
-        self.bad = False
 
-    def search(self, text: str) -> dict[str, Any]:
-        """Bearings that a text finds, for the browser; an empty one finds all but designations.
-
-        Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
-        dimensions, and "yours" or "estimated". `words` say why there are none.
-        """
-        text = " ".join(text[:LONGEST_SEARCH].split())
-        entries = list(islice(self._found(text), MOST_FOUND))
-        words = "" if entries else _no_match(text)
-        return {"text": text, "entries": entries, "words": words}
-
-    def _found(self, text: str) -> Iterator[dict[str, Any]]:
-        by_number = _designation(text)
-        wanted = text.lower() if by_number is None else by_number.basic.lower()
-        length = _length(text)
-        ranked: list[tuple[int, dict[str, Any]]] = []
-        for name, label in preset_labels.items():
-            rank = _rank(wanted, label, preset_notes[name])
-            if length and _has_length(presets[name].bearing, length):
-                rank = 0
-            ranked.append((rank, _entry({"preset": name}, label, "", "")))
-        for one, own in self.all():
-            words = entry_words(one)
-            rank = _rank(wanted, one.name, f"{words} {one.note}")
-            if length and _has_length(one.bearing, length):
-                rank = 0
-            mark = "yours" if own else ""
-            ranked.append((rank, _entry({"bearing": one.name}, one.name, words, mark)))
-        best = [entry for rank, entry in ranked if rank == 0]
-        # the first one is taken by Enter: the bearing of that very name, then the designation,
-        # which may be the first word of longer names; what only has its number comes last
-        named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
-        named.sort(key=lambda one: one["label"].lower() != text.lower())
-        exact = sum(one["label"].lower() == text.lower() for one in named)
-        yield from named[:exact]
-        if by_number is not None:
-            yield _estimated(by_number)
-        yield from named[exact:]
-        yield from (one for one in best if one not in named)
-        if by_number is None and len(text) > 1:
-            for basic in islice(designations(text), MOST_NUMBERS):
-                yield _estimated(read_designation(basic))
-        yield from (entry for rank, entry in ranked if rank == 1)
+def _found(text: str) -> Iterator[dict[str, Any]]:
+    by_number = _designation(text)
+    wanted = text.lower() if by_number is None else by_number.basic.lower()
+    length = _length(text)
+    ranked: list[tuple[int, dict[str, Any]]] = []
+    for name, label in preset_labels.items():
+        rank = _rank(wanted, label, preset_notes[name])
+        if length and _has_length(presets[name].bearing, length):
+            rank = 0
+        ranked.append((rank, _entry({"preset": name}, label, "", "")))
+    for one in catalogue().values():
+        words = entry_words(one)
+        rank = _rank(wanted, one.name, f"{words} {one.note}")
+        if length and _has_length(one.bearing, length):
+            rank = 0
+        ranked.append((rank, _entry({"bearing": one.name}, one.name, words, "")))
+    best = [entry for rank, entry in ranked if rank == 0]
+    # the first one is taken by Enter: the bearing of that very name, then the designation,
+    # which may be the first word of longer names; what only has its number comes last
+    named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
+    named.sort(key=lambda one: one["label"].lower() != text.lower())
+    exact = sum(one["label"].lower() == text.lower() for one in named)
+    yield from named[:exact]
+    if by_number is not None:
+        yield _estimated(by_number)
+    yield from named[exact:]
+    yield from (one for one in best if one not in named)
+    if by_number is None and len(text) > 1:
+        for basic in islice(designations(text), MOST_NUMBERS):
+            yield _estimated(read_designation(basic))
+    yield from (entry for rank, entry in ranked if rank == 1)
 
 
 def _no_match(text: str) -> str:
@@ -175,16 +144,6 @@ def _estimated(one: Designation) -> dict[str, Any]:
     return _entry({"bearing": one.name}, one.name, entry_words(one.entry), "estimated")
 
 
-def read_table(text: str) -> dict[str, CatalogueBearing] | str:
-    """The bearings of a table, or sentences that say what is wrong. For any thread."""
-    if len(text) > MOST_BYTES:
-        return f"it is longer than {MOST_BYTES // 1000} kB."
-    try:
-        return read_catalogue(text)
-    except ValueError as error:
-        return f"{words_of(error)}."
-
-
 def entry_words(one: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
     bearing = one.bearing
@@ -203,8 +162,7 @@ def entry_words(one: CatalogueBearing) -> str:
     return words
 
 
-def origin_words(one: CatalogueBearing, own: bool) -> str:
+def origin_words(one: CatalogueBearing) -> str:
     """Sources of the numbers of a bearing, and assumptions."""
-    source = one.note or ("From a table of your own." if own else "")
     assumed = f" Assumed here: {', '.join(one.assumed)}." if one.assumed else ""
-    return f"{source}{assumed}".strip()
+    return f"{one.note}{assumed}".strip()

@@ -7,11 +7,11 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import panel as pn
 
@@ -32,8 +32,6 @@ from bearing_explorer.kit.widgets.status import StatusLine, Tabs
 from bearingcore.statics import summary
 
 log = logging.getLogger(__name__)
-
-Found = TypeVar("Found")
 
 #: slow views are drawn together with the others while a slider moves, or all would be painted
 #: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
@@ -125,7 +123,7 @@ class Session:
         self._limit_rows: list[dict[str, Any]] = []
         self._pictures = 0  # since the limits were looked at
         self._doc = pn.state.curdoc
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._compiling: asyncio.Task[None] | None = None
         self._loop: DrawingLoop[Content, Picture] = DrawingLoop(
             self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
@@ -173,14 +171,15 @@ class Session:
         send_at_once(self._doc)
         self.draw()
         if compiling.left():
-            self._keep(self._draw_when_compiled())
+            drawing = self._draw_when_compiled()
+            self._compiling = asyncio.get_running_loop().create_task(drawing)
 
     def stop(self) -> None:
         """The session is over: nothing is begun any longer, and what waits for its turn is not."""
         self._loop.stop()
         self.jobs.stop()
-        for task in self._tasks:
-            task.cancel()
+        if self._compiling is not None:
+            self._compiling.cancel()
         for half in self._each_half():
             half.stop()
         for view in self.views_made():
@@ -202,28 +201,6 @@ class Session:
             await one_message(self._doc, show)
             self._refined = ()
             self.draw()
-
-    def in_background(self, compute: Callable[[], Found], take: Callable[[Found], None]) -> None:
-        """Compute something off the event loop, then take it."""
-
-        async def work() -> None:
-            found = await in_thread(compute)
-            await one_message(self._doc, lambda: take(found))
-
-        self._keep(work())
-
-    def _keep(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
-        """Run a task in the background, with a reference: asyncio keeps none."""
-
-        def done(task: asyncio.Task[None]) -> None:
-            self._tasks.discard(task)
-            if not task.cancelled() and (error := task.exception()):
-                log.error("work in the background failed", exc_info=error)
-
-        task = asyncio.get_running_loop().create_task(work)
-        self._tasks.add(task)
-        task.add_done_callback(done)
-        return task
 
     def show_tab(self, message: Any) -> None:
         """Open the tab that a message names."""

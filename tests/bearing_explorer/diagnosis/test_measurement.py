@@ -29,6 +29,7 @@ from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.machine_form import kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
+from bearing_explorer.kit.compute.jobs import READING
 from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, presets
@@ -49,7 +50,7 @@ def csv_of(columns: np.ndarray, heading: str = "", rate: float = 10_000.0) -> by
 
 
 async def settled(measurement: Measurement) -> None:
-    while measurement._tasks:
+    while measurement._jobs.busy(READING):
         await asyncio.sleep(0.005)
 
 
@@ -474,7 +475,7 @@ def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
     assert found.left_out == ()
 
 
-def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
+def test_the_files_of_a_zip_are_a_series():
     parts = {
         f"run{k}_csv": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
         for k in range(6)
@@ -483,21 +484,6 @@ def test_the_files_of_a_zip_are_a_series_and_parts_of_one_signal_are_joined():
     assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
     assert len(made.series.left_out) == 1
     assert made.measured.recording.name == "rig.zip/run5.csv"
-    assert made.state.parts == 6
-
-    answer(made, columns="time s;y;x")
-
-    async def join() -> None:
-        made.join_parts()
-        await settled(made)
-
-    run(join())
-    np.testing.assert_allclose(
-        made.measured.recording.acceleration[:, ::-1] / 9.80665, NOISE[::-1][:1800], rtol=1e-4
-    )
-    assert "6 files are joined" in made.state.remarks
-    assert len(made.measured.origin.parts) == 6
-    assert len(made.series.tables) == 1
 
 
 def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
@@ -584,7 +570,7 @@ def test_what_is_not_offered_changes_nothing():
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words
     assert made.measured is signal()
-    assert not made._tasks
+    assert not made._jobs.busy()
 
 
 def test_names_of_files_are_shown_in_short_and_without_tricks():

@@ -5,7 +5,7 @@ import math
 import pytest
 from bearing_explorer.explorer.state import address
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.kit.bearing_list import BearingTable
+from bearing_explorer.kit.bearing_list import search_bearings
 
 from bearingcore import catalogue, equilibrium, limits, scene_of
 
@@ -21,7 +21,7 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
 
 
 def found(text: str) -> list[tuple[str, str]]:
-    return [(one["label"], one["mark"]) for one in BearingTable().search(text)["entries"]]
+    return [(one["label"], one["mark"]) for one in search_bearings(text)["entries"]]
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
 
 
 def test_a_search_without_a_match_says_what_is_known() -> None:
-    answer = BearingTable().search("22208")
+    answer = search_bearings("22208")
     assert answer["entries"] == []
     assert "60, 62, 63" in answer["words"]
     assert "60, 62, 63" in SceneEditor("6205").choose({"bearing": "<script>"})["bearing"]
@@ -57,7 +57,7 @@ def test_a_search_without_a_match_says_what_is_known() -> None:
 
 def test_every_entry_can_be_taken() -> None:
     for text in ("", "62", "nj 3", "12", "73", "323"):
-        for one in BearingTable().search(text)["entries"]:
+        for one in search_bearings(text)["entries"]:
             assert SceneEditor("fan-rig").choose(one["choose"]) == {}
 
 
@@ -133,7 +133,7 @@ def test_a_pair_in_tandem_gets_the_axial_load_that_it_needs() -> None:
 
 def test_a_suffix_that_is_not_known_says_what_may_be_written() -> None:
     for name, words in (("2x7208", "DB (back to back)"), ("6308 E", "reinforced")):
-        answer = BearingTable().search(name)
+        answer = search_bearings(name)
         assert answer["entries"] == []
         assert words in answer["words"]
         assert words in SceneEditor("6205").choose({"bearing": name})["bearing"]

@@ -3,15 +3,17 @@
 import io
 import struct
 import sys
+import time
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-from bearingcore.files import child
+from bearingcore.files import child, libraries
 from bearingcore.files.child import read_file
 from bearingcore.files.table import read_table
+from tests.helpers.saved import zipped
 
 TIME, MEMORY = r"read within \d+ s", r"read in \d+ MB"
 
@@ -104,3 +106,23 @@ def test_whatever_the_process_does_is_survived(program, allowed, monkeypatch, tm
         monkeypatch.setattr(child, "WALL_SECONDS", 1.0)
     with pytest.raises(ValueError, match=f"file is 'a.csv'.*{allowed}"):
         read_file("a.csv", b"1,2\n" * 10**6)
+
+
+def test_a_process_ends_once_its_answer_is_not_wanted(monkeypatch, tmp_path) -> None:
+    script = Path(tmp_path) / "program.py"
+    script.write_text("while True: pass")
+    monkeypatch.setattr(child, "_PROGRAM", script)
+    asked: list[bool] = []
+    began = time.monotonic()
+    with pytest.raises(ValueError, match="allowed"):
+        read_file("a.csv", b"1,2\n", give_up=lambda: asked.append(True) or len(asked) > 2)
+    assert time.monotonic() - began < child.WALL_SECONDS / 2
+    assert len(asked) == 3
+
+
+def test_a_zip_is_bounded_as_a_whole(monkeypatch) -> None:
+    content = zipped(a_csv=b"1\n" * 600, b_csv=b"1\n" * 600)
+    monkeypatch.setattr(libraries, "MOST_TOGETHER", 2_000)
+    with pytest.raises(ValueError, match="a zip of at most"):
+        libraries.unzipped("rig.zip", content)
+    assert libraries.unzipped("rig.zip/a.csv", content)[0] == ["a.csv"]

@@ -229,13 +229,7 @@ def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
 
 
 def _table_lines(origin: Origin) -> list[str]:
-    """Lines that read the file, or join the files, of a recording."""
-    if origin.parts:
-        names = code_of(list(origin.parts))
-        return [
-            f"parts = [read_table(name, Path(name).read_bytes()) for name in {names}]",
-            "table = join_tables(parts)",
-        ]
+    """Lines that read the file of a recording."""
     name, path = code_of(origin.file), code_of(path_in(origin.file))
     return [f"table = read_table({name}, Path({path}).read_bytes())"]
 

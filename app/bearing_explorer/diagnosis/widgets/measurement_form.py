@@ -44,7 +44,7 @@ LABELS = {
 FORMATS = (
     "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, Excel "
     f"(.xlsx), or a zip of some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. "
-    "Several, or a folder, become a trend; parts of one signal can be joined."
+    "Several, or a folder, become a trend."
 )
 _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 
@@ -71,14 +71,13 @@ class MeasurementForm(pn.Column):
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
         self._load = button("", lambda: self._measurement.take_load(), visible=False)
-        self._join = button("", lambda: self._measurement.join_parts(), visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
         self._cancel = button(
             "Cancel", lambda: self._measurement.cancel(), visible=False, align="start"
         )
-        self._in_short = row(self._line, self._join, self._change, visible=False)
+        self._in_short = row(self._line, self._change, visible=False)
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
             self._way("No file at hand?", self._simulation(), "9 1 420px"),
@@ -152,9 +151,6 @@ class MeasurementForm(pn.Column):
         self._load.param.update(
             label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
             visible=bool(load and self._measurement.change_scene),
-        )
-        self._join.param.update(
-            label=f"Join the {state.parts} files to one signal", visible=state.parts > 1
         )
         self._shown = state
 

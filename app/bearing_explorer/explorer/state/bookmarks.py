@@ -36,7 +36,7 @@ from bearingcore import Scene
 from bearingcore.common import LARGEST_TEXT
 
 _COLORS = ("green", "pink", "brown", "light blue")  # of compared curves, in their order
-_STEPS = ("set", "typed", "second", "choose", "reset", "floor")
+_STEPS = ("set", "typed", "second", "choose", "reset")
 
 
 @dataclass(frozen=True)

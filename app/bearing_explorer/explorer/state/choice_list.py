@@ -184,10 +184,8 @@ FLOOR = Choice(
         ),
         Option(
             "measured",
-            "From a file",
-            "A text file of two columns: angle around the race in degrees, depth in "
-            "micrometres. Length, depth and centre come from the file; their sliders stretch "
-            "it.",
+            "Measured",
+            "Measured points, which come with a scene's link or file; the sliders stretch them.",
         ),
     ),
     not_in_lessons=frozenset({"measured"}),

@@ -40,7 +40,7 @@ from bearing_explorer.explorer.state.field_values import (
     second_units,
     values_of,
 )
-from bearing_explorer.kit.bearing_list import BearingTable, origin_words
+from bearing_explorer.kit.bearing_list import find_bearing, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (
     DOF_NAMES,
@@ -51,7 +51,6 @@ from bearingcore import (
     Scene,
     preset_notes,
     presets,
-    read_floor,
     scene_of,
 )
 from bearingcore.bearings import (
@@ -71,15 +70,12 @@ LONGEST_NAME = 60
 """Characters of the name of a bearing."""
 ESTIMATED = "inside estimated"
 """Behind the name of a bearing whose inside dimensions are estimates."""
-LARGEST_FILE = 1_000_000
-"""Characters of a file with a measured floor."""
 
 _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
 """Parts of a scene that come with a bearing out of a list, and their names in a sentence."""
 _SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
 """No defect yet: a longer one lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
-_NO_FILE = "No file yet: the floor is flat."
 _OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
 
 Refused = dict[str, str]
@@ -93,8 +89,6 @@ class FloorChoice:
     kind: str = "flat"
     rough: RoughFloor = FIRST_ROUGHNESS
     measured: MeasuredFloor | None = None
-    words: str = _NO_FILE
-    bad: bool = False
 
     @property
     def floor(self) -> RoughFloor | MeasuredFloor | None:
@@ -136,8 +130,6 @@ class SceneEditor:
     """The state of the controls, and the scene that they stand for."""
 
     preset: str
-    listed: BearingTable = field(default_factory=BearingTable)
-    """Bearings to choose from."""
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Range] = field(init=False)
@@ -457,8 +449,8 @@ class SceneEditor:
         )
 
     def _take_listed(self, name: str) -> None:
-        found = self.listed.find(name)
-        origin = origin_words(found, found.name in self.listed.own)
+        found = find_bearing(name)
+        origin = origin_words(found)
         self.take_bearing(found.bearing, found.name, origin)
         if found.assumed:  # seen where it is chosen; sources are behind the question mark
             self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
@@ -474,6 +466,11 @@ class SceneEditor:
     def _take_floor_kind(self, kind: str) -> None:
         floors = self.floors[self.selected]
         new = dataclasses.replace(floors, kind=kind)
+        if kind == "measured" and floors.measured is None:
+            raise ValueError(
+                "A measured floor comes with a scene's link or file: `read_floor` makes it in "
+                "Python."
+            )
         self._change(floor=new.floor)
         self.floors[self.selected] = new
 
@@ -542,38 +539,6 @@ class SceneEditor:
         bearing = self.scene.bearing
         self._take(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
 
-    # A floor from a file
-
-    def take_floor(
-        self, name: str, found: tuple[MeasuredFloor, float, float, float] | None, wrong: str
-    ) -> None:
-        """Give the selected defect a measured floor, as `read_file` found it.
-
-        What is wrong with it stands in the words of the floor.
-        """
-        shown = " ".join(name.split())[:40] or "The file"
-        stays = math.degrees(self.defects[self.selected].center) % 360.0
-        change: dict[str, Any]
-        try:
-            if found is None:
-                raise ValueError(wrong)
-            floor, extent, depth, center = found
-            self._change(floor=floor, extent=extent, depth=depth)
-        except ValueError as error:
-            change = {"words": f"{shown}: {sentence_of(error)}", "bad": True}
-        else:
-            of_file = math.degrees(center) % 360.0
-            words = f"{shown}: {len(floor.places)} points"
-            if abs(math.remainder(of_file - stays, 360.0)) > 0.05:
-                words += (
-                    f". Its middle is at {of_file:.4g}° in the file; the defect stays at "
-                    f"{stays:.4g}°, where Centre moves it"
-                )
-            change = {"measured": floor, "words": words, "bad": False}
-        self.floors[self.selected] = dataclasses.replace(
-            self.floors[self.selected], kind="measured", **change
-        )
-
     # State for the browser
 
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
@@ -607,7 +572,6 @@ class SceneEditor:
             "choices": {
                 **chosen_of(scene, self.selected),
                 "preset": self.preset,
-                "floor": floor.kind,  # of a file that could not be read there is no floor
             },
             "defects": {
                 "names": [
@@ -616,25 +580,9 @@ class SceneEditor:
                 "selected": self.selected,
                 "most": MOST_DEFECTS,
             },
-            "floor": {
-                "shown": floor.kind == "measured",
-                "words": floor.words,
-                "bad": floor.bad,
-            },
             "hidden": hidden,
             "effects": self.effects,
-            "table": {"words": self.listed.words, "bad": self.listed.bad},
         }
-
-
-def read_file(text: str) -> tuple[tuple[MeasuredFloor, float, float, float] | None, str]:
-    """The floor of a file by `read_floor`, or None and a sentence. For any thread."""
-    if len(text) > LARGEST_FILE:
-        return None, f"it is longer than {LARGEST_FILE:,} characters.".replace(",", " ")
-    try:
-        return read_floor(text), ""
-    except ValueError as error:
-        return None, f"{error}."
 
 
 def _with_rows(
@@ -671,8 +619,7 @@ def _choice_of(defect: Defect) -> FloorChoice:
     if isinstance(defect.floor, RoughFloor):
         return FloorChoice("rough", defect.floor)
     if isinstance(defect.floor, MeasuredFloor):
-        points = f"{len(defect.floor.places)} points"
-        return FloorChoice("measured", measured=defect.floor, words=points)
+        return FloorChoice("measured", measured=defect.floor)
     return FloorChoice()
 
 

@@ -22,7 +22,6 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import Bearing, Scene
-from bearingcore.bearings import CATALOGUE_COLUMNS, NEEDED_COLUMNS
 from bearingcore.common import with_deviation
 from bearingcore.fields import FIELD_OF
 
@@ -66,14 +65,7 @@ class BearingEditor(ControlView):
     picture = True
 
     def build(self, packed: PackedSource) -> Any:
-        table = {
-            "file": "bearings.csv",
-            "template": ";".join(CATALOGUE_COLUMNS)
-            + "\n"
-            + "6205, pump 3;9;7.94;39.04;;0.52;;0.53;0;10;14;\n",
-            "needed": ", ".join(NEEDED_COLUMNS),
-        }
-        spec = {**spec_of(BEARING_GROUPS, KIND, NUMBERS, MATERIAL), "table": table}
+        spec = spec_of(BEARING_GROUPS, KIND, NUMBERS, MATERIAL)
         self.rows = BearingRows(self.forward, spec=spec)
         return self.rows
 

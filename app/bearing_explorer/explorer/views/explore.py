@@ -33,7 +33,7 @@ from bearing_explorer.explorer.state.value_range import (
     value_of,
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import LONGEST, Jobs, JobState, Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
@@ -78,7 +78,8 @@ class ExplorePlane(SceneJobView[Plane]):
     start = "Compute the map"
     noun = "map"
     at_once = True
-    bounds = f"Coarse at once, finer while you wait: at most {LONGEST / 60.0:.0f} minutes a map."
+    longest = COMPUTATION.longest / 60.0
+    bounds = f"Coarse at once, finer while you wait: at most {longest:.0f} minutes a map."
 
     _request: MapRequest | None = None
     _question: Question | None = None

@@ -27,7 +27,7 @@ from bearing_explorer.explorer.state.value_range import (
     value_of,
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.kit.plots.heat_map import GridImage, Side, bright_image, ends
@@ -248,7 +248,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         super().say(results, sentence)
         if results is None or results.moving or self._begun or self._jobs is None:
             return
-        if self.found is None and not self._jobs.busy:
+        if self.found is None and not self._jobs.busy(COMPUTATION):
             self._begin_coarse()
 
     def _begin_coarse(self) -> None:

@@ -7,15 +7,12 @@ import logging
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar
 
-from bearing_explorer.kit.compute.executors import LoopLocks, in_thread
+from bearing_explorer.kit.compute.executors import FINE, in_thread
 
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
 """[s] without newer inputs after the last picture after which a slider counts as at rest."""
-
-_ONE_BY_ONE = LoopLocks()
-"""Fine pictures of all sessions wait for one another: their threads hold up moving sliders."""
 
 Inputs = TypeVar("Inputs")
 Fine = TypeVar("Fine")
@@ -125,26 +122,19 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     async def _draw_finely(self, inputs: Inputs) -> None:
         """Unless newer inputs come first: they do not wait for it."""
-        fine = asyncio.ensure_future(self._fine(inputs))
+        fine = asyncio.ensure_future(
+            in_thread(self._refine, inputs, lambda: self.waiting or self._stopped, pool=FINE)
+        )
         newer = asyncio.ensure_future(self._submitted.wait())
         try:
             await asyncio.wait({fine, newer}, return_when=asyncio.FIRST_COMPLETED)
-            if newer.done():
-                fine.add_done_callback(lambda done: done.cancelled() or done.exception())
-                return
-            if (picture := fine.result()) is not None:
+            if not newer.done() and (picture := fine.result()) is not None:
                 await self._draw_fine(inputs, picture)
         except Exception as error:
             await self._report(error)
         finally:
             newer.cancel()
-
-    async def _fine(self, inputs: Inputs) -> Fine | None:
-        """The fine picture, when those of other sessions are done; None where it is not wanted."""
-        async with _ONE_BY_ONE.here():
-            if self._newest or self._stopped:
-                return None
-            return await in_thread(self._refine, inputs, lambda: self.waiting)
+            fine.cancel()
 
     async def _report(self, error: Exception) -> None:
         log.error("drawing a scene failed", exc_info=error)

@@ -1,15 +1,17 @@
 """The threads that compute, shared by all sessions of a process.
 
-Kernels release the interpreter lock, so threads do run at the same time. Three pools, so that what
-takes long never delays what follows a slider.
+Kernels release the interpreter lock, so threads do run at the same time. Several pools, so that
+what takes long never delays what follows a slider: see `jobs` for what runs in which.
 """
 
 from __future__ import annotations
 
 import asyncio
+import ctypes
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor as Pool
+from contextlib import suppress
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
@@ -19,11 +21,28 @@ _CORES = os.cpu_count() or 2
 
 POOL_SIZE = 2 * _CORES
 PICTURES = Pool(POOL_SIZE, "compute")
-"""Pictures, and what a message of the browser needs. More threads than processors, so that a quick
-picture need not wait for a motion."""
+"""Pictures that follow a slider. More threads than processors, so that a quick one need not wait
+for a motion."""
+FINE = Pool(1, "fine")
+"""Fine pictures of all sessions, one by one: their threads hold up moving sliders."""
+ANSWERS = Pool(2, "answer")
+"""Short work that a message asks for: a search, a link, a report."""
 JOBS = Pool(max(2, _CORES // 2), "job")
 """Long computations that a person has started: maps, sweeps and diagnoses."""
-FILES = Pool(2, "file")
+
+
+def return_large_arrays() -> None:
+    """Have memory of 4 MB and more go back to the system as soon as it is free, with glibc.
+
+    Else twice what four files of 24 MB need stays with the process: 1040 MB, 470 with this.
+    """
+    with suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, 4 * 2**20)
+
+
+_MMAP_THRESHOLD = -3  # M_MMAP_THRESHOLD of malloc.h
+
+FILES = Pool(2, "file", initializer=return_large_arrays)
 """Measured signals, read from a file or simulated. Each file is read by a process of its own, with
 half a gigabyte at most: two at a time are what a small server can bear."""
 
@@ -35,18 +54,8 @@ async def in_thread(
     return await asyncio.get_running_loop().run_in_executor(pool, function, *args)
 
 
-class LoopLocks:
-    """A lock for each event loop: an asyncio lock belongs to one."""
-
-    def __init__(self) -> None:
-        self._locks = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
-
-    def here(self) -> asyncio.Lock:
-        """The lock of the running loop."""
-        return self._locks.setdefault(asyncio.get_running_loop(), asyncio.Lock())
-
-
-_TURNS = LoopLocks()
+_TURNS = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
+"""A lock for each event loop: an asyncio lock belongs to one."""
 
 
 async def in_turn(function: Callable[..., Result], *args: object) -> Result:
@@ -55,6 +64,6 @@ async def in_turn(function: Callable[..., Result], *args: object) -> Result:
     Between two of them what browsers have sent is taken: of the positions of a slider only the
     newest is drawn. For 30 people that is half as many more of their changes a second.
     """
-    async with _TURNS.here():
+    async with _TURNS.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
         await asyncio.sleep(0.0)
         return function(*args)

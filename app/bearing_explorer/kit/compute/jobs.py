@@ -1,11 +1,16 @@
-"""Long computations of a session, in the background: one at a time, with progress and cancel.
+"""Everything that a session computes in the background: one type of work, said in one place.
 
-The work runs in a thread and never touches the page. It reports its progress, checks whether to go
-on, and shows what it has found so far; all of that is taken up on the event loop of the session,
-a few times a second. A new job replaces the one before, and the end of the session cancels.
+A job computes in a thread and never touches the page. It reports its progress, checks whether to go
+on, and shows what it has found; all of that is taken up on the event loop of the session. Its kind
+says in which pool it runs and what it overtakes: of each kind a session has one job at work and at
+most one that waits. A newer job takes the place of the one that waits, and asks the one at work to
+end. So no message, however often it is sent, starts more than one job at a time, and the end of the
+session ends all of them.
 
-The threads are not those that draw: however many people compute maps, sliders stay lively. Where
-more people compute than there are threads, jobs wait for their turn.
+Each session has at most one entry of a kind in the queue of a pool, so that sessions take turns. A
+job of many steps gives its turn away between two of them.
+
+What follows a slider is no job: `drawing_loop` draws it, by the same rule.
 """
 
 from __future__ import annotations
@@ -15,17 +20,42 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Generator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
-from bearing_explorer.kit.compute.executors import JOBS
+from bearing_explorer.kit.compute.executors import ANSWERS, FILES, JOBS, Pool
 from bearing_explorer.kit.sentences import sentence_of
 
 log = logging.getLogger(__name__)
 
-LONGEST = 300.0
-"""[s] after which a job is ended, with what it has found until then."""
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of job, of which the newest of a session wins: its pool, and how long it may work.
+
+    `longest` [s]: a job that works for longer is asked to end, with what it has found.
+    """
+
+    name: str
+    pool: Pool
+    longest: float = 300.0
+
+
+SEARCH = Kind("search", ANSWERS)
+"""A list is searched while a person types."""
+OPENING = Kind("opening", ANSWERS)
+"""A link or a kept scene is read."""
+REPORT = Kind("report", ANSWERS)
+"""A report is written."""
+READING = Kind("reading", FILES, longest=60.0)
+"""A file is read with all that is in it, an answer about it is taken, or a signal is simulated."""
+COMPUTATION = Kind("computation", JOBS)
+"""A map, a sweep or a trend that a person has started."""
+PART, EXTENT, LISTED = (Kind(name, JOBS) for name in ("part", "extent", "listed"))
+"""Analyses of a signal: the damaged part, the extent of its spall, other bearings."""
 
 _TICK = 0.12  # [s] between two looks at a job
 _ASIDE = 1.0  # [s] that a sentence is shown at least, so that it can be read and read out
@@ -50,12 +80,13 @@ class JobState:
 class Work:
     """The session as a job sees it from its thread; can be passed to the core."""
 
-    def __init__(self, longest: float = LONGEST) -> None:
+    def __init__(self, longest: float = COMPUTATION.longest) -> None:
         self._stop = threading.Event()
         self._lock = threading.Lock()
         self._found: list[Any] = []
         self._longest = longest
         self.part = 0.0
+        #: when it began, as if it had never waited between two steps
         self.started = math.nan
         self.timed_out = False
 
@@ -104,7 +135,10 @@ class Work:
 
 
 Change = Callable[[], None]
+Compute = Callable[[Work], str | Generator[None, None, str]]
+"""The computing of a job: it returns a sentence that sums up, and may yield between its steps."""
 
+_WAITS = JobState("waiting", 0.0, "Waiting for another computation to end.")
 _NEVER_BEGAN = JobState("stopped", 0.0, "Cancelled before it began.")
 _FAILED = JobState("failed", 0.0, "This could not be computed.")
 
@@ -120,26 +154,26 @@ class Jobs:
 
     def __init__(self, assign: Callable[[Change], Awaitable[None]]) -> None:
         self._assign = assign
-        self._job: _Job | None = None
+        self._lanes: dict[Kind, _Lane] = {}
         self._ended = False
 
-    @property
-    def busy(self) -> bool:
-        """True while a job runs or waits."""
-        return self._job is not None and not self._job.task.done()
+    def busy(self, kind: Kind | None = None) -> bool:
+        """Whether a job of a kind, or of any kind, runs or waits."""
+        return bool(self._lanes) if kind is None else kind in self._lanes
 
     def start(
         self,
-        work: Callable[[Work], str],
+        compute: Compute,
         take: Callable[[Any], None],
-        report: Callable[[JobState], None],
+        report: Callable[[JobState], None] | None = None,
+        kind: Kind = COMPUTATION,
     ) -> None:
-        """Begin `work` in place of what is at work.
+        """Begin a job in place of those of its kind.
 
         Parameters
         ----------
-        work
-            computes, in a thread; returns a sentence that sums up. A ValueError is a sentence too.
+        compute
+            computes, in a thread. A ValueError that it raises is a sentence for the page.
         take
             gets each result that is shown, on the event loop.
         report
@@ -147,116 +181,179 @@ class Jobs:
         """
         if self._ended:
             return
-        before = self._job
-        self._job = job = _Job(work, take, report)
-        job.task = asyncio.get_running_loop().create_task(self._run(job, before))
-        if before is not None:
-            before.work.stop()
+        job, lane = _Job(compute, take, report, kind), self._lanes.get(kind)
+        if lane is None:
+            lane = self._lanes[kind] = _Lane(job)
+            lane.task = asyncio.get_running_loop().create_task(self._run(kind, lane))
+            return
+        overtaken, lane.waiting = lane.waiting, job
+        if overtaken is not None and overtaken.report not in (None, report):
+            overtaken.report(_NEVER_BEGAN)
+        if lane.at_work is not None:
+            lane.at_work.overtaken = True
+            lane.at_work.work.stop()
 
-    def cancel(self) -> None:
-        """End the job at work; what it has found stays."""
-        if self._job is not None:
-            self._job.work.stop()
+    def answer(
+        self, kind: Kind, compute: Callable[[], Result], take: Callable[[Result], None]
+    ) -> None:
+        """Begin a job of one step with one result."""
+
+        def show(work: Work) -> str:
+            work.show(compute())
+            return ""
+
+        self.start(show, take, kind=kind)
+
+    def cancel(self, kind: Kind = COMPUTATION) -> None:
+        """End the jobs of a kind; what the one at work has found stays."""
+        if (lane := self._lanes.get(kind)) is not None:
+            for job in filter(None, (lane.at_work, lane.waiting)):
+                job.work.stop()
+
+    def drop(self, kind: Kind) -> None:
+        """End the jobs of a kind, and take nothing of what they have found."""
+        if (lane := self._lanes.get(kind)) is not None:
+            lane.waiting = None
+            if lane.at_work is not None:
+                lane.at_work.dropped = True
+                lane.at_work.work.stop()
 
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self.cancel()
+        for kind in self._lanes:
+            self.drop(kind)
 
-    async def _run(self, job: _Job, before: _Job | None) -> None:
-        try:
-            await self._follow(job, before)
-        except Exception:  # of what takes results and states; this task has no other listener
-            log.exception("a job could not be followed")
-            job.work.stop()
-            await self._report(job, _FAILED)
+    async def _run(self, kind: Kind, lane: _Lane) -> None:
+        while (job := lane.waiting) is not None:
+            lane.at_work, lane.waiting = job, None
+            try:
+                await self._follow(lane, job)
+            except Exception:  # of what takes results and states; this task has no other listener
+                log.exception("a job could not be followed")
+                job.work.stop()
+                job.take = lambda _: None
+                await self._report(lane, job, _FAILED)
+        del self._lanes[kind]
 
-    async def _follow(self, job: _Job, before: _Job | None) -> None:
-        if before is not None:
-            while not before.task.done():
-                await self._look(job)
-                await asyncio.wait({before.task}, timeout=_TICK)
-        if job.work.stopped:
-            await self._report(job, _NEVER_BEGAN)
-            return
-        waiting = JOBS.submit(job.run)
-        future = asyncio.wrap_future(waiting)
-        while not future.done():
-            await self._look(job)
-            await asyncio.wait({future}, timeout=_TICK)
-            if job.work.stopped and waiting.cancel():  # its turn had not come yet
-                await self._report(job, _NEVER_BEGAN)
+    async def _follow(self, lane: _Lane, job: _Job) -> None:
+        ended = False
+        while not ended:
+            if job.work.stopped:  # before it began, or between two steps
+                await self._report(lane, job, _NEVER_BEGAN)
                 return
-        if not self._ended:
-            await self._close(job, future)
+            queued = job.kind.pool.submit(job.step)
+            future = asyncio.wrap_future(queued)
+            while not future.done():
+                await self._look(job)
+                if lane.waiting is not None:
+                    await self._look(lane.waiting)
+                await asyncio.wait({future}, timeout=_TICK)
+                if job.work.stopped and queued.cancel():  # its turn had not come yet
+                    break
+            ended = not queued.cancelled() and (future.exception() or future.result()) is not None
+        await self._close(lane, job, future.exception())
 
     async def _look(self, job: _Job) -> None:
         """Take up what a job reports."""
+        if job.report is None or job.overtaken or job.dropped:
+            return
         state = job.state()
-        if not (self._ended or (not job.work.has_found and state == job.reported)):
+        if job.work.has_found or state != job.reported:
             job.reported = state
-            if job is self._job:
-                await self._take_up(job, state)
+            await self._take_up(job, state)
 
     async def _take_up(self, job: _Job, state: JobState) -> None:
         found = job.work.taken()
+        if not found and job.report is None:
+            return
 
         def change() -> None:
             for result in found:
                 job.take(result)
-            job.report(state)
+            if job.report is not None:
+                job.report(state)
 
         await self._assign(change)
 
-    async def _close(self, job: _Job, future: asyncio.Future[str]) -> None:
+    async def _close(self, lane: _Lane, job: _Job, error: BaseException | None) -> None:
         part = job.work.part
-        error = future.exception()
         if isinstance(error, ValueError):
             state = JobState("failed", part, sentence_of(error))
         elif error is not None:
             log.error("a job failed", exc_info=error)
             state = _FAILED
-        elif job is not self._job:
+        elif job.overtaken:
             state = JobState("stopped", part, "Cancelled: replaced by a newer request.")
         elif job.work.stopped:
-            state = JobState("stopped", part, f"Cancelled. {future.result()}")
+            state = JobState("stopped", part, f"Cancelled. {job.words}")
         elif job.work.timed_out:
-            state = JobState("stopped", part, f"Stopped after {LONGEST:.0f} s. {future.result()}")
+            after = f"Stopped after {job.kind.longest:.0f} s."
+            state = JobState("stopped", part, f"{after} {job.words}")
         else:
-            state = JobState("done", 1.0, future.result())
-        await self._report(job, state)
+            state = JobState("done", 1.0, job.words)
+        await self._report(lane, job, state)
 
-    async def _report(self, job: _Job, state: JobState) -> None:
-        """Report the end of a job, unless its view works on a newer one."""
-        newer = self._job
-        if self._ended or (newer is not None and newer is not job and newer.report == job.report):
-            return
-        await self._take_up(job, state)
+    async def _report(self, lane: _Lane, job: _Job, state: JobState) -> None:
+        """Report the end of a job, unless it is dropped or its view waits for a newer one."""
+        newer = lane.waiting
+        if not (job.dropped or (newer is not None and newer.report == job.report)):
+            await self._take_up(job, state)
+
+
+class _Lane:
+    """The jobs of a kind that a session has: one at work, one that waits, and their task."""
+
+    task: asyncio.Task[None]
+
+    def __init__(self, waiting: _Job) -> None:
+        self.at_work: _Job | None = None
+        self.waiting: _Job | None = waiting
 
 
 class _Job:
     """One job: what it does, whom it reports to, and what it reported last."""
 
-    task: asyncio.Task[None]
-
     def __init__(
         self,
-        compute: Callable[[Work], str],
+        compute: Compute,
         take: Callable[[Any], None],
-        report: Callable[[JobState], None],
+        report: Callable[[JobState], None] | None,
+        kind: Kind,
     ) -> None:
-        self.work = Work()
+        self.work = Work(kind.longest)
         self.take = take
         self.report = report
+        self.kind = kind
+        self.overtaken = self.dropped = False
         self.reported: JobState | None = None
+        #: the sentence that sums up, once it has ended
+        self.words = ""
         self._compute = compute
-        self._words = ""
+        self._steps: Generator[None, None, str] | None = None
+        self._left_at = math.nan
+        self._progress = ""
         self._said_at = -math.inf
 
-    def run(self) -> str:
-        """In a thread."""
-        self.work.started = time.monotonic()
-        return self._compute(self.work)
+    def step(self) -> bool | None:
+        """In a thread: compute until the next step, None, or to the end, True."""
+        now = time.monotonic()
+        if self._steps is None:
+            self.work.started = now
+            begun = self._compute(self.work)
+            if isinstance(begun, str):
+                self.words = begun
+                return True
+            self._steps = begun
+        else:
+            self.work.started += now - self._left_at
+        try:
+            next(self._steps)
+        except StopIteration as end:
+            self.words = end.value
+            return True
+        self._left_at = time.monotonic()
+        return None
 
     def state(self) -> JobState:
         """The progress; its sentence changes seldom enough to be read."""
@@ -264,11 +361,11 @@ class _Job:
         spent = now - self.work.started
         part = math.floor(self.work.part * 200.0) / 200.0
         if math.isnan(spent):
-            return JobState("waiting", 0.0, "Waiting for another computation to end.")
+            return _WAITS
         if now - self._said_at >= _ASIDE:
             self._said_at = now
-            self._words = _progress_words(part, spent)
-        return JobState("busy", part, self._words)
+            self._progress = _progress_words(part, spent)
+        return JobState("busy", part, self._progress)
 
 
 def _progress_words(part: float, spent: float) -> str:

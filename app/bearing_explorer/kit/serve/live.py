@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable
 from contextlib import nullcontext
 from typing import Any
@@ -12,6 +13,9 @@ from panel.io.state import set_curdoc
 from panel.models.esm import DataEvent
 
 from bearing_explorer.kit.serve.fast import dispatch_event, locked, send_changes, sockets_of
+
+_SHORT = 0.01
+"""[s] of work on the event loop after which others only have what they have ready."""
 
 
 def on_loop(doc: Document | None, act: Callable[[], None]) -> None:
@@ -37,14 +41,18 @@ def on_loop(doc: Document | None, act: Callable[[], None]) -> None:
 async def hand_on(session: Any, model: Any, data: Any) -> None:
     """Give a message of the browser to the component that `model` shows.
 
-    Bokeh would list all models of the document to read it, and ask each whether it is meant.
+    Bokeh would list all models of the document to read it, and ask each whether it is meant. Other
+    sessions have their turn after it, for as long as it took: a message may hold many of them.
     """
+    began = time.perf_counter()
 
     async def act(document: Document) -> None:
         with set_curdoc(document):
             dispatch_event(model, DataEvent(model, data))
 
     await locked(session, act)
+    took = time.perf_counter() - began
+    await asyncio.sleep(took if took > _SHORT else 0.0)
 
 
 async def one_message(doc: Document | None, change: Callable[[], None]) -> None:

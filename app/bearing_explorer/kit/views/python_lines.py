@@ -38,7 +38,7 @@ def lines_of(view: View[C], content: C) -> str:
         if view.figures or view.computes:
             body.append("drawn.show()  # in the browser")
     text = "\n".join(body)
-    known = ("Recording", "Scene", "join_tables", "presets", "read_table", "scene_of", "simulate")
+    known = ("Recording", "Scene", "presets", "read_table", "scene_of", "simulate")
     core = [name for name in known
             if f"{name}(" in text or f"{name}[" in text or f"{name}." in text]  # fmt: skip
     imports = [

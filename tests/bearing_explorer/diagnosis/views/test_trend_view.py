@@ -10,7 +10,7 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
 from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, words_on
-from bearing_explorer.kit.compute.jobs import Work
+from bearing_explorer.kit.compute.jobs import READING, Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
@@ -69,7 +69,7 @@ async def bring_all(made: Measurement, after: Callable[[int], None] = lambda num
 
     made.want, made.more = want, more
     begin()
-    while made._tasks:
+    while made._jobs.busy(READING):
         await asyncio.sleep(0.005)
 
 

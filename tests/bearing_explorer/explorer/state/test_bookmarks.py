@@ -8,7 +8,7 @@ from bearing_explorer.explorer.state.bookmarks import (
     open_request_of,
     read_request,
 )
-from bearing_explorer.explorer.state.scene_editor import SceneEditor, read_file
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 
 from bearingcore import Scene, presets
@@ -36,9 +36,6 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: B
     note({"choose": {"floor": "rough"}})
     editor.set({"rms_height_um": 7})
     note({"typed": {"rms_height_um": 7}})
-    editor.take_floor("wear.txt", *read_file("250 0\n265 60\n280 0\n"))
-    bookmarks.step()
-    seen.append(editor.snapshot())
     editor.choose({"defect": "add"})
     note({"choose": {"defect": "add"}})
     editor.choose({"numbers": "drawing"})

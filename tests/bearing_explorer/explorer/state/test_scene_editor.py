@@ -1,18 +1,12 @@
 """What a person builds on the page, and what is refused on the way."""
 
 import math
-import re
 from itertools import pairwise
 
 import pytest
-from bearing_explorer.explorer.state.scene_editor import (
-    LARGEST_FILE,
-    MOST_DEFECTS,
-    SceneEditor,
-    read_file,
-)
+from bearing_explorer.explorer.state.scene_editor import MOST_DEFECTS, SceneEditor
 
-from bearingcore import RoughFloor, presets
+from bearingcore import RoughFloor, presets, read_floor
 
 
 @pytest.fixture
@@ -210,24 +204,13 @@ def test_a_rough_floor_is_the_same_surface_for_the_same_seed(editor: SceneEditor
     assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("", "2 or more lines"),
-        ("1 2\n3 x\n", "line 2"),
-        ("1 2\n1 3\n", "different angles"),
-        ("0 10\n500 10\n", "within one turn"),
-        ("1 1\n" * LARGEST_FILE, "longer than"),
-        ("1 9000\n30 9000\n", "ball radius"),
-    ],
-)
-def test_a_file_that_is_no_floor_is_refused_in_words(
-    editor: SceneEditor, text: str, words: str
-) -> None:
-    before = editor.scene
-    editor.take_floor("x" * 300, *read_file(text))
-    assert editor.scene == before
-    floor = editor.state()["floor"]
-    assert floor["bad"]
-    assert len(floor["words"]) < 300
-    assert re.search(words, floor["words"]), floor["words"]
+def test_a_measured_floor_stays_as_the_scene_brought_it(editor: SceneEditor) -> None:
+    assert "read_floor" in editor.choose({"floor": "measured"})["floor"]
+    floor, extent, depth, _ = read_floor("250 0\n265 60\n280 0\n")
+    scene = presets["fan-rig"].replace(floor=floor, extent=extent, depth=depth)
+    editor.take_scene(scene, "fan-rig")
+    assert editor.state()["choices"]["floor"] == "measured"
+    assert editor.choose({"floor": "flat"}) == {}
+    assert editor.scene.defect.floor is None
+    assert editor.choose({"floor": "measured"}) == {}
+    assert editor.scene.defect.floor == floor

@@ -3,10 +3,12 @@
 import asyncio
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from functools import partial
 
 import pytest
-from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
+from bearing_explorer.kit.compute.executors import Pool
+from bearing_explorer.kit.compute.jobs import SEARCH, Jobs, JobState, Kind, Work
 
 from tests.helpers.loops import run
 
@@ -34,7 +36,7 @@ async def assign(change: Callable[[], None]) -> None:
 
 async def idle(jobs: Jobs) -> None:
     end = time.monotonic() + 60.0
-    while jobs.busy:
+    while jobs.busy():
         assert time.monotonic() < end
         await asyncio.sleep(0.005)
 
@@ -68,7 +70,7 @@ def test_a_job_tells_how_it_goes_and_shows_what_it_finds() -> None:
     async def session() -> str:
         jobs = Jobs(assign)
         jobs.start(work, page.take, page.report)
-        assert jobs.busy
+        assert jobs.busy()
         while not any(state.part > 0.4 for state in page.states):
             await asyncio.sleep(0.005)
         looked_at.set()
@@ -134,12 +136,68 @@ def test_the_end_of_a_session_cancels_and_says_nothing_more() -> None:
         reported = len(page.states)
         await idle(jobs)
         jobs.start(steps(1), page.take, page.report)
-        assert not jobs.busy
+        assert not jobs.busy()
         return reported
 
     reported = run(session())
     assert ended.wait(60.0), "the thread must not go on for a page that is gone"
     assert len(page.states) == reported
+
+
+def test_of_a_kind_one_is_at_work_however_often_it_is_asked_for() -> None:
+    taken: list[int] = []
+    at_work, most, begun = 0, 0, 0
+
+    def compute(number: int) -> int:
+        nonlocal at_work, most, begun
+        at_work, begun = at_work + 1, begun + 1
+        most = max(most, at_work)
+        time.sleep(0.02)
+        at_work -= 1
+        return number
+
+    async def session() -> None:
+        jobs = Jobs(assign)
+        for number in range(100):
+            jobs.answer(SEARCH, partial(compute, number), taken.append)
+            if number == 10:
+                await asyncio.sleep(0.01)
+        await idle(jobs)
+
+    run(session())
+    assert most == 1
+    assert begun == 2, "what was overtaken before its turn never begins"
+    assert taken[-1] == 99
+
+
+def test_sessions_take_turns_between_steps_and_a_stop_comes_between_them() -> None:
+    order: list[str] = []
+    alone = Kind("reading", Pool(1))
+
+    def steps_of(name: str) -> Callable[[Work], Generator[None, None, str]]:
+        def work(_: Work) -> Generator[None, None, str]:
+            for _ in range(20):
+                order.append(name)
+                time.sleep(0.005)
+                yield
+            return ""
+
+        return work
+
+    async def session() -> None:
+        first, second = Jobs(assign), Jobs(assign)
+        first.start(steps_of("a"), order.append, kind=alone)
+        second.start(steps_of("b"), order.append, kind=alone)
+        await idle(second)
+        assert order[:8] in (["a", "b"] * 4, ["b", "a"] * 4)
+        first.start(steps_of("c"), order.append, kind=alone)
+        while "c" not in order:
+            await asyncio.sleep(0.005)
+        first.stop()
+        await idle(first)
+
+    run(session())
+    assert order.count("c") < 20
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,6 @@ def test_good_messages_are_handed_on_as_they_are(component: str) -> None:
         ("Tabs", {"show": None}),
         ("Controls", None),
         ("Controls", {"mark": 1e99, "set": {1: 2, None: 3}}),
-        ("Controls", {"floor": {"name": 5, "text": "1 2"}}),
         ("ShareBar", {"open": {"name": ["x"], "text": {}}}),
     ],
 )

@@ -1,0 +1,155 @@
+"""One session floods the server; another one draws meanwhile, and nothing is left behind."""
+
+import asyncio
+import io
+import math
+import time
+import zipfile
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import psutil
+import pytest
+from bearing_explorer.diagnosis.upload import PIECE
+from bearing_explorer.kit.serve.serving import SESSION_GRACE_SECONDS
+
+from tests.browser.helpers import serving
+from tests.fuzz.attacker import PATIENCE
+from tests.fuzz.broken_uploads import Uploader
+from tests.fuzz.hostile_messages import GOOD, LARGEST
+from tests.fuzz.watched_server import LONGEST_HOLD, WatchedServer, words_of
+from tests.helpers.loops import run
+from tests.helpers.page_client import PageClient, message
+
+COUNT = 100
+"""Messages of a kind."""
+LONGEST = 1.0
+"""[s] in which another session draws, where the machine has nothing else to do."""
+
+
+def kinds() -> dict[str, tuple[str, dict[str, Any]]]:
+    """One message of each kind: the component that sends it, and its data."""
+    return {f"{component}: {', '.join(sorted(data))}": (component, data)
+            for component, data in GOOD}  # fmt: skip
+
+
+def with_texts_of(size: int, data: Any) -> Any:
+    """The same message with each of its texts so long."""
+    if isinstance(data, dict):
+        return {k: v if k == "type" else with_texts_of(size, v) for k, v in data.items()}
+    return data.ljust(size, "x") if isinstance(data, str) else data
+
+
+class Onlooker(PageClient):
+    """A session that moves a slider, and notes how long a picture takes to come."""
+
+    longest = 0.0
+
+    async def draw(self, while_: Callable[[], bool]) -> float:
+        """Draw again and again; the longest time to a picture [s]."""
+        longest = 0.0
+        while while_():
+            began = time.perf_counter()
+            await self.ask(set={"extent_deg": 20.0 + 10.0 * math.sin(0.1 * self.mark)})
+            drawn = not self.closed and await self.until_drawn(seconds=PATIENCE)
+            longest = max(longest, time.perf_counter() - began if drawn else math.inf)
+        return longest
+
+
+async def opened(url: str, kind: type[PageClient] = PageClient, tab: str = "diagnosis") -> Any:
+    client = kind(url)
+    await client.connect()
+    await client.until_drawn(seconds=PATIENCE)
+    await client.show(tab, "FileUpload" if tab == "diagnosis" else "")
+    return client
+
+
+async def send(client: PageClient, component: str, data: Any, together: int) -> None:
+    """Send a message `COUNT` times, so many in one message of the websocket."""
+    model = {"id": client.ids[component]}
+    events = [message("data_event", model=model, data=data)] * together
+    for _ in range(COUNT // together):
+        if not client.closed:
+            await client.patch(*events)
+
+
+@pytest.mark.proof
+def test_another_session_draws_whatever_one_sends_a_hundred_times() -> None:
+    slow: list[str] = []
+
+    async def flood(url: str) -> None:
+        client, other = await opened(url), await opened(url, Onlooker, "load")
+        until = time.perf_counter() + 5.0
+        calm = await other.draw(lambda: time.perf_counter() < until)
+        for name, (component, data) in kinds().items():
+            for size in (0, LARGEST // COUNT - 500):
+                if client.closed:
+                    client = await opened(url)
+                sending = asyncio.ensure_future(
+                    send(client, component, with_texts_of(size, data), COUNT)
+                )
+                ends = time.perf_counter() + 1.0
+                took = await other.draw(
+                    lambda at=ends, one=sending: not one.done() or time.perf_counter() < at
+                )
+                if took > max(LONGEST, 4.0 * calm):
+                    slow.append(f"{name}, {size} characters: {took:.1f} s, {calm:.2f} s before")
+        await client.close()
+        await other.close()
+
+    with serving(WatchedServer()) as server:
+        run(flood(server.url))
+        turns = server.longest_turns()
+    assert not slow
+    held = [words_of(turn) for turn in turns if turn["worked"] > LONGEST_HOLD]
+    assert not held
+    assert turns
+
+
+def packed(members: int, rows: int) -> bytes:
+    """A zip of tables of numbers, small as it is packed."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as file:
+        for index in range(members):
+            file.writestr(f"run{index}.csv", "time,x\n" + "0.125,0.5\n" * rows)
+    return content.getvalue()
+
+
+def children(server: WatchedServer) -> Iterator[psutil.Process]:
+    return iter(psutil.Process(server.process.pid).children())
+
+
+async def upload(client: PageClient, name: str, content: bytes) -> None:
+    await client.say("FileUpload", {"type": "begin", "name": name, "size": len(content)})
+    piece = {"type": "piece", "content": {"type": "bytes", "data": {"id": "b1"}}, "of": 1}
+    await client.say("FileUpload", piece, b1=content)
+
+
+@pytest.mark.proof
+def test_what_is_in_a_zip_is_read_no_further_once_its_page_is_closed() -> None:
+    """Two such uploads, each of which would take a minute, and a third session's small one."""
+    large, small = packed(30, 1_500_000), packed(2, 2_000)
+    assert max(len(large), len(small)) <= PIECE
+
+    async def leave(url: str, server: WatchedServer) -> None:
+        clients = [await opened(url) for _ in range(2)]
+        for client in clients:
+            await upload(client, "large.zip", large)
+        end = time.perf_counter() + PATIENCE
+        while not any(children(server)):
+            assert time.perf_counter() < end, "it is read"
+            await asyncio.sleep(0.05)
+        third = await opened(url, Uploader)
+        assert await third.upload("small.zip", small), "files are read in turn by session"
+        for client in (*clients, third):
+            await client.close()
+        # a page that lost its connection may come back for a while
+        end = time.perf_counter() + SESSION_GRACE_SECONDS + 20.0
+        quiet_since = time.perf_counter()
+        while time.perf_counter() - quiet_since < 3.0:  # nor is the next one begun
+            assert time.perf_counter() < end, "nobody waits for it any longer"
+            await asyncio.sleep(0.05)
+            quiet_since = time.perf_counter() if any(children(server)) else quiet_since
+
+    with serving(WatchedServer()) as server:
+        run(leave(server.url, server))

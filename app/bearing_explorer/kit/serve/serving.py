@@ -20,6 +20,7 @@ from tornado.routing import Rule
 from bearing_explorer.kit.serve.connections import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.fast import find_models_quickly
 from bearing_explorer.kit.serve.headers import Headers
+from bearing_explorer.kit.serve.hosts import AllowedHosts, Host
 from bearing_explorer.kit.serve.pages import HasControls, Icon, Missing, PageHandler
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
 
@@ -55,7 +56,7 @@ def make_server(
     port: int,
     address: str,
     page: Callable[[], Any],
-    origins: Sequence[str] = (),
+    hosts: Sequence[Host] = (),
     root_path: str = "",
     num_procs: int = 1,
     frame_ancestors: Sequence[str] = (),
@@ -70,9 +71,6 @@ def make_server(
     find_models_quickly()
     settings.perform_document_validation = False  # the tests do it
     options: dict[str, Any] = {}
-    LiveSocket.schemes = dict(map(_origin, origins))
-    if origins:
-        options["websocket_origin"] = list(LiveSocket.schemes)
     if root_path:
         options["prefix"] = root_path
     server = pn.serve(
@@ -99,18 +97,12 @@ def make_server(
         **options,
     )
     bound(server._http)
+    PageHandler.hosts = LiveSocket.hosts = AllowedHosts(server.port, address, tuple(hosts))
     sys.setswitchinterval(_SWITCH_INTERVAL)
     server._tornado.add_transform(Headers)
     server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
     PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
     return server
-
-
-def _origin(text: str) -> tuple[str, tuple[str, ...]]:
-    """An allowed host with its port, and the schemes of pages there: both where none is given."""
-    scheme, separator, host = text.rpartition("://")
-    host = host.rstrip("/").lower()
-    return host, (scheme.lower(),) if separator else ("http", "https")
 
 
 _YOUNG, _MIDDLE, _FULL = 2000, 10, 1000  # Python's own: 700, 10, 10

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 from typing import Any, ClassVar
-from urllib.parse import urlsplit
 
+from bokeh.util.token import get_session_id
 from panel.io import server as panel_server
 
 from bearing_explorer.kit.serve import live
@@ -17,15 +17,19 @@ from bearing_explorer.kit.serve.allowed_messages import (
     is_costly,
 )
 from bearing_explorer.kit.serve.fast import locked
+from bearing_explorer.kit.serve.hosts import AllowedHosts
 from bearing_explorer.kit.serve.log import log_warning
+from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, PageHandler
+
+MOST_SOCKETS = 4
+"""Of one session: its page has one, and for a moment a second when it connects again."""
 
 
 class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     """The websocket of one browser."""
 
     connected: ClassVar[set[LiveSocket]] = set()
-    schemes: ClassVar[dict[str, tuple[str, ...]]] = {}
-    """Schemes by which pages of the hosts that are allowed by name may have come."""
+    hosts: ClassVar[AllowedHosts]
     largest: ClassVar[int] = 4 * 2**20
     """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
     last_message_at = 0.0
@@ -34,18 +38,19 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     connection: Any
     receiver: Any
 
-    def check_origin(self, origin: str) -> bool:
-        """Whether a page of this origin may connect.
+    async def prepare(self) -> None:
+        """Refuse strangers before anything else is done for them."""
+        if self.hosts.allow_socket(self.request):
+            await super().prepare()
+            return
+        names = {name: repr(self.request.headers.get(name)) for name in ("Host", "Origin")}
+        log_warning("refused a websocket", **names, allow="--allow-websocket-origin")
+        self.set_status(403)
+        self.finish()
 
-        Bokeh compares hosts alone. This server speaks http: a page that came by https came through
-        a proxy, whose name has been allowed, or from elsewhere.
-        """
-        try:
-            scheme, host = urlsplit(origin).scheme, urlsplit(origin).netloc.lower()
-            allowed = self.schemes.get(host, ("http",))
-            return scheme in allowed and bool(super().check_origin(origin))
-        except ValueError:  # it is no address at all
-            return False
+    def check_origin(self, origin: str) -> bool:
+        """Return True if a page of this origin may connect; not every Tornado asks."""
+        return self.hosts.allow_origin(origin)
 
     async def open(self, *arguments: Any, **named: Any) -> None:
         """Connect to the session that the token names."""
@@ -57,11 +62,18 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     async def _async_open(self, token: str) -> None:
         self.last_message_at = time.monotonic()
         try:
-            await super()._async_open(token)
+            session = await PageHandler.make_session(
+                self.application_context, get_session_id(token), self.request, token
+            )
+            if session is None:
+                self.close(1013, SERVER_IS_FULL.format(PageHandler.most_sessions))
+            elif session.connection_count >= MOST_SOCKETS:
+                self.close(1008, "This page is connected too often.")
+            else:
+                await super()._async_open(token)
+                self.connected.add(self)
         except Exception as error:
             self._refuse(error)
-        else:
-            self.connected.add(self)
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Take a frame; whoever sends what the page does not send is disconnected."""

@@ -21,6 +21,7 @@ import pickle
 import shutil
 import uuid
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -28,7 +29,7 @@ from typing import Any
 
 import numba
 from numba import njit
-from numba.core.caching import FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.serialize import dumps
@@ -138,11 +139,26 @@ def _warn_once(words: str) -> None:
     log.warning(words)
 
 
+class ReadableFolder(CompileResultCacheImpl._locator_classes[0]):  # type: ignore[misc]
+    """NUMBA_CACHE_DIR, which may be there to be read only, as that of an image is."""
+
+    def ensure_cache_path(self) -> None:
+        """Raise OSError where the folder can be neither read nor made."""
+        if not Path(self.get_cache_path()).is_dir():
+            super().ensure_cache_path()
+
+
+class _Places(CompileResultCacheImpl):  # type: ignore[misc]
+    _locator_classes = [ReadableFolder, *CompileResultCacheImpl._locator_classes]  # noqa: RUF012
+
+
 class KernelCache(FunctionCache):  # type: ignore[misc]
     """numba's cache of a function, of which no fault ends the program.
 
     What cannot be read is removed and compiled anew; what cannot be written is not kept.
     """
+
+    _impl_class = _Places
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
@@ -214,10 +230,11 @@ class KernelFiles:
         if hashlib.sha256(content).digest() == digest:
             return content[32:] if content.startswith(self._version) else None
         _warn_once("kept machine code is broken and made anew")
-        if file.is_dir():
-            shutil.rmtree(file)
-        else:
-            file.unlink(missing_ok=True)
+        with suppress(OSError):  # it may belong to somebody else
+            if file.is_dir():
+                shutil.rmtree(file)
+            else:
+                file.unlink()
         return None
 
 

@@ -35,11 +35,12 @@ def test_a_bad_value_is_refused_with_what_is_allowed(
 
 
 def test_good_values_are_taken() -> None:
-    chosen = options(
+    line = (
         "--port=0 --root-path=/lab/bearing-1 --num-procs=2 --max-sessions=5 "
         "--allow-websocket-origin=lab.example.org:8443 --allow-websocket-origin=https://[::1] "
-        "--frame-ancestor=https://*.example.org:8443 --frame-ancestor=example.org/course".split()
+        "--frame-ancestor=https://*.example.org:8443 --frame-ancestor=example.org/course"
     )
+    chosen = options(line.split())
     assert chosen.port == 0
     assert [host.name for host in chosen.allow_websocket_origin] == ["lab.example.org", "::1"]
     assert len(chosen.frame_ancestor) == 2

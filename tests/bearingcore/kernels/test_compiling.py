@@ -207,3 +207,23 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
         for folder, mode in modes.items():
             folder.chmod(mode)
     assert before == {file: file.read_bytes() for file in package.rglob("*.kernel*")}
+
+
+@pytest.mark.proof
+def test_kernels_of_somebody_else_are_read_and_left_alone(package: Path, tmp_path: Path) -> None:
+    """As in an image, where they are root's."""
+    kept = tmp_path / "kept"
+    told(start(package, kept))
+    [file] = kept.rglob("*.kernel")
+    for content in (file.read_bytes(), b"broken"):
+        file.write_bytes(content)
+        file.parent.chmod(0o555)
+        try:
+            process = start(package, kept, obeying())
+            out, err = process.communicate(timeout=300.0)
+        finally:
+            file.parent.chmod(0o755)
+        hits = "0" if content == b"broken" else "1"
+        assert (process.returncode, out.split()[:2]) == (0, ["8.0", hits]), err
+        assert ("broken" in err) == (hits == "0")
+        assert file.read_bytes() == content

@@ -1,5 +1,5 @@
 // What BokehJS does anew at each repaint of a figure, and need not. Its private names of
-// BokehJS stand here; those of Bokeh and Panel in serve/fast.py.
+// BokehJS stand here; those of Bokeh in serve/bokeh_internals.py.
 //
 // A slider that is dragged repaints up to ten figures thirty times a second, each with a few lines
 // of some hundred points. Most of that time goes into what is the same each time or is never seen:

@@ -11,7 +11,12 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 from panel.models.esm import DataEvent
 
-from bearing_explorer.kit.serve.fast import dispatch_event, locked, send_changes, sockets_of
+from bearing_explorer.kit.serve.bokeh_internals import (
+    dispatch_event,
+    locked,
+    send_changes,
+    sockets_of,
+)
 
 
 def on_loop(doc: Document | None, act: Callable[[], None]) -> None:

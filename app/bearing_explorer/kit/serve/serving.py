@@ -16,13 +16,12 @@ import panel as pn
 from bokeh.server.urls import per_app_patterns
 from bokeh.settings import settings
 from tornado.ioloop import PeriodicCallback
-from tornado.routing import Rule
 
-from bearing_explorer.kit.serve.connections import HTTP_OPTIONS, bound
-from bearing_explorer.kit.serve.fast import find_models_quickly
+from bearing_explorer.kit.serve.bokeh_internals import find_models_quickly, parts_of
 from bearing_explorer.kit.serve.headers import Headers
 from bearing_explorer.kit.serve.hosts import AllowedHosts, Host
-from bearing_explorer.kit.serve.pages import HasControls, Icon, Missing, PageHandler
+from bearing_explorer.kit.serve.pages import Icon, Missing, PageHandler
+from bearing_explorer.kit.serve.tornado_internals import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
 
 SESSION_GRACE_SECONDS = 15.0
@@ -91,17 +90,17 @@ def make_server(
         include_cookies=[],
         websocket_max_message_size=limits.message,
         http_server_kwargs=dict(HTTP_OPTIONS),
+        transforms=[Headers],
         unused_session_lifetime_milliseconds=int(1e3 * SESSION_GRACE_SECONDS),
         check_unused_sessions_milliseconds=1000,
         default_handler_class=Missing,
         extra_patterns=[(r"/favicon.ico", Icon)],
         **options,
     )
-    bound(server._http)
+    if parts := parts_of(server):
+        bound(*parts)
     PageHandler.hosts = LiveSocket.hosts = AllowedHosts(server.port, address, tuple(hosts))
     sys.setswitchinterval(_SWITCH_INTERVAL)
-    server._tornado.add_transform(Headers)
-    server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
     PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
     return server
 

@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 import psutil
 import pytest
-from bearing_explorer.kit.serve.connections import LARGEST_HEADERS, MOST_UNFINISHED
+from bearing_explorer.kit.serve.tornado_internals import LARGEST_HEADERS, MOST_UNFINISHED
 
 from tests.helpers.served import get, served
 

@@ -1,7 +1,17 @@
-"""Bounds on the size, time and number of requests before they are answered.
+"""Private habits of Tornado, by which requests are bounded; no other file knows any.
 
 Tornado reads a whole request before it asks the page: of bodies, which no page here takes, up to a
-hundred megabytes, and headers for as long as they come.
+hundred megabytes, and headers for as long as they come. `HTTP_OPTIONS` bounds each request by
+public options. Beyond that:
+
+* `close` of a stream, which is replaced, and the `stream` of a request: connections whose headers
+  are under way are counted, and headers that are too long have an answer (`BoundedServer`).
+  Without: a proxy has to count, and Tornado cuts the line.
+* `rules` of the first router: a path with control characters is a page that is missing. Without:
+  an answer of 500, and a traceback in the log.
+
+`bound` looks for them at the start and says in the log what is gone. With
+``BEARING_EXPLORER_PLAIN=1`` it is not called (`bokeh_internals`).
 """
 
 from __future__ import annotations
@@ -12,11 +22,14 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+import tornado
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPMessageDelegate, RequestStartLine, ResponseStartLine
 from tornado.iostream import IOStream, UnsatisfiableReadError
+from tornado.routing import Rule
 
-from bearing_explorer.kit.serve.pages import message_page
+from bearing_explorer.kit.serve.log import log
+from bearing_explorer.kit.serve.pages import HasControls, Missing, message_page
 
 LARGEST_HEADERS = 64_000
 """Of a request [bytes], its address among them."""
@@ -122,7 +135,12 @@ class BoundedServer(HTTPServer):
         self._answered -= 1
 
 
-def bound(server: HTTPServer) -> None:
-    """Bound the connections of a server that a library has made."""
+def bound(application: Any, server: HTTPServer) -> None:
+    """Bound the connections of a server that a library has made, and refuse odd paths."""
+    rules = getattr(getattr(application, "default_router", None), "rules", None)
+    if rules is None or not hasattr(server, "start_request"):
+        log.warning("connections are not bound: Tornado %s has other names", tornado.version)
+        return
+    rules.insert(0, Rule(HasControls(), Missing))
     server.__class__ = BoundedServer
     server._unfinished = {}  # type: ignore[attr-defined]

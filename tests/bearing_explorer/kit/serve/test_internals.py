@@ -4,7 +4,7 @@ from typing import Any
 
 import panel as pn
 import pytest
-from bearing_explorer.kit.serve import fast
+from bearing_explorer.kit.serve import bokeh_internals
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
@@ -18,9 +18,9 @@ from tests.helpers.loops import run
 
 def test_this_version_has_all_of_them() -> None:
     """The names that are gone, and of which version, are in the message when this fails."""
-    assert fast.missing() == []
+    assert bokeh_internals.missing() == []
     assert hasattr(bokeh_session, "_needs_document_lock")
-    assert fast.sockets_of(session_of(Document(), Socket()))
+    assert bokeh_internals.sockets_of(session_of(Document(), Socket()))
     for owner, name in (
         (Document().callbacks, "_held_events"),
         (Document().models, "_new_models"),
@@ -36,7 +36,7 @@ def test_this_version_has_all_of_them() -> None:
 
 def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(PropertyDescriptor, "has_unstable_default")
-    (sentence,) = fast.missing()
+    (sentence,) = bokeh_internals.missing()
     assert sentence.startswith("PropertyDescriptor.has_unstable_default is gone from bokeh 3.")
 
 
@@ -64,7 +64,7 @@ def session_of(document: Document, socket: Socket) -> ServerSession:
     return session
 
 
-def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
+def changed(act: Any = bokeh_internals.locked) -> tuple[list[Any], Range1d]:
     """What a browser is sent when a range is moved to 1 to 2, and the range."""
     document, socket = Document(), Socket()
     moved = Range1d(0, 1)
@@ -74,7 +74,7 @@ def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
         session = session_of(document, socket)
 
         async def change(doc: Document) -> None:
-            await fast.send_changes(session, doc, lambda: moved.update(start=1, end=2))
+            await bokeh_internals.send_changes(session, doc, lambda: moved.update(start=1, end=2))
 
         await act(session, change)
 

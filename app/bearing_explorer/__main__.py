@@ -9,7 +9,7 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -36,7 +36,9 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         prog="bearing-explorer",
         description="Serve the Bearing explorer: a page with a damaged ball bearing and sliders.",
     )
-    parser.add_argument("--port", type=_port, default=5006, help="port to listen on (5006)")
+    parser.add_argument(
+        "--port", type=_number(0, 65_535), default=5006, help="port to listen on (5006)"
+    )
     parser.add_argument(
         "--address",
         default="localhost",
@@ -51,39 +53,42 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         help="host name under which browsers reach the page, where it is not localhost; repeatable",
     )
     parser.add_argument(
-        "--num-procs", type=_positive, default=1, help="processes that share the port (1)"
+        "--num-procs", type=_number(1, 99_999), default=1, help="processes that share the port (1)"
     )
     parser.add_argument(
         "--root-path",
-        type=_path,
+        type=_matching(r"[\w.~/-]*", "a path of letters, digits, and the characters / . _ ~ -"),
         default="",
         help="path in front of the page behind a proxy, such as /lab",
     )
     parser.add_argument(
         "--frame-ancestor",
         action="append",
-        type=_source,
+        type=_matching(
+            r"(https?://)?[\w.*-]+(:(\d+|\*))?(/[\w.~/-]*)?",
+            "an origin, such as https://lms.example.org",
+        ),
         metavar="ORIGIN",
         help="another site that may show the page in a frame, such as https://lms.example.org; "
         "repeatable",
     )
     parser.add_argument(
         "--max-sessions",
-        type=_positive,
+        type=_number(1, 99_999),
         default=100,
         metavar="N",
         help="sessions at once in a process (100); later ones are asked to come back",
     )
     parser.add_argument(
         "--max-message-mb",
-        type=_positive,
+        type=_number(1, 99_999),
         default=4,
         metavar="N",
         help="megabytes that a browser may send in one message (4)",
     )
     parser.add_argument(
         "--idle-minutes",
-        type=_positive,
+        type=_number(1, 99_999),
         default=60,
         metavar="N",
         help="after which a page that is not used is closed (60)",
@@ -103,38 +108,29 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _whole(text: str, at_least: int, at_most: int) -> int:
-    if not (text.isascii() and text.isdecimal() and at_least <= int(text[:9]) <= at_most):
-        _refuse(text, f"a whole number from {at_least} to {at_most}")
-    return int(text)
+def _number(at_least: int, at_most: int) -> Callable[[str], int]:
+    """Return a reader of whole numbers."""
+
+    def read(text: str) -> int:
+        if not (text.isascii() and text.isdecimal() and at_least <= int(text[:9]) <= at_most):
+            _refuse(text, f"a whole number from {at_least} to {at_most}")
+        return int(text)
+
+    return read
 
 
-def _positive(text: str) -> int:
-    return _whole(text, 1, 99_999)
+def _matching(pattern: str, allowed: str) -> Callable[[str], str]:
+    """Return a reader of texts that match all of a pattern."""
+    return lambda text: text if re.fullmatch(pattern, text, re.ASCII) else _refuse(text, allowed)
 
 
-def _port(text: str) -> int:
-    return _whole(text, 0, 65_535)
-
-
-def _host(text: str) -> Any:
-    from bearing_explorer.kit.serve.hosts import read_host
+def _host(text: str) -> str:
+    from bearing_explorer.kit.serve.hosts import origins_of
 
     try:
-        return read_host(text)
+        origins_of(text)
     except ValueError:
         _refuse(text, "a host, such as lab.example.org:8443 or https://lab.example.org")
-
-
-def _path(text: str) -> str:
-    if not re.fullmatch(r"[\w.~/-]*", text, re.ASCII):
-        _refuse(text, "a path of letters, digits, and the characters / . _ ~ -")
-    return text
-
-
-def _source(text: str) -> str:
-    if not re.fullmatch(r"(https?://)?[\w.*-]+(:(\d+|\*))?(/[\w.~/-]*)?", text, re.ASCII):
-        _refuse(text, "an origin, such as https://lms.example.org")
     return text
 
 
@@ -176,7 +172,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             page=lambda: page(chosen.lessons),
             port=chosen.port,
             address=chosen.address,
-            hosts=chosen.allow_websocket_origin or (),
+            origins=chosen.allow_websocket_origin or (),
             root_path=chosen.root_path,
             num_procs=chosen.num_procs,
             frame_ancestors=chosen.frame_ancestor or (),

@@ -18,7 +18,7 @@ from bearing_explorer.__main__ import options
         ("--root-path", ("(", "/lab(.*)", "/a b", "/a?b", "/ä", "/a\n")),
         (
             "--allow-websocket-origin",
-            ("", "http://a:b:c", "a b", "ftp://a", "a/b", "u@a", "a:99999"),
+            ("", "http://a:b:c", "a b", "ftp://a", "a/b", "u@a", "a:99999", "*"),
         ),
         ("--frame-ancestor", ("", "https://a\r\nX-Mine: 1", "a; script-src *", "a b", "a,b")),
     ],
@@ -42,7 +42,7 @@ def test_good_values_are_taken() -> None:
     )
     chosen = options(line.split())
     assert chosen.port == 0
-    assert [host.name for host in chosen.allow_websocket_origin] == ["lab.example.org", "::1"]
+    assert chosen.allow_websocket_origin == ["lab.example.org:8443", "https://[::1]"]
     assert len(chosen.frame_ancestor) == 2
 
 

@@ -19,7 +19,7 @@ from tornado.ioloop import PeriodicCallback
 
 from bearing_explorer.kit.serve.bokeh_internals import find_models_quickly, parts_of
 from bearing_explorer.kit.serve.headers import Headers
-from bearing_explorer.kit.serve.hosts import AllowedHosts, Host
+from bearing_explorer.kit.serve.hosts import AllowedHosts
 from bearing_explorer.kit.serve.pages import Icon, Missing, PageHandler
 from bearing_explorer.kit.serve.tornado_internals import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
@@ -56,7 +56,7 @@ def make_server(
     port: int,
     address: str,
     page: Callable[[], Any],
-    hosts: Sequence[Host] = (),
+    origins: Sequence[str] = (),
     root_path: str = "",
     num_procs: int = 1,
     frame_ancestors: Sequence[str] = (),
@@ -99,7 +99,7 @@ def make_server(
     )
     if parts := parts_of(server):
         bound(*parts)
-    PageHandler.hosts = LiveSocket.hosts = AllowedHosts(server.port, address, tuple(hosts))
+    PageHandler.hosts = LiveSocket.hosts = AllowedHosts(server.port, address, origins)
     sys.setswitchinterval(_SWITCH_INTERVAL)
     PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
     return server

@@ -13,7 +13,7 @@ import panel as pn
 import pytest
 from bearing_explorer.kit.serve.allowed_messages import by_id, component_message, is_allowed
 from bearing_explorer.kit.serve.headers import policy
-from bearing_explorer.kit.serve.hosts import AllowedHosts, read_host
+from bearing_explorer.kit.serve.hosts import AllowedHosts
 from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, message_page
 from bearing_explorer.kit.serve.serving import Limits
 from bearing_explorer.kit.serve.websocket import MOST_SOCKETS, LiveSocket
@@ -103,9 +103,7 @@ LAB, OWN = "lab.example.org", "127.0.0.1:{port}"
         ("https://" + LAB, LAB, "https://" + LAB, True),
         ("https://" + LAB, LAB, "http://" + LAB, False),
         (f"https://{LAB}:8443", LAB, f"https://{LAB}:8443", True),
-        ("*.example.org", LAB, "https://" + LAB, True),
-        ("*.example.org", "evil.example", "https://evil.example", False),
-        ("*", "any.example:81", "https://any.example:81", True),
+        (f"{LAB}:443", LAB, "https://" + LAB, True),
     ],
 )
 @pytest.mark.parametrize("site", [None, "same-origin", "cross-site"])
@@ -113,7 +111,7 @@ def test_only_pages_of_allowed_hosts_connect(
     named: str, host: str, origin: str | None, connects: bool, site: str | None
 ) -> None:
     """Whatever a browser says of its site, and whether or not the names of both agree."""
-    hosts = AllowedHosts(5006, "127.0.0.1", (read_host(named),) if named else ())
+    hosts = AllowedHosts(5006, "127.0.0.1", (named,) if named else ())
     names = {"Host": host, "Origin": origin, "Sec-Fetch-Site": site}
     headers = {name: text.format(port=5006) for name, text in names.items() if text is not None}
     request: Any = SimpleNamespace(host=headers["Host"], headers=headers)

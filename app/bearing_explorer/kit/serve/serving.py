@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import ctypes
 import gc
 import itertools
 import os
 import secrets
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -130,3 +132,5 @@ def collect_now_and_then() -> None:
     """Free the memory of ended sessions, once for every so many; to be called as one ends."""
     if next(_ended) % _ENDED_SESSIONS == 0:
         gc.collect()
+        with suppress(AttributeError, OSError):  # another C library than glibc
+            ctypes.CDLL(None).malloc_trim(0)

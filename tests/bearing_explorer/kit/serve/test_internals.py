@@ -1,7 +1,10 @@
 """The private names of Bokeh and Panel: whether they are there, and what happens without them."""
 
+import ast
+from pathlib import Path
 from typing import Any
 
+import bearing_explorer
 import panel as pn
 import pytest
 from bearing_explorer.kit.serve import bokeh_internals
@@ -14,6 +17,8 @@ from bokeh.server.session import ServerSession
 from panel.viewable import Viewable
 
 from tests.helpers.loops import run
+
+APP = Path(bearing_explorer.__file__).parent
 
 
 def test_this_version_has_all_of_them() -> None:
@@ -32,6 +37,26 @@ def test_this_version_has_all_of_them() -> None:
         (Spacer(), "_event_callbacks"),
     ):
         assert hasattr(owner, name), name
+
+
+def test_no_other_file_uses_a_private_name() -> None:
+    """An attribute with an underscore is one that this program has made, or is in these files."""
+    trees = {file: ast.parse(file.read_text()) for file in APP.rglob("*.py")}
+    used: dict[str, set[str]] = {}
+    made = {"_exit", "_esm", "_stylesheets", "_send_msg"}  # of os; documented by Panel
+    for file, tree in trees.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                made.add(node.name)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                made.add(node.id)
+            elif isinstance(node, ast.Attribute) and node.attr[:1] == "_" != node.attr[1:2]:
+                of_self = isinstance(node.value, ast.Name) and node.value.id == "self"
+                if isinstance(node.ctx, ast.Store) and of_self:
+                    made.add(node.attr)
+                elif not file.stem.endswith("_internals"):
+                    used.setdefault(node.attr, set()).add(file.name)
+    assert {name: files for name, files in used.items() if name not in made} == {}
 
 
 def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:

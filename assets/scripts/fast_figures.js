@@ -494,5 +494,18 @@
     }
   })
 
+  // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
+  // and jumps where they come together. Here it stays under them.
+  const wheel = module("models/tools/gestures/wheel_zoom_tool", "WheelZoomToolView")
+  const pinch = method(wheel, "_pinch")
+  part("pinch", [pinch, method(wheel, "zoom")], () => {
+    wheel._pinch_start = function () { this.pinched = 1 }
+    wheel._pinch = function ({ sx, sy, scale }) {
+      const by = scale / (this.pinched ?? 1)
+      this.pinched = scale
+      this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
+    }
+  })
+
   window.fast_figures = { missing }
 }

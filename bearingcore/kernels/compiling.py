@@ -51,7 +51,7 @@ try:
     from numba.core.compiler import Compiler
     from numba.core.serialize import dumps
 
-    _LOCATORS = list(CompileResultCacheImpl._locator_classes)
+    _LOCATORS: list[Any] = list(CompileResultCacheImpl._locator_classes)
 except (ImportError, AttributeError) as error:
     log.warning("kernels are compiled slowly with Numba %s: %s", numba.__version__, error)
     CompileResultCacheImpl = FunctionCache = JITCodeLibrary = Compiler = object
@@ -183,7 +183,7 @@ def _warn_once(words: str) -> None:
     log.warning(words)
 
 
-class ReadableFolder(_LOCATORS[0]):  # type: ignore[misc]
+class ReadableFolder(_LOCATORS[0]):  # type: ignore[misc, valid-type]
     """NUMBA_CACHE_DIR, which may be there to be read only, as that of an image is."""
 
     def ensure_cache_path(self) -> None:

@@ -69,13 +69,13 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
 
         A page's token outlives its session, and may be used at any time.
         """
-        sessions = {session.id: session for session in context.sessions}
-        if name not in sessions:
-            async with cls.one_at_a_time:
-                if cls.is_full(context):
-                    return None
-                return await context.create_session_if_needed(name, request, token)
-        return sessions[name]
+        known = {session.id: session for session in context.sessions}
+        if name in known:
+            return known[name]
+        async with cls.one_at_a_time:
+            if cls.is_full(context) and all(name != session.id for session in context.sessions):
+                return None
+            return await context.create_session_if_needed(name, request, token)
 
     def _ask_to_come_back(self) -> None:
         self.set_header("Retry-After", "60")

@@ -44,7 +44,8 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         if self.hosts.allow_socket(self.request):
             await super().prepare()
             return
-        names = {name: repr(self.request.headers.get(name)) for name in ("Host", "Origin")}
+        headers = self.request.headers
+        names = {name: repr(headers.get(name))[:200] for name in ("Host", "Origin")}
         log_warning("refused a websocket", **names, allow="--allow-websocket-origin")
         self.set_status(403)
         self.finish()

@@ -274,7 +274,7 @@ class KernelFiles:
         if hashlib.sha256(content).digest() == digest:
             return content[32:] if content.startswith(self._version) else None
         _warn_once("kept machine code is broken and made anew")
-        with suppress(OSError):  # it may belong to somebody else
+        with suppress(OSError):  # it may have another owner
             if file.is_dir():
                 shutil.rmtree(file)
             else:

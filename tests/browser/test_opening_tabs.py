@@ -163,7 +163,6 @@ def test_a_closed_tab_follows_the_theme(page: Page, explorer: Server) -> None:
         assert other[3] > 20
 
 
-@QUICK_ONLY
 def test_what_is_out_of_sight_is_painted_once_all_rests(page: Page, explorer: Server) -> None:
     open_page(page, explorer, "life")
     show(page, "accuracy")

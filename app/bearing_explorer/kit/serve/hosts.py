@@ -1,6 +1,6 @@
 """Names under which browsers may reach the page, and origins whose pages may connect to it.
 
-Browsers let any page open a websocket to any server, and a name of a stranger can lead to this
+Browsers let any page open a websocket to any server, and a foreign name can lead to this
 machine (DNS rebinding): so the server asks for both names. Tornado does not: from 6.6 on it takes
 any websocket whose two names agree, or whose browser says that it is of the same site.
 """

@@ -40,7 +40,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     receiver: Any
 
     async def prepare(self) -> None:
-        """Refuse strangers before anything else is done for them."""
+        """Refuse a foreign page before anything else is done for it."""
         if self.hosts.allow_socket(self.request):
             await super().prepare()
             return
